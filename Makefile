@@ -7,7 +7,8 @@
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
 #   make mpi                the tests on several processes, if mpi4py and an MPI can be had
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
-#   make lint               style and types
+#   make check              in two minutes: style, types, and the tests of the whole house and of what was changed
+#   make lint               style, and types on Linux, macOS and Windows
 #   make docs               build the site of the documentation in build/docs
 #   make bench              compare with other programs, where they can be installed
 #   make clean              remove what the above have made
@@ -24,16 +25,20 @@ BENCH_ENV := build/bench-env
 MPI_ENV := build/mpi-env
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
+# Without a network six tries, pip's own number, take as long as a hang.
+export PIP_RETRIES ?= 2
+export PIP_DEFAULT_TIMEOUT ?= 15
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
 TORCH ?= torch==2.13.0+cpu
+STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check .
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test browser mpi nox lint docs bench clean
+.PHONY: help demo test browser mpi nox check lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,15s/^# *//p' Makefile
+	@sed -n '3,16s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -62,8 +67,15 @@ nox: $(ENV)/.ready-to-test
 	@$(BIN)/python -m nox $(ARGS) \
 	  && echo "nox: OK" || { echo "nox: FAILED"; exit 1; }
 
+check: $(ENV)/.ready-to-test
+	@$(STYLE) && $(BIN)/python -m mypy --platform linux --cache-dir .mypy_cache/linux \
+	  && $(ONE_THREAD) $(BIN)/python -m pytest -q -n auto $$($(BIN)/python .ci/quick.py) $(ARGS) \
+	  && echo "check: OK" || { echo "check: FAILED"; exit 1; }
+
+# Types on one system after the other, each with a cache of its own.
 lint: $(ENV)/.ready-to-test
-	@$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python -m mypy \
+	@$(STYLE) && for system in linux darwin win32; do \
+	    $(BIN)/python -m mypy --platform $$system --cache-dir .mypy_cache/$$system || exit 1; done \
 	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
 
 docs: $(ENV)/.ready-to-write
@@ -81,22 +93,17 @@ clean:
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean: OK"
 
+# pip is called where what pyproject.toml asks for has changed, not whenever the file is newer.
 $(ENV)/.ready: pyproject.toml
 	@$(call create,$(ENV))
-	@echo "Installing roughcontact into $(ENV) ..."
-	@$(BIN)/python $(INSTALL) -e .
-	@touch $@
+	@$(BIN)/python .ci/install.py $@ "Installing roughcontact into $(ENV) ..."
 
-$(ENV)/.ready-to-read: $(ENV)/.ready
-	@echo "Installing the readers of instrument formats ..."
-	@$(BIN)/python $(INSTALL) -e ".[formats]"
-	@touch $@
+$(ENV)/.ready-to-read: $(ENV)/.ready pyproject.toml
+	@$(BIN)/python .ci/install.py $@ "Installing the readers of instrument formats ..." formats
 
-$(ENV)/.ready-to-test: $(ENV)/.ready
-	@echo "Installing what the tests need ..."
-	@$(BIN)/python $(INSTALL) -e ".[formats,page,test,lint]"
+$(ENV)/.ready-to-test: $(ENV)/.ready pyproject.toml
+	@$(BIN)/python .ci/install.py $@ "Installing what the tests need ..." formats page test lint
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
-	@touch $@
 
 $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@$(call create,$(MPI_ENV))
@@ -106,11 +113,9 @@ $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
-$(ENV)/.ready-to-write: $(ENV)/.ready-to-read
-	@echo "Installing what the site is built with ..."
-	@$(BIN)/python $(INSTALL) -e ".[docs]"
+$(ENV)/.ready-to-write: $(ENV)/.ready-to-read pyproject.toml
+	@$(BIN)/python .ci/install.py $@ "Installing what the site is built with ..." docs
 	@$(BIN)/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
-	@touch $@
 
 # The other programs live in an environment of their own; some of them are under licences that this
 # project does not take in. One that cannot be installed is left out of the comparison.

@@ -22,7 +22,7 @@ from packaging.requirements import Requirement
 nox.options.reuse_existing_virtualenvs = True
 nox.options.sessions = ["kernels"]
 
-PYTHONS = ("3.11", "3.12", "3.13")
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 BLAS = ("Haswell", "SkylakeX", "Zen", "Nehalem")
 CPU = ("off", "x86-64", "haswell", "native")  # what machine code is made for
 PAIRS = {("Haswell", "off"), ("SkylakeX", "haswell"), ("Zen", "native"), ("Nehalem", "x86-64")}

@@ -12,7 +12,8 @@ The same on planes: the contact radius without load, from the area, and the larg
 the depth of the pull-off, over the pull-off force.
 
 The sharp law against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over positions of the
-sphere within a cell), a flat disc against Kendall, and square punches along the rows and turned.
+sphere within a cell), from a contact larger than that at the pull-off; the same from contacts of other sizes; a flat
+disc against Kendall, and square punches along the rows and turned.
 """
 
 from __future__ import annotations
@@ -28,6 +29,9 @@ import roughcontact as rc
 from roughcontact.theory.maugis import DugdaleSphere
 
 POINTS = 24
+PRESSED = (
+    4.0  # depth from which a sphere is drawn back: a contact of radius 2, where that at the pull-off is 1.52
+)
 
 
 def ball(theory: DugdaleSphere, rings: int) -> tuple[rc.RadialProfile, float]:
@@ -117,8 +121,7 @@ def pulled(surface: rc.Surface | rc.RadialProfile, depth: float) -> tuple[float,
     """Return the largest tension of a stuck surface drawn back under given depths, the first, and its events."""
     sharp = rc.Adhesion(1.0, law="sharp")
     _, off = rc.loading_path(surface, 1.0, depths=[depth, -100.0], adhesion=sharp)
-    tensions = [-event.force_before for event in off.detachments]
-    return max(tensions), tensions[0], len(tensions)
+    return -off.lowest_force, -off.detachments[0].force_before, len(off.detachments)
 
 
 def sphere(cells: int, place: np.ndarray) -> rc.Surface:
@@ -141,12 +144,18 @@ def sharp() -> None:
     jkr, radius = 1.5 * math.pi, math.cbrt(9 * math.pi / 8)
     for rings in (50, 100, 200, 400):
         grid = rc.RadialGrid.uniform(rings, 3.2)
-        tension, _, _ = pulled(rc.RadialProfile(-(grid.radii**2) / 2, grid), 4.0)
+        tension, _, _ = pulled(rc.RadialProfile(-(grid.radii**2) / 2, grid), PRESSED)
         print(f"rings  {radius / grid.edges[1]:6.1f}  {tension / jkr - 1:+.2%}", flush=True)
     rng = np.random.default_rng(0)
     for cells in (24, 32, 40, 48, 64, 80):
-        errors = [pulled(sphere(cells, rng.random(2)), 1.5)[0] / jkr - 1 for _ in range(8)]
+        errors = [pulled(sphere(cells, rng.random(2)), PRESSED)[0] / jkr - 1 for _ in range(8)]
         print(f"plane  {radius * cells / 6:6.1f}  {np.mean(errors):+.2%}  {np.std(errors):.2%}", flush=True)
+    print("planes of 40 cells: radius of the contact at the start, over that at the pull-off; error, scatter")
+    places = np.random.default_rng(1).random((8, 2))
+    for depth in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0):
+        errors = [pulled(sphere(40, place), depth)[0] / jkr - 1 for place in places]
+        start = math.sqrt(depth) / radius
+        print(f"start  {start:6.2f}  {np.mean(errors):+.2%}  {np.std(errors):.2%}", flush=True)
     print(
         "Kendall's disc: cells in the diameter, error of the largest tension and of that when the first cell lets go"
     )

@@ -110,7 +110,10 @@ def claims() -> None:
                         for name, hits in zip(NAMES, inside.sum(axis=0), strict=True):
                             within[name] += int(hits)
                     rms = [100 * np.sqrt(np.mean(np.square(each), axis=0)) for each in (missed, claimed)]
-                    cells = [f"{real:.1f} of {told:.1f}" for real, told in zip(*rms, strict=True)]
+                    cells = [
+                        f"{real:.1f}, none given" if math.isnan(told) else f"{real:.1f} of {told:.1f}"
+                        for real, told in zip(*rms, strict=True)
+                    ]
                     below = "rough below" if cutoff is None else "smooth below"
                     kind = f"H = {hurst:g}, {'periodic' if periodic else 'free'}, {below}"
                     print(f"| {kind} | {area:g} | {' | '.join(cells)} |", flush=True)

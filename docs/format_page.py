@@ -8,6 +8,7 @@ from SurfaceTopography.IO import readers
 from roughcontact.files.dispatch import READERS
 from roughcontact.files.foreign import NOT_FOREIGN
 from roughcontact.files.save import write
+from roughcontact.files.text_dialects import DIALECTS
 
 
 def formats() -> list[str]:
@@ -22,7 +23,14 @@ def formats() -> list[str]:
         "",
         *_table(("ending", "format"), _own()),
         "",
-        "A reader of ours checks what it reads. A profile is read from all of these but `.xyz`, by `rc.read_line`.",
+        "A reader of ours checks what it reads. `rc.read_line` reads a profile from all of these except `.grd` and "
+        "`.xyz`.",
+        "",
+        "## Texts known by their first lines",
+        "",
+        "Under any of the endings of texts. The first line or word says which one it is.",
+        "",
+        *_table(("reader", "format"), _dialects()),
         "",
         "## Read through SurfaceTopography",
         "",
@@ -45,6 +53,12 @@ def _own() -> list[tuple[str, str]]:
         read = getclosurevars(reader.read).nonlocals.get("read", reader.read)
         endings.setdefault(getmodule(read).__doc__, []).append(ending)
     return [(_code(found), _sentence(about)) for about, found in endings.items()]
+
+
+def _dialects() -> list[tuple[str, str]]:
+    """Return the module of each reader of texts that are known by their first lines, and what it says."""
+    modules = [getmodule(read) for read in DIALECTS.values()]
+    return [(f"`{each.__name__.rpartition('.')[2]}`", _sentence(each.__doc__)) for each in modules]
 
 
 def _foreign() -> list[tuple[str, str]]:

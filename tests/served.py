@@ -41,13 +41,13 @@ class Served:
         return (self.folder / "log").read_text(encoding="utf-8")
 
     def left(self):
-        """Return the files of the server and its workers that are there now."""
+        """Return the files of the server and its workers that are there now, besides the lock of its folder."""
         found = self.folder.glob("roughcontact-*/**/*")
-        return [path for path in found if path.is_file()]
+        return [path for path in found if path.is_file() and path.name != "lock"]
 
     def sessions(self):
         """Return the keys of the sessions that are open."""
-        return {path.name for path in self.folder.glob("roughcontact-page-*/*") if path.name != "scratch"}
+        return {path.name for path in self.folder.glob("roughcontact-page-*/*")} - {"scratch", "lock"}
 
     @contextlib.contextmanager
     def open(self, method, path, body=None, headers=(), *, host=None):

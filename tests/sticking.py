@@ -62,8 +62,8 @@ def contact(stiffness, rest, pull, gap):
     raise AssertionError("the set of closed cells goes in circles")
 
 
-def smallest_by_matrices(form, free, curvature):
-    """Return the smallest eigenvalue of the pencil, by matrices."""
+def eigenvalues_by_matrices(form, free, curvature):
+    """Return the eigenvalues of the pencil from the smallest up, by matrices."""
     units = np.eye(free.size).reshape(-1, *free.shape)
     matrix = np.array([form.stiffness(unit).ravel() for unit in units]).T
     areas = np.broadcast_to(form.weights, free.shape).ravel()[free.ravel()]
@@ -74,4 +74,4 @@ def smallest_by_matrices(form, free, curvature):
         inner = scipy.linalg.null_space(np.ones((1, free.sum())))
         elastic, adhesive = inner.T @ elastic @ inner, inner.T @ adhesive @ inner
     elastic = (elastic + elastic.T) / 2
-    return scipy.linalg.eigh(elastic - adhesive, elastic, eigvals_only=True)[0]
+    return scipy.linalg.eigh(elastic - adhesive, elastic, eigvals_only=True)

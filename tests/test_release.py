@@ -29,8 +29,23 @@ def test_the_recipe_has_the_dependencies_of_the_package():
     lines = [text.partition(";")[0] for text in PROJECT["project"]["dependencies"]]
     wanted = {tuple(line.split(">=")) for line in ["python" + PROJECT["project"]["requires-python"], *lines]}
     run = RECIPE[RECIPE.index("  run:\n") : RECIPE.index("tests:\n")]
+    lowest = re.search(r'^  python_min: "(.*)"$', RECIPE, re.MULTILINE)[1]
+    run = run.replace("${{ python_min }}", lowest)
     found = set(re.findall(r"^    - (\S+) >=(\S+)$", run, re.MULTILINE))
     assert found == {(CONDA_NAMES.get(name, name), bound) for name, bound in wanted}
+
+
+def test_what_a_cluster_needs_is_in_the_extra_that_messages_name():
+    extras = PROJECT["project"]["optional-dependencies"]
+    needed = {"distributed", "dask-jobqueue", "cryptography"}
+    assert {re.match(r"[\w-]+", text)[0] for text in extras["cluster"]} == needed
+    assert {*extras["cluster"]} <= {*extras["test"]}
+
+
+def test_the_recipe_is_built_and_tried_on_the_oldest_python():
+    """As conda-forge wants it of a package for every Python (its enhancement proposal 25)."""
+    assert len(re.findall(r"python(?:_version:)? \$\{\{ python_min \}\}\.\*$", RECIPE, re.MULTILINE)) == 3
+    assert re.search(r"  host:\n    - python \$\{\{ python_min \}\}\.\*\n", RECIPE)
 
 
 def test_each_dependency_says_what_it_weighs_and_what_it_is_for(monkeypatch):
@@ -48,9 +63,12 @@ def test_the_workflow_does_what_the_check_of_a_checkout_does():
     kernels = re.search(r"ARGS='(.*)'", check)[1]
     assert f"python -m nox {kernels}\n" in WORKFLOW
     lint = (HOME / "Makefile").read_text(encoding="utf-8")
-    for step in ("ruff check .", "ruff format --check .", "mypy", "pytest -n auto"):
+    for step in ("ruff check .", "ruff format --check .", "pytest -n auto"):
         assert f"python -m {step}" in lint
         assert f"run: python -m {step}\n" in WORKFLOW
+    systems = re.search(r"for system in (.*); do", lint)[1].split()
+    assert systems == re.findall(r"run: python -m mypy --platform (\w+)\n", WORKFLOW)
+    assert len(systems) == 3
 
 
 def test_the_pythons_are_those_of_the_package():

@@ -39,8 +39,8 @@ ORDER = [
     {"cli"},
 ]
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
-# `theory` stands beside the house; `pictures` and the two top files open doors and do nothing else.
-DOORS = {"pictures", "__init__", "__main__"}
+# `theory` stands beside the house; `datasets`, `pictures` and the two top files open doors and do nothing else.
+DOORS = {"datasets", "pictures", "__init__", "__main__"}
 BESIDE = {"theory", *DOORS}
 AT_THE_RIM = RANK["files"]
 KEEPS_CODE = SOURCE / "kernels" / "disk.py"  # what is translated once is kept on disk
@@ -48,6 +48,10 @@ ASKS_LINUX = SOURCE / "memory.py"  # which tells the limit of a container in fil
 DISK_AND_SCREEN = {
     *("h5netcdf", "h5py", "io", "logging", "matplotlib", "netCDF4", "pathlib", "pickle", "rich", "shutil"),
     *("sqlite3", "tempfile", "typer"),
+}
+HEAVY = {
+    *("SurfaceTopography", "h5netcdf", "h5py", "llvmlite", "matplotlib", "pandas", "pint", "rich", "typer"),
+    "xarray",
 }
 WRITES = {"open", "print", "save", "savetxt", "savez", "tofile", "to_netcdf", "write_bytes", "write_text"}
 
@@ -163,14 +167,16 @@ def test_a_fork_catches_every_property_that_is_kept():
 
 
 def test_no_module_waits_for_itself():
-    """The functions of the door to pictures import when they are called, and the door itself nothing."""
-    door = "roughcontact.pictures"
-    at_the_top = [node for node in modules()[door].body if isinstance(node, ast.Import | ast.ImportFrom)]
-    assert {name.split(".")[0] for name in imported(ast.Module(at_the_top, []))} == {"__future__", "typing"}
-    assert (
-        cycle({module: imported_at_once(tree) for module, tree in modules().items() if module != door})
-        == set()
-    )
+    """The functions of a door import when they are called, and the door itself nothing."""
+    doors = {"roughcontact.datasets", "roughcontact.pictures"}
+    for door in doors:
+        at_the_top = [node for node in modules()[door].body if isinstance(node, ast.Import | ast.ImportFrom)]
+        assert {name.split(".")[0] for name in imported(ast.Module(at_the_top, []))} == {
+            "__future__",
+            "typing",
+        }
+    others = {module: imported_at_once(tree) for module, tree in modules().items() if module not in doors}
+    assert cycle(others) == set()
 
 
 def test_bundlers_of_programs_find_what_is_opened_late():
@@ -199,28 +205,45 @@ def test_the_checks_see_what_they_look_for():
     assert cycle({"a": {"b", "numpy"}, "b": {"c"}, "c": set()}) == set()
 
 
+def loaded(script, *arguments):
+    """Return the top modules, and those of SciPy, that a script has loaded when it ends."""
+    ending = "import atexit, sys; atexit.register(lambda: sys.stderr.write('\\n' + ' '.join(sys.modules)))\n"
+    words = [sys.executable, "-c", ending + script, *map(str, arguments)]
+    answer = subprocess.run(words, capture_output=True, encoding="utf-8", check=True)
+    names = {tuple(name.split(".")) for name in answer.stderr.splitlines()[-1].split()}
+    return {".".join(name[: 2 if name[0] == "scipy" else 1]) for name in names}
+
+
 def test_importing_the_package_and_all_its_names_loads_no_heavy_library():
-    heavy = [
-        "SurfaceTopography",
-        "h5netcdf",
-        "h5py",
-        "llvmlite",
-        "matplotlib",
-        "pandas",
-        "pint",
-        "rich",
-        "typer",
-        "xarray",
-    ]
-    script = (
-        "import sys, roughcontact\n"
-        "first = set(sys.modules)\n"
-        "for name in roughcontact.__all__: getattr(roughcontact, name)\n"
-        "early = sorted(first & {'numpy', 'scipy'})\n"
-        f"sys.stdout.write(repr((early, sorted(set(sys.modules) & set({heavy})))))"
+    first = "import roughcontact\n"
+    assert loaded(first) & {"numpy", "scipy"} == set()
+    assert loaded(f"{first}for name in roughcontact.__all__: getattr(roughcontact, name)") & HEAVY == set()
+
+
+def test_a_load_loads_only_what_it_computes_with(tmp_path):
+    """From Python, and from the shell, where typer may take pydantic to look at options."""
+    script = """
+import roughcontact as rc
+ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+rc.press(ball, 1e9, force=1e-3)
+"""
+    idle = ("integrate", "interpolate", "optimize", "sparse", "spatial")
+    unasked = HEAVY - {"llvmlite"} | {f"scipy.{name}" for name in idle}
+    assert loaded(script) & {*unasked, "pydantic", "scipy.ndimage"} == set()
+    command = "from roughcontact.cli.main import run; run()"
+    path = tmp_path / "part.npz"
+    loaded(
+        command, "surface", "make", path, "--hurst", "0.8", "--rms", "0.1um", "--size", "1mm", "--points", 32
     )
-    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert answer.stdout == "([], [])"
+    found = loaded(command, "press", path, "--force", "1N", "--modulus", "110GPa")
+    assert found & (unasked - {"typer"}) == set()
+    assert "scipy.ndimage" in found  # spots: the check sees what it looks for
+
+
+def test_help_of_a_command_loads_no_solver():
+    found = loaded("from roughcontact.cli.main import run; run()", "press", "--help")
+    assert "rich" in found
+    assert found & (HEAVY - {"rich", "typer"} | {"scipy.fft", "scipy.linalg"}) == set()
 
 
 def test_each_base_name_stands_once():

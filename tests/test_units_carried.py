@@ -87,8 +87,9 @@ MORE = [
     (rc.prescribed_displacement, {"mask": MASK, "displacement": 1e-8, "operator": rc.half_space(FREE, 1e9),
                                   "initial": np.full(FREE.shape, 1e5)}),
     (rc.ContactProblem, {"separation": CUT.heights.max() - CUT.heights, "operator": rc.half_space(FREE, 1e9),
-                         "control": rc.Force(1e-3), "modulus": 1e9, "hardness": 1e8, "rise": 1e-8}),
-    (PRESSED.problem.raised, {"rise": 1e-8}),
+                         "control": rc.Force(1e-3), "modulus": 1e9, "hardness": 1e8, "rise": 1e-8,
+                         "lifting": 1e-12}),
+    (PRESSED.problem.raised, {"rise": 1e-8, "lifting": 1e-12}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "depth": 1e-8}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "pressure": 1e6}),
     (rc.press, {"surface": SCAN, "modulus": 1e9, "force": 1.0, "operator": LINE_OPERATOR}),
@@ -132,7 +133,7 @@ UNITS = {
     "m^2": "area m0",
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
-UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "angle": "rad"}
+UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
@@ -278,7 +279,7 @@ def test_another_dimension_is_refused(call, good, name):
 
 @pytest.mark.parametrize(("call", "good", "name"), list(parameters(with_unit=False)))
 def test_a_pure_number_takes_no_dimension(call, good, name):
-    with pytest.raises(ValueError, match=r"not in (kilo|milli)?meter"):
+    with pytest.raises(ValueError, match="meter"):
         answer(call, good | {name: carried(good[name], "m")})
 
 
@@ -297,7 +298,7 @@ def test_every_public_parameter_with_a_unit_is_tried():
         for call, good in calls()
         for name in good
     }
-    numeric = re.compile(r"float|Array\b|ArrayLike|Loads?\b|Centre|Hardness")
+    numeric = re.compile(r"float|(?<!Data)Array\b|ArrayLike|Loads?\b|Centre|Hardness")
     left = set()
     for public in public_names():
         value = public.value

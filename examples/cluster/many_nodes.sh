@@ -19,11 +19,20 @@ trap 'kill -TERM "$study"' TERM
 
 export DASK_DISTRIBUTED__SCHEDULER__WORKER_SATURATION=1.0 # no task waits at a worker while another one is idle
 place=$(mktemp --directory "$PWD/.dask-XXXXXX")
-dask scheduler --port 0 --no-dashboard --scheduler-file "$place/scheduler.json" 2> "$place/scheduler.log" &
+# Keys of this run: whoever lacks them can give work neither to the scheduler nor to a worker.
+python -c 'import sys; from roughcontact.study.executors.keys import write_keys; write_keys(sys.argv[1])' "$place" ||
+    { rm -r "$place"; exit 1; }
+export DASK_DISTRIBUTED__COMM__REQUIRE_ENCRYPTION=True DASK_DISTRIBUTED__COMM__TLS__CA_FILE="$place/cert.pem"
+for role in CLIENT SCHEDULER WORKER; do
+    export "DASK_DISTRIBUTED__COMM__TLS__${role}__CERT=$place/cert.pem" "DASK_DISTRIBUTED__COMM__TLS__${role}__KEY=$place/key.pem"
+done
+# Status pages ask for no keys.
+export DASK_DISTRIBUTED__SCHEDULER__HTTP__ROUTES='[]' DASK_DISTRIBUTED__WORKER__HTTP__ROUTES='[]'
+dask scheduler --port 0 --no-dashboard --dashboard-address 127.0.0.1:0 --scheduler-file "$place/scheduler.json" 2> "$place/scheduler.log" &
 scheduler=$!
 until [ -s "$place/scheduler.json" ]; do sleep 1; done
-srun dask worker --scheduler-file "$place/scheduler.json" --nthreads 1 --memory-limit 0 --no-dashboard \
-    --death-timeout 120 --local-directory "${TMPDIR:-/tmp}" 2> "$place/workers.log" &
+srun dask worker --scheduler-file "$place/scheduler.json" --nthreads 1 --memory-limit 0 \
+    --no-dashboard --dashboard-address 127.0.0.1:0 --death-timeout 120 --local-directory "${TMPDIR:-/tmp}" 2> "$place/workers.log" &
 workers=$!
 
 address=$(python -c 'import json, sys; print(json.load(open(sys.argv[1]))["address"])' "$place/scheduler.json")

@@ -74,7 +74,9 @@ def on_host(array: Any) -> Array:
         return np.asarray(array.get(), dtype=np.float64)
     torch = array_api_compat.is_torch_array(array)
     host = "cpu" if torch else namespace(array).__array_namespace_info__().default_device()
-    return np.asarray(array_api_compat.to_device(array, host), dtype=np.float64)
+    here = array_api_compat.to_device(array, host)
+    xp = namespace(here)
+    return np.asarray(xp.astype(here, xp.float64, copy=False))  # some precisions NumPy has no name for
 
 
 def beside(values: Array, array: Any) -> Any:

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.arrays import Placed, is_numpy, namespace, require_floating
 from roughcontact.kernels import loader
@@ -142,6 +141,8 @@ def _in_machine_code(field: Array, lengths: Pair) -> bool:
 
 def fast_even_length(least: int) -> int:
     """Return the next even length from `least` up that has only the prime factors 2, 3 and 5."""
+    import scipy.fft
+
     return 2 * int(scipy.fft.next_fast_len(max(1, -(-least // 2)), real=True))
 
 
@@ -160,6 +161,8 @@ def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
     array, shape (My//2 + 1, Mx//2 + 1)
         Real, since the kernel is even; rows beyond repeat in reverse.
     """
+    import scipy.fft
+
     ny, nx = (m // 2 + 1 for m in padded)
     even = np.zeros((ny, nx))
     even[: table.shape[0], : table.shape[1]] = table
@@ -225,6 +228,8 @@ def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
 
 
 def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
+    import scipy.fft
+
     *_, ny, nx = field.shape
     my, mx = padded
     workers = _workers(padded)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from functools import partial, wraps
-from typing import Any, ParamSpec, TypeVar, overload
+from typing import Any, ParamSpec, TypeAlias, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,8 @@ from roughcontact.units import PLAIN, in_si
 __all__ = [
     "Array",
     "Mask",
+    "RngLike",
+    "as_generator",
     "exactly_one",
     "finite",
     "fitting",
@@ -26,7 +28,6 @@ __all__ = [
     "positive",
     "positive_scalar",
     "require",
-    "require_generator",
     "require_numbers",
     "scalar",
     "shown",
@@ -37,6 +38,10 @@ P = ParamSpec("P")
 R = TypeVar("R")
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+RngLike: TypeAlias = (
+    int | Sequence[int] | np.random.SeedSequence | np.random.BitGenerator | np.random.Generator | None
+)
+"""What `numpy.random.default_rng` takes."""
 
 LONGEST = 60  # text of a value in a message
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
@@ -183,13 +188,21 @@ def require(condition: npt.ArrayLike, message: str, value: npt.ArrayLike | None 
         raise ValueError(message + wrong)
 
 
-def require_generator(rng: Any) -> np.random.Generator:
-    """Return the source of random numbers, or refuse what is none: a seed alone, for example."""
-    if not isinstance(rng, np.random.Generator):
+def as_generator(rng: RngLike) -> np.random.Generator:
+    """Return the source of random numbers that `numpy.random.default_rng` makes of a seed; a generator is its own.
+
+    Raises
+    ------
+    ValueError
+        If NumPy takes no such seed.
+    """
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError) as error:
         raise ValueError(
-            f"rng must be a numpy.random.Generator, for example default_rng(0), not {shown(rng)}"
-        )
-    return rng
+            f"rng must be a numpy.random.Generator or a seed, not {shown(rng)}: give a whole number from 0 up, such as "
+            "rng=1, or None for numbers that differ from run to run"
+        ) from error
 
 
 def shown(value: object) -> str:

@@ -126,7 +126,7 @@ def test_a_state_becomes_a_dataset_and_a_record():
         np.testing.assert_array_equal(dataset[name], getattr(state, name))
         assert dataset[name].dims == ("y", "x")
     np.testing.assert_array_equal(dataset["heights"], PLANE.heights)
-    for name in (*NAMES, "stability", "stability_bound"):
+    for name in (*NAMES, "stability", "stability_residual"):
         assert float(dataset[name]) == record[name] == getattr(state, name)
     assert dataset.attrs["law"] == record["law"] == "exponential"
     assert float(dataset["work_of_adhesion"]) == record["work_of_adhesion"] == sticky(2.0).work

@@ -22,11 +22,8 @@ def sphere(tabor, rings):
 def pull_off(tabor, rings):
     ball, adhesion = sphere(tabor, rings)
     unit = math.cbrt((math.pi * WORK / (4 / 3 * MODULUS)) ** 2 * RADIUS)
-    states = list(
-        rc.loading_path(ball, MODULUS, depths=np.linspace(0.5, -2.0, 100) * unit, adhesion=adhesion)
-    )
-    jumps = [jump.force_before for state in states for jump in state.jumps]
-    return -min([state.force for state in states] + jumps) / (math.pi * WORK * RADIUS)
+    curve = rc.loading_curve(ball, MODULUS, depths=np.array([0.5, -2.0]) * unit, adhesion=adhesion)
+    return curve.pull_off_force / (math.pi * WORK * RADIUS)
 
 
 def test_a_stiff_sphere_pulls_off_by_the_theory_of_derjaguin():

@@ -88,6 +88,9 @@ def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, roug
     record = json.loads(invoke(*words, "--json").stdout)
     turn = record["depth"][6]  # 50 nm as it was read
     loop = rc.adhesive_loop(rc.read(rough), 10e6, ADHESION, depth=turn, points=6)
+    finer = rc.adhesive_loop(rc.read(rough), 10e6, ADHESION, depth=turn, points=25)
+    assert record["pull_off_force"] == pytest.approx(finer.pull_off_force, rel=2e-6)
+    assert record["lowest_force"] == loop.lowest_force.tolist()
     assert record["force"] == loop.force.tolist()
     assert record["pull_off_force"] == loop.pull_off_force
     told = invoke(*words).stdout

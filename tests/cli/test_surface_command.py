@@ -228,3 +228,27 @@ def test_the_user_names_a_channel(invoke, tmp_path, surface):
     record = json.loads(invoke("surface", "info", path, "--channel", "other", "--json").stdout)
     assert record["rms"] == pytest.approx(2 * surface.rms, rel=1e-14)
     assert invoke("surface", "info", path, "--channel", "none").exit_code == 2
+
+
+@pytest.mark.parametrize("unit", ["thou", "microns", "furlong", "microinch"])
+def test_any_length_is_a_unit(invoke, tmp_path, surface, unit):
+    path = tmp_path / "part.npy"
+    np.save(path, surface.heights)
+    record = json.loads(invoke("surface", "info", path, "--unit", unit, "--size", "1 mile", "--json").stdout)
+    metres = {"thou": 2.54e-5, "microns": 1e-6, "furlong": 201.168402336805, "microinch": 2.54e-8}[unit]
+    assert record["rms"] == pytest.approx(metres * surface.rms, rel=1e-12)
+
+
+def test_numbers_that_are_no_heights_are_told_before_they_are_pressed(invoke, tmp_path, surface):
+    path = tmp_path / "part.csv"
+    rows = [range(32), *(surface.heights * 1e6)]
+    path.write_text("".join(",".join(map(str, row)) + "\n" for row in rows))
+    answer = invoke(
+        *("press", path, "--unit", "um", "--size", "32um", "--depth", "0.1um", "--modulus", "1GPa", "--json")
+    )
+    assert answer.exit_code == 0
+    assert (
+        "Note: part.csv: its first row (0, 1, 2, ..., 31) holds places, no heights, and is left out"
+        in answer.stderr
+    )
+    assert json.loads(answer.stdout)["shape"] == [24, 32]

@@ -3,16 +3,20 @@
 import dataclasses
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact.contact.error_budget import ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.contact.error_notes import REMEDIES, notes_on_sources
 from roughcontact.contact.error_sources import NUMBERS
 from roughcontact.contact.perimeter import corrected_area
+from roughcontact.surface.finest_waves import is_rough_to_cells
 
 MODULUS, PRESSURE = 1e9, 1e6
+SMOOTH = 8e-6  # shortest wave of maps that are smooth from cell to cell
 
 
 def rough(n=48, *, periodic=False, seed=1, **named):
@@ -36,7 +40,7 @@ def value(solution, name):
 
 
 def test_parts_are_the_changes_of_the_same_load_on_other_maps():
-    surface = rough().levelled("plane")
+    surface = rough(short_cutoff=SMOOTH).levelled("plane")
     solution = pressed(surface)
     budget = rc.error_budget(solution, short_cutoff=8e-6)
     assert [(source.name, source.kind) for source in budget.sources] == [
@@ -54,11 +58,11 @@ def test_parts_are_the_changes_of_the_same_load_on_other_maps():
         assert number.parts == pytest.approx(changes, rel=1e-6, abs=1e-7 * number.value), number.name
         assert number.error == pytest.approx(math.sqrt(sum(part**2 for part in number.parts)), rel=1e-14)
         assert number.relative_error == number.error / number.value
-    assert budget.notes == ()
+    assert not any("rough down to its cells" in note for note in budget.notes)
 
 
 def test_without_a_cutoff_it_is_four_cells():
-    solution = pressed(rough())
+    solution = pressed(rough(short_cutoff=SMOOTH))
     named = rc.error_budget(solution, short_cutoff=4 * 64e-6 / 48)
     assert rc.error_budget(solution).numbers == named.numbers
 
@@ -77,13 +81,73 @@ def test_under_a_depth_the_force_has_an_error():
 
 
 def test_levelling_is_a_choice_of_free_flat_maps_alone():
-    periodic = rc.error_budget(pressed(rough(periodic=True)))
+    periodic = rc.error_budget(pressed(rough(periodic=True, short_cutoff=SMOOTH)))
     assert [source.name for source in periodic.sources] == ["grid", "short cut-off"]
-    assert periodic.notes == ()
+    assert not any("Levelling" in note for note in periodic.notes)
     ball = rough() + rc.shapes.paraboloid(rc.Grid((48, 48), 64e-6 / 48), radius=2e-4)
     form = rc.error_budget(pressed(ball))
     assert [source.name for source in form.sources] == ["grid", "short cut-off"]
     assert "the body itself" in form.notes[0]
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+def test_a_map_that_is_rough_to_its_cells_has_no_error_of_the_depth(hurst, periodic):
+    """Second differences grow by 2^H from one cell to two: by at most 2 with H = 1, by 2^1.9 of waves of 8 cells."""
+    waves = {"periodic": periodic, "hurst": hurst, "rms_band": (64e-6, 12e-6)}
+    marked = rc.error_budget(pressed(rough(**waves)))
+    assert math.isnan(marked["depth"].error)
+    assert [note for note in marked.notes if "Quote the mean gap" in note]
+    assert marked["mean_gap"].error > 0
+    assert json.loads(json.dumps(marked.to_record(), allow_nan=False))["depth"]["error"] is None
+    smooth = rc.error_budget(pressed(rough(**waves, short_cutoff=8 * 64e-6 / 48)))
+    assert smooth["depth"].error > 0
+    assert not [note for note in smooth.notes if "Quote the mean gap" in note]
+    at_depth = rc.error_budget(pressed(rough(**waves), depth=marked["depth"].value))
+    assert "Prescribe the force or the pressure" in at_depth.notes[0]
+    assert at_depth["force"].error > 0
+
+
+def test_missing_cells_and_narrow_maps_are_judged_by_what_is_measured():
+    heights = rough(48).heights.copy()
+    heights[5:20, 7:30] = np.nan
+    grid = rc.Grid((48, 48), 1e-6)
+    assert is_rough_to_cells(rc.Surface(heights, grid))
+    holed = rc.Surface(np.where(np.isnan(heights), np.nan, rough(48, short_cutoff=12e-6).heights), grid)
+    assert not is_rough_to_cells(holed)
+    assert is_rough_to_cells(rc.Surface(rough(48).heights[:4], rc.Grid((4, 48), 1e-6)))
+    for nothing in (np.zeros((8, 8)), rough(48).heights[:4, :4], np.arange(64.0).reshape(8, 8)):
+        assert not is_rough_to_cells(rc.Surface(nothing, rc.Grid(nothing.shape, 1.0)))
+
+
+def test_one_source_that_is_nearly_all_of_an_error_is_named():
+    """A map whose longest wave is the map: a quadratic form takes half of it away."""
+    grid = rc.Grid((64, 64), 1e-6)
+    whole = rc.self_affine(grid, 0.8, 1e-6, 4, short_cutoff=8e-6).levelled("plane")
+    budget = rc.error_budget(rc.press(whole, MODULUS, pressure=2e5))
+    k = budget["stiffness"]
+    assert abs(k.parts[2]) > 0.9 * k.error > 0.09 * k.value
+    (note,) = (note for note in budget.notes if "that of levelling" in note)
+    assert f"stiffness ({100 * k.relative_error:.0f} %)" in note
+    assert "measure a larger map" in note
+    many = rc.self_affine(grid, 0.8, 1e-6, 4, short_cutoff=8e-6, rolloff=12e-6).levelled("plane")
+    budget = rc.error_budget(rc.press(many, MODULUS, pressure=2e6))
+    assert not [note for note in budget.notes if "that of levelling" in note]
+
+
+def test_notes_on_sources_are_of_large_errors_from_one_source_alone():
+    sources = [ErrorSource(name, "bias", "") for name in ("grid", "short cut-off", "levelling")]
+    one = QuotedNumber("stiffness", 1.0, "N m-1", (0.0, 0.01, -0.82))
+    two = QuotedNumber("contact_area", 1.0, "m2", (0.5, 0.5, 0.0))
+    small = QuotedNumber("mean_gap", 1.0, "m", (0.09, 0.0, 0.0))
+    unknown = QuotedNumber("depth", 1.0, "m", (math.nan, 0.0, 0.0))
+    (note,) = notes_on_sources((one, two, small, unknown), sources)
+    assert note.startswith("Nearly all of the error of stiffness (82 %) is that of levelling. The longest")
+    many = [replace(one, name=name) for name in ("stiffness", "mean_gap", "contact_fraction")]
+    assert "of stiffness (82 %), mean gap (82 %) is that" in notes_on_sources(many, sources)[0]
+    for name in REMEDIES:  # of every source
+        only = [ErrorSource(name, "bias", "")]
+        assert f"that of {name}. {REMEDIES[name]}" in notes_on_sources([replace(one, parts=(0.5,))], only)[0]
 
 
 def test_patches_add_the_standard_error_of_their_mean():
@@ -175,7 +239,7 @@ def test_near_full_contact_an_infinite_stiffness_has_no_error_and_a_depth_may_be
     full = rc.error_budget(pressed(surface, pressure=1e9))
     assert (full["stiffness"].value, full["stiffness"].parts) == (math.inf, (0.0, 0.0))
     assert (full["mean_gap"].value, full["mean_gap"].error) == (0.0, 0.0)
-    assert full.notes == ()
+    assert len(full.notes) == 1  # of the depth
     nearly = pressed(surface, depth=0.99 * pressed(surface, depth=0.0).problem.mean_separation)
     half = rc.error_budget(nearly)
     # The means over larger cells have a lower summit: the depth is beyond their full contact.

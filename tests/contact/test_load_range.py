@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.load_ends import NEAR
 from roughcontact.contact.load_range import FORCES_BELOW
-from roughcontact.contact.load_search import STEPS_PER_DECADE, SurfaceKind
+from roughcontact.contact.load_search import SurfaceKind
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.kernels import loader
 
-STEP = 10 ** (1 / STEPS_PER_DECADE)
+BEYOND = 1 + 1.001 * NEAR
 
 
 def rough(n=128, *, periodic=False, seed=1, rms=1e-7, **named):
@@ -51,47 +52,76 @@ def test_kinds():
     assert SurfaceKind.of(rc.RadialProfile(-(rings.radii**2), rings)) is SurfaceKind.FORM
 
 
-@pytest.mark.parametrize(
-    ("surface", "reason"),
-    [
-        (rough(), "full-contact"),
-        (rough(periodic=True, rolloff=16e-6), "half of the area"),
-        (bent(rough(), 10.0), "border"),
-        (rough(rms=2e-5), "reduced modulus"),
-    ],
-    ids=["fractal", "periodic", "form", "steep"],
-)
-def test_each_end_is_where_it_is_said_to_be(surface, reason):
-    found = rc.load_range(surface, 1e9)
-    assert reason in found.reasons[1]
+MAPS = {
+    "fractal": (rough(), None, "20 cells", "full-contact"),
+    "fractal, periodic": (rough(periodic=True), None, "20 cells", "half of the area"),
+    "flat, periodic": (rough(periodic=True, rolloff=16e-6), None, "spots of 16 cells", "half of the area"),
+    "flat, free": (rough(rolloff=16e-6), None, "20 cells", "full-contact"),
+    "smooth, periodic": (
+        rough(periodic=True, rolloff=32e-6, short_cutoff=16e-6),
+        None,
+        "20 cells",
+        "half of the area",
+    ),
+    "form": (bent(rough(), 10.0), None, "20 cells", "border"),
+    "steep": (rough(rms=2e-5), None, "which no load reaches", "reduced modulus"),
+    "steep, rolled off": (rough(64, rms=4e-6, periodic=True), None, "20 cells", "reduced modulus"),
+    "larger than the pilot": (rough(200, periodic=True, rolloff=64e-6), None, "20 cells", "half of the area"),
+    "hardness": (rough(64, rms=2e-6), 1e8, "20 cells", "full-contact"),
+    "hardness, periodic": (
+        rough(periodic=True, rms=2e-6, rolloff=16e-6),
+        1e8,
+        "spots of 16 cells",
+        "half of the area",
+    ),
+    "soft": (rough(64, rms=2e-6, seed=2), 1e6, "20 cells", "half of the"),
+    "hardness by spots": (rough(64, rms=2e-6), rc.NixGao(1e8, 4e-6), "20 cells", "full-contact"),
+}
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_each_end_is_where_it_is_said_to_be(name):
+    surface, hardness, start, end = MAPS[name]
+    found = rc.load_range(surface, 1e9, hardness=hardness)
+    assert start in found.reasons[0]
+    assert end in found.reasons[1]
     first, before, last, beyond = (
-        rc.press(surface, 1e9, force=force)
-        for force in (found.lowest, found.lowest / STEP, found.highest, found.highest * STEP)
+        rc.press(surface, 1e9, force=force, hardness=hardness)
+        for force in (found.lowest, found.lowest / BEYOND, found.highest, found.highest * BEYOND)
     )
-    few = 20 * cell_stiffness(first.problem.operator)
-    full = full_contact_stiffness(first.problem)
 
     # Under a decade of large spots the range begins without them, and says so.
     large = not any("Spots have fewer than 16 cells" in note for note in found.notes)
-    assert large == ("spots of 16 cells" in found.reasons[0])
 
-    def resolved(solution):
-        return solution.stiffness >= few and (mean_spot(solution) >= 16 or not large)
+    def begun(solution):
+        """How far above its limit the lower of the two is."""
+        stiff = solution.flattened.stiffness / (20 * cell_stiffness(solution.problem.operator))
+        return min(stiff, mean_spot(solution) / 16) if large else stiff
 
     def ended(solution):
+        share = solution.flattened.stiffness / full_contact_stiffness(solution.problem)
         return {
-            "full-contact": solution.stiffness >= 0.9 * full,
-            "half of the area": solution.contact_fraction >= 0.5,
-            "border": solution.touches_edge,
-            "reduced modulus": solution.force / solution.contact_area > 0.5e9,
-        }[reason]
+            "full-contact": share / 0.9,
+            "half of the area": solution.contact_fraction / 0.5,
+            "half of the": solution.contact_fraction / 0.5,
+            "border": float(solution.touches_edge),
+            "reduced modulus": solution.force / solution.contact_area / 0.5e9,
+        }[end]
 
-    # The search goes up to the first load at which a range ends: one where nothing is resolved has no begin.
+    # A level is a hundredth from its limit, or passes it within a hundredth of the force.
     if found.lowest < found.highest:
-        assert resolved(first)
-        assert not resolved(before)
-    assert ended(beyond)
-    assert not ended(last)
+        assert begun(first) >= 1
+        assert begun(first) <= 1 + NEAR or begun(before) < 1
+    assert ended(last) < 1
+    assert ended(last) >= 1 - NEAR or ended(beyond) >= 1
+
+
+def test_a_contact_that_begins_with_many_cells_has_no_lower_end():
+    """The crest of a wave is a row of cells: twenty of them touch at once."""
+    grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    found = rc.load_range(rc.shapes.wave(grid, amplitude=1e-6, wavelength=64e-6), 1e9)
+    assert found.reasons[0] == "the smallest force of the search"
+    assert found.below
 
 
 def test_half_of_the_loads_are_even_in_stiffness_and_half_in_area():
@@ -118,9 +148,10 @@ def test_half_of_the_loads_are_even_in_stiffness_and_half_in_area():
 def test_loads_follow_the_scales():
     surface = rough(64)
     found = rc.load_range(surface, 1e9)
-    higher = rc.load_range(rc.Surface(2 * surface.heights, surface.grid), 4e9)
-    assert higher.lowest / found.lowest == pytest.approx(8, rel=1e-6)
-    np.testing.assert_allclose(higher.forces / found.forces, 8, rtol=1.1e-2)  # both to three digits
+    higher = rc.load_range(rc.Surface(10 * surface.heights, surface.grid), 1e11)
+    assert higher.lowest / found.lowest == pytest.approx(1000, rel=1e-6)
+    assert higher.highest / found.highest == pytest.approx(1000, rel=1e-6)
+    np.testing.assert_allclose(higher.forces / found.forces, 1000, rtol=1.1e-2)  # both to three digits
 
 
 def test_machine_code_changes_no_load(monkeypatch):

@@ -158,3 +158,20 @@ def _sur_packed(heights, dy, dx):
 @writes("line.pro", line=True)
 def _pro(heights, dy, dx):
     return _sur(heights[:1], dy, dx, kind=1)
+
+
+@writes("field.gsf", missing=True)
+def _gsf(heights, dy, dx):
+    ny, nx = heights.shape
+    head = f"Gwyddion Simple Field 1.0\nXRes = {nx}\nYRes = {ny}\nXReal = {nx * dx}\nYReal = {ny * dy}\n"
+    head = (head + "XYUnits = m\nZUnits = m\nTitle = Height\n").encode()
+    return head + b"\0" * (4 - len(head) % 4) + heights.astype("<f4").tobytes()
+
+
+@writes("surfer.grd", given={"unit": "nm"}, missing=True)
+def _surfer(heights, dy, dx):
+    """Text grid of Surfer, its rows from the smallest y upwards, places in the unit of the heights."""
+    ny, nx = heights.shape
+    low, high = np.nanmin(heights) * 1e9, np.nanmax(heights) * 1e9
+    ends = f"0 {(nx - 1) * dx * 1e9}\n0 {(ny - 1) * dy * 1e9}\n{low} {high}\n"
+    return (f"DSAA\n{nx} {ny}\n{ends}" + text(heights[::-1] * 1e9, bad="1.70141e+38")).encode()

@@ -39,6 +39,8 @@ MUTATIONS = {
     "zeros": lambda data: bytes(len(data)),
     **{f"flipped bytes {seed}": (lambda data, seed=seed: flip(data, seed)) for seed in range(5)},
     "0xFF over the header": lambda data: b"\xff" * 64 + data[64:],
+    "a byte more": lambda data: data[:300] + b"\x55" + data[300:],
+    "a byte less": lambda data: data[: len(data) // 2] + data[len(data) // 2 + 1 :],
 }
 
 

@@ -1,4 +1,7 @@
-"""Ten ways to spoil a file of our own formats: the right data or a ReadError, never anything else."""
+"""Ways to spoil a file of our own formats: the right data or a ReadError, never anything else.
+
+Of formats of instruments that state their lengths and no checksum: the right data, a word, or a ReadError.
+"""
 
 import warnings
 import zlib
@@ -6,6 +9,7 @@ import zlib
 import numpy as np
 import pytest
 
+import instruments as of
 import roughcontact as rc
 from roughcontact.files.file_errors import SurfaceWarning
 
@@ -120,3 +124,59 @@ def test_one_flipped_byte_anywhere(put, originals, name):
     for seed in range(40):
         place = zlib.crc32(f"{name}{seed}".encode()) % len(data)
         attempt(put(name, flip(data, seed, place, place + 1, 1)))
+
+
+Z = of.hills()
+COUNTS = np.rint(Z * 9000)
+FAMILIES = {
+    "a.gsf": of.gsf(Z * 1e-6),
+    "a.gwy": of.gwy(of.gwy_field(Z * 1e-6), of.gwy_field(Z, ("m", "V")), titles=("Height", "Phase")),
+    "a.sdf": of.sdf_binary(COUNTS, 5),
+    "b.sdf": of.sdf_binary(Z * 1e3, 7, mark="bBCR-1.0"),
+    "c.sdf": of.sdf_text(COUNTS, 6, mark="aBCR-1.0"),
+    "a.tmd": of.tmd(Z * 1e-3),
+    "a.tif": of.tiff((COUNTS + 20000).astype("u2"), rows=8),
+    "b.tif": of.tiff((Z * 100).astype("f4"), order=">"),
+    "c.tif": of.tiff((COUNTS + 20000).astype("u2"), rows=8, deflate=True),
+    "a.001": of.nanoscope(
+        np.rint(of.hills(16, 72) * 9000), size="2 2 ~m", aspect="4.5:1", scan_aspect="4.5:1"
+    ),
+    "a.mat": of.mat(Z=Z),
+}
+UNREAD = {"empty", "one byte", "cut at half", "cut at 97 %", "garbage", "zeros"}
+LENGTHS = {
+    **{name: MUTATIONS[name] for name in sorted(UNREAD)},
+    "0xFF over the header": MUTATIONS["0xFF over the header"],
+    **{f"a byte more at {k}": (lambda d, k=k: d[:k] + b"\x55" + d[k:]) for k in (9, 60, 100, 700, 3000)},
+    **{f"a byte less at {k}": (lambda d, k=k: d[:k] + d[k + 1 :]) for k in (9, 60, 100, 700, 3000)},
+    "40 bytes less": lambda d: d[:2500] + d[2540:],
+    "a byte more at the end": lambda d: d + b"\x55",
+}
+
+
+@pytest.mark.parametrize("mutation", LENGTHS)
+@pytest.mark.parametrize("name", FAMILIES)
+def test_a_length_that_does_not_fit_is_noticed(put, name, mutation):
+    whole, data = FAMILIES[name], LENGTHS[mutation](FAMILIES[name])
+    if name == "a.001":
+        pytest.importorskip("SurfaceTopography")
+    truth, outcome, said = *said_of(put(name, whole))[:1], *said_of(put(name, data))
+    if isinstance(outcome, rc.ReadError):
+        assert str(outcome).startswith(f"{name}: ")
+        return
+    assert mutation not in UNREAD
+    unchanged = truth.grid == outcome.grid and np.array_equal(truth.heights, outcome.heights)
+    # A byte within words that mean nothing, such as the name of a channel or a comment, changes nothing; a digit more
+    # or less in a text is a number.
+    assert unchanged or said or name == "c.sdf"
+
+
+def said_of(path):
+    """Return the surface or the ReadError, and the warnings of ours; any other goes through."""
+    given = {} if path.suffix in {".gsf", ".gwy", ".sdf", ".tmd", ".001"} else GIVEN
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            return rc.read(path, **given), [one for one in said if one.category is SurfaceWarning]
+        except rc.ReadError as error:
+            return error, []

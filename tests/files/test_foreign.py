@@ -243,7 +243,7 @@ def test_only_the_reading_thread_is_spared_the_log(put, monkeypatch, caplog):
 
     monkeypatch.setattr(SurfaceTopography.IO, "open_topography", speak)
     with pytest.raises(rc.ReadError, match="damaged"):
-        rc.read(put("a.tiff", "II"), unit="um", size=1e-5)
+        rc.read(put("a.opd", "II"), unit="um", size=1e-5)
     assert [record.message for record in caplog.records] == ["of another thread"]
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from roughcontact.files.length_units import is_length, length_factor, parse_length
+from roughcontact.files.length_units import is_length, length_factor, parse_length, stated_length
 
 
 @pytest.mark.parametrize(
@@ -18,6 +18,17 @@ from roughcontact.files.length_units import is_length, length_factor, parse_leng
         ("1 \N{MICRO SIGN}m", 1e-6),
         ("1 \N{GREEK SMALL LETTER MU}m", 1e-6),
         (0.25, 0.25),
+        # Words of files, and any length that only the library of units knows.
+        ("2 microns", 2e-6),
+        ("2 Micrometers", 2e-6),
+        ("2 micrometre", 2e-6),
+        ("2 metres", 2.0),
+        ("2 inches", 0.0508),
+        ("2 mils", 5.08e-5),
+        ("2 thou", 5.08e-5),
+        ("2 Angstrom", 2e-10),
+        ("2 ft", 0.6096),
+        ("1 furlong", 201.168402336805),
     ],
 )
 def test_lengths(text, metres):
@@ -25,7 +36,7 @@ def test_lengths(text, metres):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "10", "um", "1,5 um", "-1 um", "0 m", "nan m", "1 Mm", "1 furlong", float("inf"), 0]
+    "text", ["", "10", "um", "1,5 um", "-1 um", "0 m", "nan m", "1 MM", "1 A", "1 a.u.", float("inf"), 0]
 )
 def test_what_is_no_length(text):
     with pytest.raises(ValueError, match=r"length|unit"):
@@ -36,4 +47,14 @@ def test_units():
     assert length_factor("nm") == 1e-9
     assert length_factor(2.54e-2) == 2.54e-2
     assert is_length("pm")
-    assert not any(map(is_length, (None, "", "A", "V", "deg", "MM", -1.0)))
+    # Of a file a word counts only if it is surely meant as a length: to pint "au" and "points" are lengths.
+    assert not any(map(is_length, (None, "", "A", "V", "deg", "MM", -1.0, "au", "points", "furlong")))
+    assert length_factor("ft") == pytest.approx(0.3048, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [("18 microns", 1.8e-5), ("18 points", None), ("0 um", None), ("-1 um", None), ("um", None)],
+)
+def test_a_stated_length_is_understood_or_open(text, metres):
+    assert stated_length(text) == (None if metres is None else pytest.approx(metres, rel=1e-15))

@@ -98,7 +98,7 @@ def test_places_printed_short_are_even_all_the_same(put):
         ("words\n1 2\n", "holds 1 rows"),
         ("words\n", "holds 0 rows"),
         ("0 1\n1 1_0\n", "interrupts"),
-        ("0 nan\n1 nan\n", "all heights are NaN"),
+        ("0.5 nan\n1 nan\n", "all heights are NaN"),
         ("nan 1\nnan 2\n", "places run from nan"),
     ],
 )
@@ -168,7 +168,7 @@ def test_either_refuses_what_is_neither(put, npy):
     for name, content, message in (
         ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a profile at most"),
         ("a.txt", "1 2 3\n4 5\n", "row 2"),
-        ("a.csv", "x [um], z [um]\n1, 2\n", "not a number"),
+        ("a.csv", "x [um], z [um]\n1, 2\n", "look like a list of coordinates"),
     ):
         with pytest.raises(rc.ReadError, match=message):
             read_either(put(name, content), unit="um", size=1e-3)

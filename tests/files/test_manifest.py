@@ -25,12 +25,13 @@ OWN = {
     "gwyddion-export-german.txt": {},
     "matrix-3.txt": {},
     "sur-2.sur": {},
+    "derived_frt2_masked.gwy": {},
+    "tmd-1.tmd": {},
 }
 FOREIGN = {
     "AR_20211011.ibw": {},
     "Park_20210916_034.tiff": {},
     "al3d-1.al3d": {},
-    "derived_frt2_masked.gwy": {},
     "derived_mi1.mat": {"unit": "m", "size": (20e-6, 20e-6)},
     "di-3.di": {},
     "frt-2.frt": {},
@@ -38,7 +39,6 @@ FOREIGN = {
     "mi-1.mi": {},
     "sample_0.jpk-qi-image": {},
     "test_1.opd": {},
-    "tmd-1.tmd": {},
     "top-1.top": {},
     "valid_zygo_dat_file.dat": {},
 }

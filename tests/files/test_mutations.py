@@ -43,7 +43,7 @@ NAMES = [
     "top-1.top",
     "valid_zygo_dat_file.dat",
 ]
-OWN = (".x3p", ".csv", ".xyz", ".npy", ".nc", ".txt", ".sur")
+OWN = (".x3p", ".csv", ".xyz", ".npy", ".nc", ".txt", ".sur", ".gwy", ".tmd")
 SLOWEST = 30.0  # seconds
 
 

@@ -9,6 +9,7 @@ import xarray
 from scipy.io import netcdf_file
 
 import roughcontact as rc
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import channels, read_line
 
 HEIGHTS = np.arange(12.0).reshape(3, 4)
@@ -175,3 +176,77 @@ def test_a_broken_library_is_no_damage_of_the_file(tmp_path, monkeypatch, beginn
     monkeypatch.setitem(sys.modules, module, None)  # as if it were not installed
     with pytest.raises(ImportError):
         rc.read(tmp_path / "a.nc")
+
+
+def marked(path, stored, *, units="um", **attributes):
+    """Write heights (y, x) of 3 x 4 points as stored, with coordinates in the unit, and what is stated about them."""
+    with netcdf_file(path, "w") as file:
+        for name, size in (("y", 3), ("x", 4)):
+            file.createDimension(name, size)
+            variable = file.createVariable(name, "f8", (name,))
+            variable[:] = np.arange(size) + 0.5
+            if units:
+                variable.units = units
+        heights = file.createVariable("heights", stored.dtype.newbyteorder(">"), ("y", "x"))
+        heights[:] = stored
+        heights.units = "um"
+        for name, value in attributes.items():
+            setattr(heights, name, value)
+    return path
+
+
+GAP = np.where((HEIGHTS == 5) | (HEIGHTS == 6), np.nan, HEIGHTS)
+TWO = np.where(HEIGHTS == 5, -1e3, np.where(HEIGHTS == 6, 2e3, HEIGHTS))
+SHORT = np.where(np.isnan(GAP), -999, 10 * HEIGHTS).astype("i2")
+
+
+@pytest.mark.parametrize(
+    ("stored", "attributes"),
+    [
+        (np.where(np.isnan(GAP), -99.9, GAP).astype("f4"), {"missing_value": np.float64(-99.9)}),
+        (np.where(np.isnan(GAP), -99.9, GAP), {"missing_value": np.float32(-99.9)}),
+        (np.where(np.isnan(GAP), 1e20, GAP).astype("f4"), {"missing_value": np.float64(1e20)}),
+        (np.where(np.isnan(GAP), -99.9, GAP), {"missing_value": "-99.9"}),
+        (
+            np.where(HEIGHTS == 5, -1e3, np.where(HEIGHTS == 6, -2e3, HEIGHTS)),
+            {"missing_value": np.array([-1e3, -2e3])},
+        ),
+        (
+            np.where(HEIGHTS == 5, -1e3, np.where(HEIGHTS == 6, 2e3, HEIGHTS)),
+            {"valid_range": np.array([0.0, 50.0])},
+        ),
+        (np.where(np.isnan(GAP), -1e3, GAP), {"valid_min": 0.0}),
+        (np.where(np.isnan(GAP), 1e3, GAP).astype("f4"), {"valid_max": np.float64(11.0)}),
+        (SHORT, {"scale_factor": 0.1, "valid_min": np.int16(0)}),
+        (SHORT, {"scale_factor": 0.1, "valid_range": np.array([0.0, 50.0])}),
+        (np.where(np.isnan(GAP), -1, HEIGHTS).astype("i2"), {"_Unsigned": "true", "missing_value": 65535.0}),
+    ],
+)
+def test_marks_in_other_types_and_limits_of_what_is_valid(tmp_path, stored, attributes):
+    surface = rc.read(marked(tmp_path / "a.nc", stored, **attributes))
+    # Heights of single precision are the nearest to whole micrometres.
+    np.testing.assert_allclose(surface.heights, GAP * 1e-6, rtol=1e-6)
+
+
+def test_limits_leave_what_lies_on_them(tmp_path):
+    surface = rc.read(marked(tmp_path / "a.nc", (HEIGHTS / 10).astype("f4"), valid_min=0.0, valid_max=1.1))
+    assert surface.missing == 0
+
+
+def test_what_was_never_written_is_missing_and_told(tmp_path):
+    stored = np.where(np.isnan(GAP), 9.969209968386869e36, GAP).astype("f4")
+    with pytest.warns(SurfaceWarning, match=r"2 points hold 9\.96921e\+36, a mark of missing points"):
+        surface = rc.read(marked(tmp_path / "a.nc", stored))
+    assert np.array_equal(np.isnan(surface.heights), np.isnan(GAP))
+
+
+def test_coordinates_without_a_unit_are_told_or_asked_about(tmp_path):
+    with pytest.warns(
+        SurfaceWarning, match="its y and x state no unit, and are taken in um; else pass size="
+    ):
+        assert rc.read(marked(tmp_path / "a.nc", HEIGHTS, units="")).grid.spacing == (1e-6, 1e-6)
+    xarray.Dataset(
+        {"heights": (("y", "x"), HEIGHTS, {"units": "um"})}, {"y": np.arange(3.0), "x": np.arange(4.0)}
+    ).to_netcdf(tmp_path / "b.nc", engine="scipy")
+    with pytest.raises(rc.ReadError, match="it states no size; pass size="):
+        rc.read(tmp_path / "b.nc")

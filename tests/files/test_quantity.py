@@ -4,13 +4,26 @@ from types import ModuleType
 import pytest
 
 from roughcontact.files import quantity
-from roughcontact.files.quantity import FORCE, LENGTH, parse, parse_number
+from roughcontact.files.quantity import AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
 
 
 def test_a_quantity_becomes_its_number_in_si():
     assert parse("5 um", LENGTH) == pytest.approx(5e-6, rel=1e-15)
     assert parse("5e-6", LENGTH) == 5e-6
     assert parse_number(" 0.3 ", "0.5") == 0.3
+
+
+@pytest.mark.parametrize("kind", [FORCE, LENGTH, PRESSURE], ids=lambda kind: kind.unit)
+@pytest.mark.parametrize("prefix", ["p", "n", "u", "µ", "μ", "m", "c", "k", "M", "G", "T"])
+def test_prefixes_are_those_of_the_library_of_units_without_it(monkeypatch, kind, prefix):
+    unit = f"{prefix}{kind.unit}"
+    wanted = quantity._registry().Quantity(1.0, unit).to(kind.unit).magnitude
+    monkeypatch.setattr(quantity, "_registry", None)
+    assert parse(f"3{unit}", kind) == pytest.approx(3 * wanted, rel=1e-15)
+
+
+def test_a_prefix_belongs_to_the_unit_that_is_raised():
+    assert parse("3 mm^2", AREA) == pytest.approx(3e-6, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -36,9 +49,9 @@ def test_a_broken_library_of_units_is_not_the_fault_of_the_unit(monkeypatch):
     monkeypatch.setattr(quantity, "_registry", quantity._registry.__wrapped__)
     monkeypatch.setitem(sys.modules, "pint", None)  # as if it were not installed
     with pytest.raises(ImportError):
-        parse("5 mN", FORCE)
+        parse("5 lbf", FORCE)
     empty = ModuleType("pint")
     empty.UnitRegistry = object
     monkeypatch.setitem(sys.modules, "pint", empty)
     with pytest.raises(AttributeError, match="parse_units"):
-        parse("5 mN", FORCE)
+        parse("5 lbf", FORCE)

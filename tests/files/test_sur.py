@@ -10,13 +10,25 @@ import psutil
 import pytest
 
 import roughcontact as rc
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import channels, read_line
 
 COUNTS = np.array([[5, -7, 100, 3], [8, 0, 2, -40], [1, 2, 3, 4]])
 STEP = 0.25  # exact in single precision
 
 
-def sur(counts=COUNTS, *, bits=32, packed=0, unit="µm", lateral="mm", comment=b"", missing=None, **fields):
+def sur(
+    counts=COUNTS,
+    *,
+    bits=32,
+    packed=0,
+    unit="µm",
+    lateral="mm",
+    comment=b"",
+    missing=None,
+    encoding="latin-1",
+    **fields,
+):
     """Return a file; `fields` are values (format, offset, value) that replace those of the header."""
     ny, nx = counts.shape
     low, high = int(counts.min()), int(counts.max())
@@ -32,7 +44,11 @@ def sur(counts=COUNTS, *, bits=32, packed=0, unit="µm", lateral="mm", comment=b
         (100, "<iiiii", (low, high, nx, ny, nx * ny)),
         (120, "<fff", (0.5, 2.0, STEP)),
         (132, "16s16s16s", (b"X", b"Y", b"Z")),
-        (180, "16s16s16s", (lateral.encode("latin-1"),) * 2 + (unit.encode("latin-1").ljust(16),)),
+        (
+            180,
+            "16s16s16s",
+            (lateral.encode(encoding or "latin-1"),) * 2 + (unit.encode(encoding or "latin-1").ljust(16),),
+        ),
         (334, "<H", len(comment)),
         *fields.values(),
     ):
@@ -80,6 +96,33 @@ def test_a_profile_is_a_line_scan(put):
         rc.read(path)
 
 
+def test_a_map_of_type_1_is_a_map(put):
+    """As Gwyddion exports it: the type of a profile, with all its lines."""
+    path = put("a.sur", sur(kind=(18, "<h", 1)))
+    surface = rc.read(path)
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, (2e-3, 0.5e-3), rtol=1e-15)
+    assert any("type 1 (profile) with 3 lines" in line for line in surface.provenance)
+    with pytest.raises(rc.ReadError, match=r"a map of 3 x 4 heights.*use read"):
+        read_line(path)
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-8"])
+@pytest.mark.parametrize("packed", [0, 1])
+def test_units_in_either_encoding(put, encoding, packed):
+    surface = rc.read(put("a.sur", sur(lateral="µm", unit="µm", encoding=encoding, packed=packed)))
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, (2e-6, 0.5e-6), rtol=1e-15)
+
+
+@pytest.mark.parametrize("packed", [0, 2])
+@pytest.mark.parametrize("spare", [b"x", b"\0" * 8])
+def test_bytes_behind_its_heights_are_doubted(put, packed, spare):
+    with pytest.warns(SurfaceWarning, match=f"{len(spare)} bytes at its end belong to no height"):
+        surface = rc.read(put("a.sur", sur(packed=packed) + spare))
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
+
+
 def test_arbitrary_units_are_named(put):
     path = put("a.sur", sur(unit="a.u."))
     with pytest.raises(rc.ReadError, match=r"a\.sur: it states heights in 'a\.u\.', which is no length"):
@@ -98,7 +141,6 @@ def test_arbitrary_units_are_named(put):
         ((12, "<h", 256), "byte order 256"),
         ((14, "<h", 3), "3 objects"),
         ((18, "<h", 12), "type 12"),
-        ((18, "<h", 1), "series of 3 profiles"),
         ((98, "<h", 24), "of 24 bits"),
         ((108, "<i", 5), "3 x 5 points"),
         ((108, "<i", -4), "3 x -4 points"),

@@ -85,16 +85,15 @@ def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):
     ("content", "message"),
     [
         ("1 2 3 4\n1 2 3\n1 2 3 4\n", r"row 2 \(line 2\) holds 3 numbers, the first row 4; write nan"),
-        ("# x\n1,2,3\n1,,3\n", r"row 2 \(line 3\), column 2 is empty; write nan"),
-        ("1;2;3\n1;2;\n", r"row 2 \(line 2\), column 3 is empty"),
-        ("1,2,3,\n1,2,3\n", "row 1 .*column 4 is empty"),
-        ("1\t2\t3\n1\t \t3\n", "row 2 .*column 2 is empty"),
+        ("1,2,3,\n1,2,3\n", r"row 2 \(line 2\) holds 3 numbers, the first row 4; write nan"),
+        ("1,2,3\n1,2;3\n", r"row 2 \(line 2\)"),
+        ("1,2\n1;2\n", r"row 2 \(line 2\) has other separators than the first row"),
         ("1 2\n\n3 4\n", "line 2, empty or a comment, is a hole after row 1"),
         ("1 2\n3 4\n# second\n3 4\n", "line 3, empty or a comment, is a hole after row 2"),
         ("1 2\n3 abc\n", r"row 2 \(line 2\), column 2: 'abc' is not a number"),
         ("1 2\n3 1_000\n", "'1_000' is not a number"),
         ("1;2,5\n3;4.5\n", "decimal commas and points"),
-        ("ncols 4\n1 2\n", "'ncols' is not a number"),
+        ("ncols 4\n1 2\n", "it states no number of nrows"),
         ("1 2 3 4\n", "1 x 4 heights, a profile"),
         ("1\n2\n3\n", "3 x 1 heights, a profile"),
         ("# only words\n", "holds no numbers"),
@@ -183,7 +182,7 @@ def test_a_line_that_states_its_rows_and_ends_early_is_refused(tmp_path):
 
 
 def test_a_list_of_points_that_ends_within_a_number_is_told(put):
-    points = "".join(f"{k % 4} {k // 4} 0.{k + 1}\n" for k in range(12))
+    points = "".join(f"{k % 4 / 2} {k // 4} 0.{k + 1}\n" for k in range(12))
     assert not any("cut short" in line for line in rc.read(put("a.xyz", points), unit="nm").provenance)
     with pytest.warns(SurfaceWarning, match="its last line has no end: it may be cut short"):
         rc.read(put("a.xyz", points[:-2]), unit="nm")

@@ -100,11 +100,11 @@ def test_what_changes_no_height_is_not_talked_about(put, line):
         ("# x-pixels = 3\n" + ROWS, "its rows hold 4 numbers where it states 3"),
         ("ny = 4\n" + ROWS, "3 rows are there where it states 4: it is cut short"),
         # No name begins with a number, and nan is one: such a line is a damaged row.
-        ("1=2 3 4 5\n" + ROWS, r"'1=2' is not a number"),
-        ("nan: 3 4 5\n" + ROWS, r"'nan:' is not a number"),
+        ("1=2 3 4 5\n" + ROWS, r"'1=2 3 4 5' is not a number"),
+        ("nan: 3 4 5\n" + ROWS, r"'nan: 3 4 5' is not a number"),
         # Words alone are a header only among lines that state something.
-        ("Created by hand\n" + ROWS, "'Created' is not a number"),
-        (ROWS + "width = 8 um\n", "'width = 8 um' is not a number"),
+        ("Created by hand\n" + ROWS, "'Created by hand' is not a number"),
+        (ROWS + "width = 8 um\n", "'width' is not a number"),
         # Two columns under words are no map, however few rows there are.
         ("name: scan\n1 2\n2 3\n", "look like a list of coordinates, not a map"),
     ],

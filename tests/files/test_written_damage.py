@@ -23,6 +23,10 @@ ANY_BYTES = {
     "zeta.zmg",
 }
 REPLACED = {name for name in MUTATIONS if name.startswith(("flipped", "garbage after"))}
+# What stands behind the heights is other data of the instrument: a byte more shifts them.
+SHIFTED = {("zeta.zmg", "a byte more")}
+# A digit less in a text is another number, and no more than one.
+TEXTS = {"text.sdf", "pixel-size.txt", "bare.csv", "gwyddion.txt", "profile.csv", "points.xyz"}
 # Its number of points is stated nowhere.
 ENDLESS = {"profile.csv"}
 
@@ -53,7 +57,10 @@ def test_a_spoilt_file(whole, put, caplog, capfd, mutation):
         left = outcome.heights[:-1]  # the last number may be cut short
         np.testing.assert_array_equal(left, truth.heights[: len(left)])
         return
-    untold = file.name in ANY_BYTES and mutation in REPLACED
+    if file.name in TEXTS and mutation == "a byte less":
+        assert (outcome.heights != truth.heights)[~np.isnan(truth.heights)].sum() <= 1
+        return
+    untold = (file.name in ANY_BYTES and mutation in REPLACED) or (file.name, mutation) in SHIFTED
     assert is_right(outcome, truth) or untold or (warned and path.suffix not in GUARDED)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, SurfaceWarning
 from roughcontact.files.x3p import parse_xml
 
 HEIGHTS = np.array([[0.0, 1e-6, 2e-6], [-1e-6, 5e-7, 3e-6]])
@@ -54,8 +54,14 @@ def test_checksums(put, make_x3p):
     assert len(rc.read(put("a.x3p", make_x3p(HEIGHTS, checksum_of=None))).provenance) == 1
     quirk = rc.read(put("a.x3p", make_x3p(HEIGHTS, checksum_of="points")))
     assert any("states the heights instead of main.xml" in line for line in quirk.provenance)
-    with pytest.raises(rc.ReadError, match=r"a\.x3p: the checksum of main\.xml is wrong.*copy it again"):
-        rc.read(put("a.x3p", make_x3p(HEIGHTS, checksum_of="nothing")))
+    # Programs that change main.xml leave its checksum stale; the heights have one of their own, unless listed.
+    with pytest.warns(SurfaceWarning, match=r"checksum of main\.xml is wrong, that of its heights is right"):
+        changed = rc.read(put("a.x3p", make_x3p(HEIGHTS, checksum_of="nothing")))
+    assert np.array_equal(changed.heights, HEIGHTS, equal_nan=True)
+    assert any("main.xml was changed" in line for line in changed.provenance)
+    for unguarded in ({"listed": True}, {"points_md5": " "}):
+        with pytest.raises(rc.ReadError, match=r"a\.x3p: the checksum of main\.xml is wrong.*copy it again"):
+            rc.read(put("a.x3p", make_x3p(HEIGHTS, checksum_of="nothing", **unguarded)))
     with pytest.raises(rc.ReadError, match="the checksum of the heights is wrong"):
         rc.read(put("a.x3p", make_x3p(HEIGHTS, points_md5=hashlib.md5(b"").hexdigest())))
 

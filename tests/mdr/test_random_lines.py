@@ -69,7 +69,7 @@ def test_gaussian_waves_have_unit_power_on_average():
     [
         (lambda rng: rough_lines(GRID, np.ones_like, rng, 0), "number of lines"),
         (lambda rng: rough_lines(rc.Grid((8, 8), 1.0), np.ones_like, rng, 1), "one axis"),
-        (lambda rng: rough_lines(GRID, np.ones_like, 7, 1), "numpy.random.Generator"),
+        (lambda rng: rough_lines(GRID, np.ones_like, "7", 1), "numpy.random.Generator"),
         (lambda rng: rough_lines(GRID, np.ones_like, rng, 1, rms=-1.0), "rms must be positive"),
         (lambda rng: rough_lines(GRID, rc.SelfAffineSpectrum(0.5), rng, 1), "dimension"),
         (lambda rng: random_waves(GRID, rng, 1, amplitudes="flat"), "'exact' or 'gaussian'"),

@@ -169,15 +169,19 @@ def test_a_server_that_ends_leaves_no_process_and_no_file(tmp_path, name):
     assert session not in served.log
 
 
-def test_workers_end_with_a_server_that_is_killed(tmp_path):
+def test_workers_end_with_a_server_that_is_killed_and_its_files_at_the_next_start(tmp_path):
     served = started(tmp_path)
     session = served.begin()
+    served.put(session, "part.npy", b"heights")
     assert last(served.order(session, "look", {"source": MADE}))["how"] == "done"
     workers = served.workers
     served.process.kill()
     served.process.wait()
     served.process.stdout.close()
     assert psutil.wait_procs(workers, timeout=PATIENCE)[1] == []
+    assert len(served.left()) == 1
+    ended(started(tmp_path))
+    assert {path.name for path in tmp_path.iterdir()} == {"log"}
 
 
 def refused(*arguments):

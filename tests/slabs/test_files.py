@@ -29,6 +29,27 @@ def in_slabs(surface, communicator):
     return rc.Surface(slabs.array(surface.heights[rows]), surface.grid, surface.provenance)
 
 
+@pytest.mark.parametrize("beside", ["axes", "points", "list"])
+def test_what_is_beside_heights_is_left_to_one_process(beside, tmp_path):
+    heights = rough((12, 12)).heights * 1e6
+    y, x = np.indices(heights.shape) * 0.5
+    lists = {
+        "points": np.c_[x.ravel(), y.ravel(), heights.ravel()],
+        "list": np.c_[x.ravel(), heights.ravel()],
+    }
+    np.save(tmp_path / "map.npy", lists.get(beside, np.vstack([x[0], heights])))
+
+    def work(communicator):
+        with pytest.raises(rc.ReadError, match=r"read it by one process|look like places and heights"):
+            rc.read(tmp_path / "map.npy", unit="um", size="6 um", slabs=rc.Slabs(communicator))
+
+    together(2, work)
+    if beside != "list":
+        with pytest.warns(rc.SurfaceWarning, match="places, no heights|points x, y, z"):
+            whole = rc.read(tmp_path / "map.npy", unit="um", size="6 um")
+        np.testing.assert_array_equal(whole.heights, heights * 1e-6)
+
+
 @pytest.mark.usefixtures("turns")
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", ["map.npy", "map.nc", "map.npz"])

@@ -367,6 +367,25 @@ def test_a_spectrum_that_sets_the_height():
         np.testing.assert_allclose(heights, here.heights, rtol=0, atol=1e-14 * here.rms)
 
 
+def test_processes_agree_on_what_they_draw():
+    """The same seed on all; without any, the first process draws for all."""
+    grid = rc.Grid((16, 16), 1e-6, periodic=True)
+
+    def work(communicator, rng):
+        return rc.self_affine(grid, 0.8, 1e-7, rng, slabs=rc.Slabs(communicator)).heights.gathered()
+
+    for heights in together(3, lambda one: work(one, 5)):
+        np.testing.assert_array_equal(
+            heights, together(1, lambda one: work(one, np.random.default_rng(5)))[0]
+        )
+    unseeded = together(3, lambda one: work(one, None))
+    for heights in unseeded:
+        np.testing.assert_array_equal(heights, unseeded[0])
+    assert not np.array_equal(unseeded[0], together(3, lambda one: work(one, None))[0])
+    with pytest.raises(ValueError, match="as rng=1"):
+        together(2, lambda one: work(one, None if one.rank else 5))
+
+
 def test_surfaces_that_are_not_made_in_place():
     grid = rc.Grid((16, 16), 1e-6, periodic=True)
 

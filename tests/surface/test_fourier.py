@@ -131,9 +131,43 @@ def test_nonsense_is_refused(more, message):
         make(**more)
 
 
-def test_a_seed_is_not_a_generator():
-    with pytest.raises(ValueError, match="default_rng"):
-        rc.self_affine(SQUARE, 0.8, 0.3, 7)
+SEEDS = {
+    "int": lambda: 7,
+    "numpy integer": lambda: np.int64(7),
+    "sequence": lambda: [7],
+    "SeedSequence": lambda: np.random.SeedSequence(7),
+    "BitGenerator": lambda: np.random.PCG64(7),
+    "Generator": lambda: np.random.default_rng(7),
+}
+MAKERS = {
+    "self_affine": lambda rng: rc.self_affine(SQUARE, 0.8, 0.3, rng=rng).heights,
+    "synthesise": lambda rng: rc.synthesise(SQUARE, lambda q: q**-3.0, rng=rng).heights,
+    "midpoint_line": lambda rng: rc.midpoint_line(rc.Grid(17, 1.0), 0.8, rng=rng, rms=1.0).heights,
+    "midpoint_surface": lambda rng: rc.midpoint_surface(rc.Grid((9, 9), 1.0), 0.8, rng=rng, rms=1.0).heights,
+    "random_waves": lambda rng: rc.mdr.random_lines.random_waves(LINE, rng, 3),
+    "rough_lines": lambda rng: np.concatenate(
+        list(rc.mdr.random_lines.rough_lines(rc.Grid(2**19, 1.0), lambda q: q**-2.0, rng, 3))
+    ),
+}
+
+
+@pytest.mark.parametrize("maker", MAKERS)
+def test_rng_is_what_default_rng_takes(maker):
+    make = MAKERS[maker]
+    expected = make(np.random.default_rng(7))
+    for name, seed in SEEDS.items():
+        np.testing.assert_array_equal(make(seed()), expected, err_msg=name)
+    assert not np.array_equal(make(8), expected)
+    assert not np.array_equal(make(None), make(None))
+    for wrong in ("seven", 0.5, -1):
+        with pytest.raises(ValueError, match="such as rng=1, or None"):
+            make(wrong)
+
+
+def test_a_generator_moves_on_and_a_seed_does_not():
+    rng = np.random.default_rng(7)
+    assert not np.array_equal(MAKERS["self_affine"](rng), MAKERS["self_affine"](rng))
+    np.testing.assert_array_equal(MAKERS["self_affine"](7), MAKERS["self_affine"](7))
 
 
 def estimated(surface):

@@ -160,7 +160,7 @@ def test_rms_height(made):
             lambda: midpoint_line(rc.Grid(65, 1.0, True), 0.5, np.random.default_rng(0), rms=1.0),
             "periodic=False",
         ),
-        (lambda: midpoint_line(rc.Grid(65, 1.0), 0.5, 3, rms=1.0), "default_rng"),
+        (lambda: midpoint_line(rc.Grid(65, 1.0), 0.5, "3", rms=1.0), "rng must be"),
         (
             lambda: midpoint_surface(rc.Grid((9, 17), 1.0), 0.5, np.random.default_rng(0), rms=1.0),
             "a square of",

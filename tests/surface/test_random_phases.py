@@ -87,8 +87,9 @@ def test_a_generator_moves_on_by_the_key_alone():
     keys = draw_keys(one, 2)
     np.testing.assert_array_equal(keys.ravel(), other.bit_generator.random_raw(4))
     assert one.bit_generator.state == other.bit_generator.state
-    with pytest.raises(ValueError, match="default_rng"):
-        draw_keys(5)
+    np.testing.assert_array_equal(draw_keys(5, 2), keys)
+    with pytest.raises(ValueError, match="rng must be"):
+        draw_keys(5.5)
 
 
 def kuiper(values):

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ellipkm1
 
+import roughcontact as rc
 from roughcontact.theory import hertz
 
 POINT = {
@@ -302,3 +303,53 @@ class TestElliptic:
             hertz.elliptic(1.0, radii=(1.0, 0.0), force=1.0)
         with pytest.raises(ValueError, match="determine the rest"):
             hertz.elliptic(1.0, radii=(1.0, 1.0))
+
+
+def flamant(x, y, apex, side):
+    """Stresses (xx, yy, xy) of a unit line load at (0, apex) along y, into the half-plane on one side."""
+    depth = side * (y - apex)
+    r2 = x**2 + depth**2
+    radial = -2 / np.pi * depth / r2**2
+    return radial * x**2, radial * depth**2, side * radial * x * depth
+
+
+def test_the_axes_of_two_cylinders_approach_by_the_depth_with_this_reference_length():
+    """A disc under two opposite loads: line loads and a uniform tension leave its rim free; Hertz near the contact."""
+    radius, nu, a = 1.0, 0.3, 1e-3
+    angle = np.radians([3.0, 40.0, 75.0])
+    x, y = radius * np.cos(angle), radius * np.sin(angle)
+    one, other = flamant(x, y, radius, -1), flamant(x, y, -radius, 1)
+    xx, yy, xy = (p + q for p, q in zip(one, other, strict=True))
+    xx, yy = xx + 1 / (np.pi * radius), yy + 1 / (np.pi * radius)
+    assert np.abs([xx * x + xy * y, xy * x + yy * y]).max() < 1e-14 / radius
+
+    def strain(s):
+        """Plane strain towards the axis at a depth s, times E/(1 - nu^2): of half an ellipse of pressure nearby."""
+        root = np.hypot(a, s)
+        along = -2 / (np.pi * root) - 2 / (np.pi * (2 * radius - s)) + 1 / (np.pi * radius)
+        across = -2 / (np.pi * a) * (root / a + s * (s / root) / a - 2 * s / a) + 1 / (np.pi * radius)
+        return along - nu / (1 - nu) * across
+
+    ends = [0.0, *10.0 ** np.arange(-6, 1)]
+    parts = (quad(strain, *pair, epsabs=0, epsrel=1e-11)[0] for pair in itertools.pairwise(ends))
+    shortening = -sum(parts)
+    assert shortening == pytest.approx((2 * np.log(4 * radius / a) - 1) / np.pi, rel=3 * a)
+    # Two of one material: 1/E* = 2 (1 - nu^2)/E, here 2, and each is of half of it.
+    modulus, radii = 0.5, (radius, 4 * radius)
+    force = np.pi * modulus * a**2 / (4 * (radii[0] * radii[1] / sum(radii)))
+    both = force * (shortening + shortening + 2 * np.log(radii[1] / radii[0]) / np.pi)
+    reduced = radii[0] * radii[1] / sum(radii)
+    contact = hertz.line(
+        modulus, radius=reduced, force=force, reference_length=2 * np.sqrt(radii[0] * radii[1]) / np.e
+    )
+    assert contact.half_width == pytest.approx(a, rel=1e-12)
+    assert contact.depth == pytest.approx(both, rel=3 * a)
+    # And as it is computed: a cell is 1/100 of the half width.
+    grid = rc.Grid(400, a / 100)
+    pressed = rc.press(
+        rc.shapes.paraboloid(grid, reduced),
+        modulus,
+        force=float(force),
+        operator=rc.line(grid, modulus, reference_length=contact.reference_length),
+    )
+    assert pressed.depth == pytest.approx(both, rel=3e-3)

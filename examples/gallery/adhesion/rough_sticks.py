@@ -18,10 +18,9 @@ depths = np.append(there, there[-2::-1])  # and back
 axes, pull_off = plt.subplots()[1], []
 for rms in 3e-7, 6e-7, 1.2e-6:
     pad = rc.self_affine(grid, rms=rms, **waves, rng=np.random.default_rng(1))
-    path = rc.loading_path(pad, 1e6, depths=depths, adhesion=attraction)
-    forces = np.array([state.force for state in path])
-    axes.plot(depths * 1e6, forces * 1e6, ".-", label=f"{rms * 1e6:.1f} µm rms")
-    pull_off.append(-forces.min())
+    curve = rc.loading_curve(pad, 1e6, depths=depths, adhesion=attraction)
+    axes.plot(depths * 1e6, curve.force * 1e6, ".-", label=f"{rms * 1e6:.1f} µm rms")
+    pull_off.append(curve.pull_off_force)
 axes.set(xlabel="depth [µm]", ylabel="force [µN]")
 axes.legend()
 

@@ -59,7 +59,7 @@ class Blank:
     tolerance : float
         Largest residual.
     resolved : bool
-        Whether the attraction varies over more than a cell and a half.
+        Whether the attraction varies over at least a cell and a half.
     """
 
     operator: Operator
@@ -93,11 +93,15 @@ class AdhesiveState:
     residual : float
         Largest violation of the conditions of equilibrium as a traction, relative to the law's largest attraction or
         the largest pressure if that is larger, on an exact product with the pressure. A gap in contact counts by the
-        pressure on its cell alone that would close it.
+        pressure on its cell alone that would close it. Under a given force also the error of the force, relative to the
+        sum of all tractions without their signs.
     jumps : tuple of Jump
         Instabilities on the way from the state before.
     products : int
         Products with the stiffness or the compliance of the body since the state before.
+    lowest_force : float
+        Lowest force since the body is drawn back [N], on the way and in jumps: minus its largest tension, to 1e-6 of it
+        (under given forces to the bracket of the last jump). After an approach, the force of the state.
     detachments : tuple of Detachment
         Of the sharp law: cells that let go on the way from the state before. Which are events of the lattice alone
         cannot be told on one grid; only that after which nothing is in contact is also among the jumps.
@@ -124,6 +128,7 @@ class AdhesiveState:
     residual: float
     jumps: tuple[Jump, ...]
     products: int
+    lowest_force: float
     detachments: tuple[Detachment, ...] = ()
 
     @property
@@ -221,19 +226,18 @@ class AdhesiveState:
 
     @property
     def stability(self) -> float:
-        """Smallest eigenvalue of the Hessian on the free cells, relative to the elastic one, as it is controlled.
+        """Smallest eigenvalue found of the Hessian on the free cells, relative to the elastic one, as it is controlled.
 
-        At given depth, or under a given force with the depth free. One without attraction, zero where the branch ends.
-        Cells whose reaction is as good as none count as free.
+        At given depth, or under a given force with the depth free: 1 without attraction, 0 where the branch ends. The
+        smallest eigenvalue is at most this; one that two searches from different starts missed is not excluded. Cells
+        whose reaction is as good as none count as free. With the sharp law it is 1: cells that let go are no end of
+        a branch that the Hessian shows.
         """
         return self._ritz[0]
 
     @property
-    def stability_bound(self) -> float:
-        """How far the next eigenvalue may be from `stability`, by the residual of its vector.
-
-        The smaller of two searches from different starts; a smaller eigenvalue that both missed is not excluded.
-        """
+    def stability_residual(self) -> float:
+        """Residual of the eigenvector of `stability`: some eigenvalue, not always the smallest, lies within it."""
         return self._ritz[1]
 
     @cached_property
@@ -305,7 +309,7 @@ class AdhesiveState:
 
     def _slope(self, curvature: Array) -> float:
         free = self._loose(self.contact)
-        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0))
+        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0), Counter())
 
     @property
     def _weights(self) -> float | Array:
@@ -320,7 +324,10 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     law = energy.attraction.on(inside)
     if released(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
-        return AdhesiveState(blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products)
+        lowest = min(0.0, station.lowest_force)
+        return AdhesiveState(
+            blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest
+        )
     depth = control.depth(value, point)
     gap = point.gap[inside]
     contact = gap <= 0
@@ -332,7 +339,9 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     reaction = pressure + law.traction(np.maximum(exact, 0.0))
     worst = float(np.abs(np.minimum(exact / energy.form.reference, reaction)).max())
     residual = worst / energy.scale(point)
+    weighted = pressure * blank.operator.weights
+    force = float(weighted.sum())
     if isinstance(control, ForceControl):
-        weighted = pressure * blank.operator.weights
-        residual = max(residual, abs(float(weighted.sum()) - value) / float(np.abs(weighted).sum()))
-    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products)
+        residual = max(residual, abs(force - value) / float(np.abs(weighted).sum()))
+    lowest = min(force, station.lowest_force)
+    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products, lowest)

@@ -8,13 +8,14 @@ down to a bracket; what is left then is a limit point of the branch, and the bod
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import flow, released
+from roughcontact.adhesion.lowest_force import LowestForce
 from roughcontact.adhesion.reduced_hessian import smallest_ratio
 from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, Equilibrium, minimise
 from roughcontact.validation import Array
@@ -22,7 +23,7 @@ from roughcontact.validation import Array
 __all__ = ["Jump", "QuasiStatic", "Station"]
 
 MOVED = 1e-2  # of the range of the attraction: below, a body has not jumped
-ON_THE_WAY = 1e-6  # residual of states that nobody asked for
+ON_THE_WAY = 1e-8  # residual of states that nobody asked for
 ROUGH = 1e-4  # residual at which the way of a step is judged first
 SAME = 1e-5  # of the range of the attraction: gaps of two states that are one
 
@@ -46,7 +47,8 @@ class Jump:
     approach : bool
         Whether the depth (or force) was growing.
     ambiguous : bool
-        Whether two integrations of the gradient flow ended in different states.
+        Whether two integrations of the gradient flow ended in different states, of which one may be that of a body
+        that is pulled off.
 
     Examples
     --------
@@ -71,13 +73,17 @@ class Jump:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Station:
-    """A state on a path: what is prescribed, and the jumps on the way to it."""
+    """A state on a path: what is prescribed, the jumps on the way to it, and the lowest force of the retreat so far.
+
+    The lowest force is infinite where the path has begun, or the body has approached.
+    """
 
     value: float
     point: Point
     residual: float
     converged: bool
     jumps: tuple[Jump, ...] = ()
+    lowest_force: float = math.inf
 
 
 @dataclass(slots=True)
@@ -138,7 +144,10 @@ class QuasiStatic:
         """Return the state under another value of what is prescribed."""
         jumps: list[Jump] = []
         if released(self.control.energy_at(target), station.point):
-            return Station(target, station.point, station.residual, True)
+            return replace(station, value=target, converged=True, jumps=())
+        lowest = LowestForce(self.control, self.counter, station.lowest_force)
+        if retreats := target < station.value:
+            lowest.begin(station.value, station.point)
         here, stride = station, _Stride(self.bracket, abs(target - station.value))
         # Of the displacement with what is prescribed, in the last step, beyond what the wall takes along.
         change: Array | float = 0.0
@@ -157,6 +166,8 @@ class QuasiStatic:
             if end is not None:
                 change = (end.point.displacement - begin.displacement) / length
                 here = Station(value, end.point, end.residual, True)
+                if retreats:
+                    lowest.go_on(value, here.point)
                 stride.taken(length)
             elif length > self.bracket:
                 stride.missed(length)
@@ -166,8 +177,11 @@ class QuasiStatic:
                 jumps += [jump] if jump else []
                 if released(energy, here.point):
                     break
+                if retreats:
+                    lowest.begin(value, here.point)
                 stride = _Stride(self.bracket, abs(target - here.value))
-        return Station(target, here.point, here.residual, here.converged, tuple(jumps))
+        force = math.inf if target > station.value else lowest.force
+        return Station(target, here.point, here.residual, here.converged, tuple(jumps), force)
 
     def _end(
         self, energy: GapEnergy, before: Point, begin: Point, guess: Array, tolerances: tuple[float, ...]
@@ -194,7 +208,7 @@ class QuasiStatic:
             return station, None  # the branch goes on, too flat for the test of convexity
         off = released(energy, end.point)
         other = flow(energy, start, self._convex, self.counter, even=True).equilibrium
-        apart = float(np.abs(end.point.displacement - other.point.displacement).max())
+        apart = float(np.abs(end.point.displacement - other.point.displacement).max()) > SAME * scale
         jump = Jump(
             self.control.depth(here.value, here.point),
             math.nan if off else self.control.depth(value, end.point),
@@ -203,7 +217,7 @@ class QuasiStatic:
             abs(value - here.value),
             math.inf if off else landing.lost,
             value > here.value,
-            not off and apart > SAME * scale,
+            off != released(energy, other.point) or (apart and not off),
         )
         return station, jump
 

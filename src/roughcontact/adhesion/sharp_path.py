@@ -62,12 +62,14 @@ def _drawn_back(blank: Blank, goals: list[float]) -> Iterator[AdhesiveState]:
             work,
             mean_compliance(blank.operator.grid, blank.modulus),
         )
-    here = goals[0]
+    here, lowest = goals[0], math.inf
     for goal in goals:
         with one_blas_thread():
             events = tuple(stuck.drawn_back(here, goal, by_force))
             depth = stuck.depth(goal) if by_force else goal
-            state = _state(blank, stuck, depth, goal if by_force else None, events, counter.products)
+            # Between events the force is linear in the depth and falls with it: it is lowest before one, or at the end.
+            lowest = min(lowest, *(event.force_before for event in events), stuck.force(depth))
+            state = _state(blank, stuck, depth, goal if by_force else None, events, counter.products, lowest)
         here = goal
         counter = Counter()
         yield state
@@ -80,6 +82,7 @@ def _state(
     force: float | None,
     events: tuple[Detachment, ...],
     products: int,
+    lowest: float,
 ) -> AdhesiveState:
     pressure, contact = stuck.pressure(depth)
     for array in (pressure, contact):
@@ -98,7 +101,7 @@ def _state(
     jumps = tuple(
         Jump(e.depth, e.depth_after, e.force_before, e.force_after, 0.0, e.lost, False, False) for e in off
     )
-    return AdhesiveState(blank, law, depth, pressure, contact, residual, jumps, products, events)
+    return AdhesiveState(blank, law, depth, pressure, contact, residual, jumps, products, lowest, events)
 
 
 def _relative(traction: float, pressure: Array) -> float:

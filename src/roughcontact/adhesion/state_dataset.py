@@ -36,7 +36,7 @@ _SCALARS = (
         "adhesive_energy",
         "energy",
         "stability",
-        "stability_bound",
+        "stability_residual",
         "residual",
         "unresolved",
     ),

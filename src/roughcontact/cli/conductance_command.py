@@ -15,6 +15,7 @@ from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY
+from roughcontact.files.installed import lacking
 from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
@@ -121,6 +122,8 @@ def _read(path: Path) -> xarray.Dataset:
     """Return the dataset of a curve from its file."""
     import xarray
 
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
+        raise UsageError(f"{path} needs {lack[0]}; {lack[1]}")
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             return dataset.load()

@@ -98,7 +98,7 @@ class Loads:
         """
         given = asdict(self)
         if (gaps := given.pop("mean_gaps")) is not None:
-            from roughcontact.contact.sticking import refuse_gaps
+            from roughcontact.contact.mean_gaps import refuse_gaps
 
             refuse_gaps(parse_path(gaps, LENGTH, "--mean-gaps"))
         if not any(text is not None for text in given.values()):

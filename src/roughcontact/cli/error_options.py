@@ -76,21 +76,23 @@ class Errors:
 
     def check_for(self, surface: Surface) -> None:
         """Refuse a surface or a cut-off that errors are not known for, before it is pressed."""
-        from roughcontact.contact.error_sources import checked_cutoff
-
         if not self.errors:
             return
         if surface.grid.ndim != 2:
             raise UsageError("--errors are those of a map of heights, not of a profile: leave it out")
+        from roughcontact.contact.error_sources import checked_cutoff
+
         checked_cutoff(surface, self._cutoff())
 
     def of(self, solutions: Iterable[Solution]) -> tuple[LoadErrors, ...]:
         """Return the errors of loads, if they are wanted; a note says where there are none, and why."""
+        if not self.errors:
+            return ()
         from roughcontact.contact.convergence import ConvergenceError
         from roughcontact.contact.error_sources import error_budget
 
         found = []
-        for solution in solutions if self.errors else ():
+        for solution in solutions:
             at = quantity("force", solution.force)
             with doing(f"Errors at {at}: half the cells, no short waves, other levelling"):
                 try:

@@ -13,6 +13,7 @@ from typing import NoReturn
 from roughcontact.cli.error_object import emit_error
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, MISTAKE, TERMINATED
 from roughcontact.cli.job import as_one, refusal
+from roughcontact.files.installed import broken_package
 
 __all__ = ["run"]
 
@@ -58,6 +59,11 @@ def _run() -> None:
             message = told()
             sys.stderr.write(f"Error: {message}\n")
             emit_error("usage", message, BAD_INPUT)
+            sys.exit(BAD_INPUT)
+        if (broken := broken_package(error)) is not None:
+            sys.stderr.write(f"Error: {broken}\n")
+            if _as_json():
+                emit_error("installation", broken, BAD_INPUT)
             sys.exit(BAD_INPUT)
         traceback.print_exc()
         sys.stderr.write("This is a mistake in roughcontact, not in your input: please report these lines.\n")

@@ -23,14 +23,18 @@ __all__ = ["all_or_none", "command_line", "output"]
 
 
 def output(folder: Path | None) -> AbstractContextManager[Path | None]:
-    """Return a context that checks the folder before the work, and undoes its creation if that fails.
+    """Return a context that checks before the work that results can be written to a folder.
+
+    It undoes the creation of the folder if the work fails.
 
     Of the processes of a job all enter it, and the first alone gets the folder.
     """
-    from roughcontact.files.aside import output_folder
-
     if folder is None:
         return nullcontext()
+    from roughcontact.files.aside import output_folder
+    from roughcontact.files.write import require_netcdf
+
+    require_netcdf()
     slabs = slabs_of_job()
     return output_folder(folder) if slabs is None else _of_first(slabs.communicator, folder)
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.console import Console
-from rich.status import Status
 
 from roughcontact.cli.messages import note
 from roughcontact.plot.adhesive_facts import (
@@ -33,6 +33,8 @@ from roughcontact.plot.facts import (
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from rich.console import Console
 
 __all__ = [
     "ADHESIVE_COLUMNS",
@@ -62,11 +64,15 @@ __all__ = [
 
 def screen() -> Console:
     """Return standard error as a console, for progress."""
+    from rich.console import Console
+
     return Console(stderr=True)
 
 
-def doing(words: str) -> Status:
+def doing(words: str) -> AbstractContextManager[object]:
     """Say on a terminal what is being done, as long as it takes."""
+    if not sys.stderr.isatty():
+        return nullcontext()
     return screen().status(f"{words} ...")
 
 

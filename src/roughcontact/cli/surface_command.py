@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,6 @@ from roughcontact.cli import options
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
-from roughcontact.cli.output import output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
@@ -61,6 +61,7 @@ def info(
     """
     file = source.file
     with reported(file, out, as_json=json) as beside:
+        from roughcontact.files.aside import output_folder
         from roughcontact.files.file_errors import ReadError
         from roughcontact.plot.advice import advice
 
@@ -82,7 +83,7 @@ def info(
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
-        with output(out) as folder:
+        with nullcontext() if out is None else output_folder(out) as folder:
             if folder is not None:
                 with doing("Drawing"):
                     _draw(surface, spikes, folder / f"surface.{ending}")

@@ -60,14 +60,14 @@ class Theories:
         UsageError
             If one does not exist, or is named twice, or something is said about theories and none is named.
         """
-        from roughcontact.theory.laws import LAWS
-
         if self.theory is None:
             said = {"--hurst": self.hurst, "--rolloff": self.rolloff, "--radius": self.radius}
             for option, value in said.items():
                 if value is not None:
                     raise UsageError(f"{option} is for theories: name them, such as --theory persson,gw")
             return ()
+        from roughcontact.theory.laws import LAWS
+
         names = tuple(part.strip() for part in self.theory.split(",") if part.strip())
         for name in names:
             if name not in LAWS:
@@ -105,11 +105,12 @@ class Theories:
         UsageError
             If a theory needs a number that only the user can give.
         """
+        if not (names := self.checked()):
+            return {}, {}, {}
         import roughcontact as rc
         from roughcontact.contact.theories import facts_for
         from roughcontact.theory.laws import LAWS
 
-        names = self.checked()
         known = self.knowns() | ({} if hardness is None else {"hardness": hardness})
         for name in names:
             for need, (what, example) in _ONLY_GIVEN.items():

@@ -26,7 +26,7 @@ __all__ = ["AdhesiveLoop", "collect_states"]
 
 _POINTS = (
     *("depth", "force", "contact_area", "energy", "residual"),
-    *("stiffness", "contact_stiffness", "mean_gap", "elastic_energy"),
+    *("stiffness", "contact_stiffness", "mean_gap", "elastic_energy", "lowest_force"),
 )
 
 
@@ -47,7 +47,8 @@ class AdhesiveLoop:
     residual : array, shape (n,)
         The certificate of each state.
     approach : array of bool, shape (n,)
-        Whether what is prescribed brought the bodies together: the depth or the force was growing.
+        Whether what is prescribed brought the bodies together: the depth or the force was growing. The first point
+        is of an approach; of equal loads the later goes the way of the earlier.
     jumps : tuple of Jump
         Every instability, in order.
     jumped : tuple of int
@@ -58,6 +59,9 @@ class AdhesiveLoop:
         Slope of the force with the depth along the branch, and at fixed contact and attraction [N/m].
     mean_gap, elastic_energy : array, shape (n,)
         [m], over the measured cells; [J].
+    lowest_force : array, shape (n,)
+        Lowest force since the body is drawn back [N], between the points and in jumps; after an approach, that of the
+        point. See `AdhesiveState`.
     status : tuple of Status
     control : {"depth", "force"}
         What was prescribed.
@@ -80,7 +84,7 @@ class AdhesiveLoop:
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
     >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9)
     >>> f"pulled off at {loop.pull_off_force * 1e9:.0f} nN, {loop.lost * 1e18:.0f} aJ are lost", loop.ambiguous
-    ('pulled off at 495 nN, 478 aJ are lost', False)
+    ('pulled off at 499 nN, 478 aJ are lost', False)
     >>> loop.plot().get_xlabel(), loop.to_dataset()["jump_lost"].attrs["units"], loop.to_record()["law"]
     ('depth [nm]', 'J', 'exponential')
     """
@@ -98,6 +102,7 @@ class AdhesiveLoop:
     contact_stiffness: Array
     mean_gap: Array
     elastic_energy: Array
+    lowest_force: Array
     status: tuple[Status, ...]
     control: Literal["depth", "force"]
     adhesion: Adhesion
@@ -115,19 +120,24 @@ class AdhesiveLoop:
 
     @property
     def pull_off_force(self) -> float:
-        """Largest tension of the retreat [N], positive, at the points and at the jumps; 0 where nothing pulls back."""
-        back = self.force[~self.approach]
-        jumps = [jump.force_before for jump in self.jumps if not jump.approach]
-        return float(max((0.0, *(-force for force in (*back.tolist(), *jumps)))))
+        """Largest tension of the retreat [N], positive; 0 where nothing pulls back.
+
+        It is the extremum of the force along the path, whatever the points: under given depths it is found to 1e-6 of
+        itself, under given forces to the bracket of the jump that pulls the body off.
+        """
+        return float(max(0.0, *-self.lowest_force[~self.approach], 0.0))
 
     @property
     def jump_in_force(self) -> float:
-        """Tension from which the body first jumped on the approach [N], positive; NaN if it never did."""
+        """Tension from which the body first jumped on the approach [N]; negative if it was pressed, NaN if none."""
         return next((-jump.force_before for jump in self.jumps if jump.approach), math.nan)
 
     @property
     def lost(self) -> float:
-        """Energy lost in all jumps [J]: the area of the loop, if it is closed."""
+        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed.
+
+        With the sharp law cells let go without a jump, and what they lose stands in the detachments of the states.
+        """
         return math.fsum(jump.lost for jump in self.jumps)
 
     @property

@@ -46,7 +46,8 @@ def adhesive_loop(
     depth : float
         Where the body turns back [m].
     points : int
-        Of the approach, from ten ranges of the attraction apart; the retreat has the same steps.
+        Steps of the approach, from ten ranges of the attraction apart to the depth, which is a point of its own; the
+        retreat has the same steps.
     operator : Operator, optional
         Another body than the half-space on the surface's grid, see `press`.
     tolerance : float
@@ -71,7 +72,7 @@ def adhesive_loop(
     >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
     >>> loop = rc.adhesive_loop(ball, 1e8, adhesion, depth=10e-9)
     >>> f"pull-off {loop.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R"
-    'pull-off 1.62 pi w R'
+    'pull-off 1.63 pi w R'
     """
     wanted = f"an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not {shown(adhesion)}"
     require(isinstance(adhesion, Adhesion), wanted)

@@ -24,7 +24,7 @@ __all__ = ["LOOP_POINTS", "LOOP_SCALES", "adhesive_loop_dataset", "adhesive_loop
 
 LOOP_POINTS = (
     *("force", "depth", "stiffness", "contact_stiffness", "contact_area", "mean_gap"),
-    *("elastic_energy", "energy", "residual"),
+    *("elastic_energy", "energy", "residual", "lowest_force"),
 )
 """What a path has at each load, and a file holds."""
 LOOP_SCALES = ("modulus", "nominal_area", "rms")

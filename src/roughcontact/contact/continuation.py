@@ -27,6 +27,8 @@ def follow(
 ) -> Iterator[Solution]:
     """Yield the solution of the same bodies under one control after the other.
 
+    Nothing is predicted from a load that missed its tolerance: the load after it starts as a load of its own does.
+
     Parameters
     ----------
     problem : ContactProblem
@@ -34,7 +36,7 @@ def follow(
         Rising, or falling.
     solver : Solver
     start : Solution, optional
-        Of the same bodies, to predict the first load from.
+        Of the same bodies, to predict the first load from, if it met its tolerance.
     subdomains : SubdomainSolver, optional
         Of the operator; it keeps restricted operators.
     """
@@ -42,8 +44,7 @@ def follow(
     guess: Start | None = None
     last: Tangent | None = None
     if start is not None:
-        guess = _predicted(start, controls[0])
-        last = Tangent(start.frozen.tangent, math.inf) if start.stiffness < math.inf else None
+        guess, last = _predicted(start, controls[0]), _tangent(start)
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here, state, subdomain = solve_state(problem.under(control), solver, guess, subdomains)
         shape = problem.grid.shape
@@ -63,8 +64,7 @@ def follow(
             state.steps,
             FrozenContact(frozen.stiffness, frozen.residual, prolong(frozen.tangent, subdomain, shape)),
         )
-        # That of another region: where to start. That of a whole period is infinite.
-        last = Tangent(solution.frozen.tangent, math.inf) if solution.stiffness < math.inf else None
+        last = _tangent(solution)
         yield solution
         if following is not None:
             advance = _advance(solution, following)
@@ -88,14 +88,22 @@ def _predicted(start: Solution, control: Control) -> Start | None:
     return Start(pressure, start.depth + advance)
 
 
+def _tangent(solution: Solution) -> Tangent | None:
+    """Return from where to seek the tangent of the next region; None of a missed load or a whole period (infinite)."""
+    known = solution.status.converged and solution.stiffness < math.inf
+    return Tangent(solution.frozen.tangent, math.inf) if known else None
+
+
 def _advance(solution: Solution, following: Control) -> float | None:
-    """Return by how much the depth grows to the next load if the contact region stays as it is [m]; None without one.
+    """Return by how much the depth grows to the next load if the contact region stays as it is [m].
+
+    None without contact, or after a load that missed its tolerance.
 
     The force is convex in the depth, so this overestimates the depth at a given force: the window found
     from it is safe.
     """
     k = solution.stiffness
-    if k == 0:  # no contact yet
+    if k == 0 or not solution.status.converged:
         return None
     if not np.isfinite(k):  # full contact of a periodic surface: only the mean pressure grows
         return 0.0

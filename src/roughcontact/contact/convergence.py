@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState
-
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.contact.solution import Solution
 
 __all__ = ["ConvergenceError"]
@@ -31,6 +30,8 @@ class ConvergenceError(RuntimeError):
         self.solution: Any = solution  # which of the two, whoever pressed knows
 
     def __str__(self) -> str:
+        from roughcontact.adhesion.adhesive_state import AdhesiveState
+
         solution = self.solution
         if isinstance(solution, AdhesiveState):
             tolerance, words = solution.blank.tolerance, "the path"

@@ -11,6 +11,7 @@ import numpy as np
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.contact.error_notes import notes_on_sources
 from roughcontact.contact.load_search import SurfaceKind
 from roughcontact.contact.perimeter import corrected_area
 from roughcontact.contact.press import solve
@@ -21,6 +22,7 @@ from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.solver.control import Force
 from roughcontact.surface.filters import require_cells
+from roughcontact.surface.finest_waves import is_rough_to_cells
 from roughcontact.surface.halving import halved
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, positive_scalar
@@ -28,6 +30,7 @@ from roughcontact.validation import Array, numeric, positive_scalar
 __all__ = ["NUMBERS", "checked_cutoff", "error_budget"]
 
 CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none on a free map
+OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
 SAME = 1e-9  # relative difference up to which two loads or spacings are one
 NUMBERS = (
     *("force", "depth", "stiffness", "interfacial_stiffness", "interfacial_stiffness_per_area"),
@@ -71,6 +74,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     change is what the grid at hand gained over that one; on nested surfaces it is more than what it still lacks.
     *Short cut-off*: what the shortest waves of the map do. Still shorter ones do as much again to the area, and the
     depth counts from the highest point of all: their errors are those of a surface without shorter waves than its map.
+    On a map that is rough down to its cells the depth has none (NaN), because it would grow with the grid.
     The largest pressure grows with the waves, and at the border of a free map with the grid: it has no error at all.
     *Levelling*: the map less its least-squares quadratic. *Patches*: the standard error of the mean over them. The
     first two have the waves of two to four cells in common, so that the error is rather too large (docs/errors.md).
@@ -122,12 +126,24 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
             sources.append(ErrorSource("patches", "standard error", many))
             parts.append(values.std(axis=1, ddof=1) / math.sqrt(len(patches)))
     prescribed = "force" if isinstance(first.control, Force) else "depth"
+    if any(map(is_rough_to_cells, surfaces)):
+        for part in parts[: len(OF_CELLS)]:
+            part[NUMBERS.index("depth")] = math.nan
+        notes.append(_of_highest_point(prescribed))
     numbers = tuple(
         QuotedNumber(name, float(value), VARIABLES[name].unit, tuple(map(float, part)))
         for name, value, part in zip(NUMBERS, values.mean(axis=1), np.transpose(parts), strict=True)
         if name != prescribed
     )
-    return ErrorBudget(numbers, tuple(sources), tuple(notes))
+    return ErrorBudget(numbers, tuple(sources), (*notes, *notes_on_sources(numbers, sources)))
+
+
+def _of_highest_point(prescribed: str) -> str:
+    """Return what is said of the depth of a map that is rough down to its cells."""
+    why = "This map is rough down to its cells, and finer waves raise the highest point, from which the depth counts"
+    if prescribed == "depth":
+        return f"{why}: the errors at a given depth grow with the grid. Prescribe the force or the pressure."
+    return f"{why}: the depth has no error, because it would grow with the grid. Quote the mean gap."
 
 
 def _check(patches: Sequence[Solution]) -> None:

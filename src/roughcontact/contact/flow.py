@@ -9,8 +9,11 @@ surface flow again.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, TypeVar
+
+import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace, on_host
 from roughcontact.solver.inner_product import Measure
@@ -18,7 +21,7 @@ from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Flow", "FlowReading", "flow_of", "flow_reading"]
+__all__ = ["Flow", "FlowReading", "flow_of", "flow_reading", "lifting_work"]
 
 FlowReading: TypeAlias = Literal["removed", "raised"]
 """Where material that flows goes: it vanishes, or raises the whole surface (Pullen and Williamson 1972)."""
@@ -41,7 +44,9 @@ class Flow:
     volume : float
         Volume that flowed, the sum of f dA [m^3]; on a line [m^2].
     energy : float
-        Work of the pressure upon the cells that flowed, the sum of H f dA [J]; on a line [J/m].
+        Work that first loading spent on flow, the sum of H f dA [J]; on a line [J/m]. Where the whole surface rises,
+        less the work by which the rise lifts the force, an integral over the loads of the path; NaN where these are too
+        few for a hundredth of the energy.
     rise : float
         By how much the whole surface rises where volume is conserved [m]; 0 where material vanishes.
 
@@ -125,13 +130,35 @@ class Flow:
         return f"Flow(volume {self.volume:.4g}, energy {self.energy:.4g}, up to {most:.4g} m deep)"
 
 
-def flow_of(gap: Array, plastic: Mask, hardness: float | Array, measure: Measure, rise: float = 0.0) -> Flow:
-    """Return what has flowed where the cells that are `plastic` have a negative gap [m]."""
+def flow_of(
+    gap: Array,
+    plastic: Mask,
+    hardness: float | Array,
+    measure: Measure,
+    rise: float = 0.0,
+    lifting: float = 0.0,
+) -> Flow:
+    """Return what has flowed where the cells that are `plastic` have a negative gap [m], less the work of its rise."""
     depth = measure.xp.where(plastic & (gap < 0), -gap, 0.0)
     if is_numpy(depth):
         depth.flags.writeable = False
-    energy = measure.total(depth * hardness)
+    energy = measure.total(depth * hardness) - lifting
     return Flow(depth, hardness, measure.total(depth > 0), measure.total(depth), energy, rise)
+
+
+def lifting_work(loads: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """Return the work of a rise against a force, both growing from zero: the integral of F dr [J], and its error.
+
+    Between two loads, of a force and a rise, the rise is a cubic polynomial of the force, whose slopes are differences.
+    The error is by how much that is more than a straight line. Fewer than three loads give no such slopes: the error is
+    then bounded by the rise, which grows with the force.
+    """
+    force, rise = np.array([(0.0, 0.0), *loads]).T
+    chords, steps = float(np.trapezoid(force, rise)), np.diff(force)
+    if len(force) < 4:
+        return chords, float(steps @ np.diff(rise)) / 2
+    bend = float(steps**2 @ np.diff(np.gradient(rise, force))) / 12
+    return chords + bend, abs(bend)
 
 
 def flow_reading(flow: str) -> bool:

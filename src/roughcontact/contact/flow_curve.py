@@ -27,7 +27,7 @@ class FlowCurve:
     flow_volume : array, shape (n,)
         Volume that has flowed [m^3].
     flow_energy : array, shape (n,)
-        Work of the pressure upon the cells that flow [J].
+        Work that first loading spent on flow [J], see `Flow`.
     unloading_stiffness, unloading_interfacial_stiffness : array, shape (n,)
         ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact
         answer [N/m].

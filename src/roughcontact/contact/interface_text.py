@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from textwrap import wrap
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.validation import Array
@@ -115,6 +114,8 @@ def _pairs(first: Array, second: Array) -> Iterator[str]:
 
 def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
     """Return evenly spaced gaps with the pressure and the energy per area that it has stored."""
+    from scipy.interpolate import PchipInterpolator
+
     log_pressure = PchipInterpolator(table.gap[::-1], np.log(table.pressure[::-1]))
 
     def pressure(gap: Array) -> Array:

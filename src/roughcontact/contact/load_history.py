@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import groupby
 
 from roughcontact.contact.continuation import follow
+from roughcontact.contact.flow import lifting_work
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.solver.control import Control, Depth, Solver
+from roughcontact.solver.control import Control, Depth, Solver, Status
 from roughcontact.solver.subdomain import SubdomainSolver
 
 __all__ = ["follow_history"]
+
+KNOWN = 1e-2  # of the energy of flow: the error of the work of a rise
 
 
 def follow_history(
     problem: ContactProblem, controls: list[Control], solver: Solver, *, raises: bool = False
 ) -> Iterator[Solution]:
     """Yield the solution under one control after the other, up and down.
+
+    What flowed under a load that missed its tolerance is kept until a larger load follows. The states below that load
+    are those of a surface that is not known to the tolerance; their status is ``AFTER_MISSED``.
 
     Parameters
     ----------
@@ -32,18 +39,21 @@ def follow_history(
     """
     subdomains = SubdomainSolver(problem.operator)
     top: Solution | None = None
+    rises: list[tuple[float, float]] = []  # forces and rises of first loading
     for first, run in _runs(controls):
         if first or top is None:
             for solution in follow(problem, run, solver, start=top, subdomains=subdomains):
-                yield _raised(solution) if raises else solution
-                top = solution
+                top, shown = solution, _raised(solution, rises) if raises else solution
+                if top.status.converged:
+                    rises.append((top.force, shown.problem.rise))
+                yield shown
             continue
-        turn = (_raised(top) if raises else top).flattened
+        turn = shown.flattened
         elastic = turn.problem
         for solution in follow(elastic, _reachable(elastic, run), solver, start=turn, subdomains=subdomains):
             # What flowed is known no better than the load that made it flow.
-            known = solution if turn.status.converged else replace(solution, status=turn.status)
-            yield known
+            doubtful = solution.status.converged and not turn.status.converged
+            yield replace(solution, status=Status.AFTER_MISSED) if doubtful else solution
 
 
 def _runs(controls: list[Control]) -> Iterator[tuple[bool, list[Control]]]:
@@ -64,10 +74,17 @@ def _reachable(problem: ContactProblem, controls: list[Control]) -> list[Control
     return [Depth(min(each.value, mean)) if isinstance(each, Depth) else each for each in controls]
 
 
-def _raised(solution: Solution) -> Solution:
-    """Return a state of first loading on the surface that what has flowed raises as a whole; depths count as before."""
+def _raised(solution: Solution, lighter: list[tuple[float, float]]) -> Solution:
+    """Return a state of first loading on the surface that what has flowed raises as a whole; depths count as before.
+
+    The work of the rise is that of the forces and rises of lighter loads; NaN where these are too few.
+    """
     flow, problem = solution.flow, solution.problem
     if flow is None or not flow.volume:
         return solution
     rise = flow.volume / problem.measure.total(problem.measured)
-    return replace(solution, problem=problem.raised(rise), depth=solution.depth - rise)
+    lifting, error = lifting_work([*lighter, (solution.force, rise)])
+    known = error <= KNOWN * (flow.energy - lifting)
+    return replace(
+        solution, problem=problem.raised(rise, lifting if known else math.nan), depth=solution.depth - rise
+    )

@@ -11,6 +11,7 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.contact.curve import DECADE, length_scale
+from roughcontact.contact.load_ends import with_ends
 from roughcontact.contact.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
@@ -51,7 +52,7 @@ class LoadRange:
         The range that the grid resolves [N]; on a line what is suggested [N/m]. Not above each other where there is
         none.
     reasons : tuple of str
-        What sets its two ends.
+        What sets its two ends: the limit that is reached there, or the search, which goes from 1e-7 to 1e4 of E* h L.
     notes : tuple of str
         What a reader should know, in sentences: with the remedy where the range is short.
     """
@@ -85,7 +86,8 @@ def load_range(
     has sixteen cells (if that leaves less than a decade: where it is as stiff, with a note). It ends with the first
     of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps half of the area in contact; on maps
     with form contact at the border, beyond which the body goes on; a mean pressure in contact of half the reduced
-    modulus or, under a hardness, half of the force that it bears. What flows is in contact too: under a hardness the
+    modulus or, under a hardness, half of the force that it bears. Both ends are solved for, to a hundredth of these
+    limits, or of the force where a limit is passed in a jump. What flows is in contact too: under a hardness the
     stiffness here is that of unloading. On a line contact it is 0.03 to 3 of E* h.
 
     Parameters
@@ -135,17 +137,13 @@ def load_range(
         return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
     first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
     problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
-    search = find_range(problem, kind, scale)
-    return _loads(search, count, surface)
+    return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
 
 
 def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
     """Return the forces: some below the range, and half of the others even in ln k, half in ln A."""
     low, high = search.lowest, search.highest
-    reasons = (
-        f"{CELLS} cells" + ("" if low < search.spots_from else f" and spots of {SPOT_CELLS} cells"),
-        search.reason or "the largest force of the search",
-    )
+    reasons = (search.start, search.reason or "the largest force of the search")
     if low < high:
         below = min(FORCES_BELOW, count // 6)
         half = (count - below) // 2

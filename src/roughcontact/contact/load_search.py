@@ -7,6 +7,7 @@ few loads on the full grid then goes through it.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
@@ -78,24 +79,62 @@ class SurfaceKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class SearchedLoad:
-    """What one load of the search says: the part of the force on the largest spot, and whether it is resolved."""
+    """What one load of the search says; its levels are one where a limit is reached, and more beyond.
+
+    Attributes
+    ----------
+    force, stiffness, area : float
+        [N], [N/m], [m^2].
+    share : float
+        The part of the force on the largest spot.
+    stiff : float
+        Level of the stiffness: one at that of twenty cells.
+    resolved : float
+        The lower of this and of the level of the mean spot, weighted by force: one at sixteen cells.
+    ended : float
+        The highest level of what ends the range; contact at the border has none but zero or infinity.
+    reason : str
+        What ends the range here; nothing if it goes on.
+    """
 
     force: float
     stiffness: float
     area: float
     share: float
-    stiff: bool  # as twenty cells
-    resolved: bool
+    stiff: float
+    resolved: float
+    ended: float
+    reason: str
+
+    @classmethod
+    def of(cls, solution: Solution, kind: SurfaceKind, lighter: Iterable[SearchedLoad]) -> SearchedLoad:
+        """Return what a load says, after the lighter ones of the search."""
+        problem = solution.problem
+        share, cells = _largest_spot(solution)
+        stiffness = solution.flattened.stiffness  # what flows is in contact too
+        stiff = stiffness / (CELLS * cell_stiffness(problem.operator))
+        spots = cells / SPOT_CELLS if problem.geometry is Geometry.SURFACE else math.inf
+        shares = [load.share for load in lighter if load.stiff >= 1] + ([share] if stiff >= 1 else [])
+        on_one_feature = bool(shares) and min(shares) > ON_ONE_FEATURE
+        ends = list(_ends(solution, kind, on_one_feature=on_one_feature))
+        reason = next((words for level, words in ends if level >= 1), "")
+        ended = max(level for level, _ in ends)
+        area = solution.contact_area
+        return cls(solution.force, stiffness, area, share, stiff, min(stiff, spots), ended, reason)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LoadSearch:
-    """What a few rising loads say; the last is the first beyond the range, whose end is `reason`."""
+    """What a few rising loads say; the last is the first beyond the range, if one is."""
 
     problem: ContactProblem
     kind: SurfaceKind
     loads: tuple[SearchedLoad, ...]
-    reason: str
+
+    @property
+    def reason(self) -> str:
+        """What ends the range; nothing if the search does."""
+        return self.loads[-1].reason
 
     @property
     def lowest(self) -> float:
@@ -110,8 +149,17 @@ class LoadSearch:
         """The least force with spots of sixteen cells in a contact as stiff as twenty [N]; without any the last."""
         return self._least("resolved")
 
+    @property
+    def start(self) -> str:
+        """What sets where the range begins."""
+        if self.loads[-1].stiff < 1:
+            return f"{CELLS} cells, which no load reaches before the range ends"
+        if self.lowest == self.loads[0].force:
+            return "the smallest force of the search"
+        return f"{CELLS} cells" if self.lowest <= self._least("stiff") else f"spots of {SPOT_CELLS} cells"
+
     def _least(self, what: Literal["stiff", "resolved"]) -> float:
-        return next((load.force for load in self.loads if getattr(load, what)), self.loads[-1].force)
+        return next((load.force for load in self.loads if getattr(load, what) >= 1), self.loads[-1].force)
 
     @property
     def highest(self) -> float:
@@ -121,12 +169,12 @@ class LoadSearch:
     @property
     def one_feature(self) -> bool:
         """Whether the largest spot carries more than half where the contact is as stiff as twenty cells."""
-        return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff), False)
+        return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff >= 1), False)
 
     @property
     def released(self) -> float | None:
         """From where the largest spot carries less than half [N], if it does so in the range."""
-        light = (load.force for load in self.loads if load.stiff and load.share < ON_ONE_FEATURE)
+        light = (load.force for load in self.loads if load.stiff >= 1 and load.share < ON_ONE_FEATURE)
         return next(light, None)
 
     def column(self, name: Literal["force", "stiffness", "area"]) -> Array:
@@ -140,21 +188,12 @@ def climb(
     """Press by ever larger forces until the range ends, or the loads of an earlier search follow."""
     steps = round(STEPS_PER_DECADE * math.log10(most / start)) + (above is None)
     controls: list[Control] = [Force(start * 10 ** (k / STEPS_PER_DECADE)) for k in range(steps)]
-    few, full = CELLS * cell_stiffness(problem.operator), full_contact_stiffness(problem)
     loads: list[SearchedLoad] = []
     for solution in follow(problem, controls, ActiveSet()):
-        share, cells = _largest_spot(solution)
-        stiffness = solution.flattened.stiffness  # what flows is in contact too
-        stiff = stiffness >= few
-        resolved = stiff and (cells >= SPOT_CELLS or problem.geometry is not Geometry.SURFACE)
-        area = solution.contact_area
-        loads.append(SearchedLoad(solution.force, stiffness, area, share, stiff, resolved))
-        shares = [load.share for load in loads if load.stiff]
-        on_one_feature = bool(shares) and min(shares) > ON_ONE_FEATURE
-        reason = _end(solution, kind, full, on_one_feature=on_one_feature)
-        if reason:
-            return LoadSearch(problem, kind, tuple(loads), reason)
-    return LoadSearch(problem, kind, (*loads, *(above.loads if above else ())), above.reason if above else "")
+        loads.append(SearchedLoad.of(solution, kind, loads))
+        if loads[-1].reason:
+            return LoadSearch(problem, kind, tuple(loads))
+    return LoadSearch(problem, kind, (*loads, *(above.loads if above else ())))
 
 
 def _largest_spot(solution: Solution) -> tuple[float, float]:
@@ -175,24 +214,23 @@ def _borne(solution: Solution) -> float:
     return AREA_SHARE * measure.total(problem.measured) * hardness / solution.contact_area
 
 
-def _end(solution: Solution, kind: SurfaceKind, full: float, *, on_one_feature: bool) -> str:
-    """Return what ends the range at this load; nothing if it goes on."""
+def _ends(solution: Solution, kind: SurfaceKind, *, on_one_feature: bool) -> Iterator[tuple[float, str]]:
+    """Yield what may end a range, and its level at a load: from one on it does."""
     problem = solution.problem
-    if solution.flattened.stiffness >= FULL_CONTACT_SHARE * full:
-        return f"{FULL_CONTACT_SHARE:g} of the full-contact stiffness"
-    if kind in (SurfaceKind.PERIODIC, SurfaceKind.FLAT) and solution.contact_fraction >= AREA_SHARE:
-        return "half of the area in contact"
-    if kind is SurfaceKind.FORM and solution.touches_edge:
-        return "contact at the border of the map"
-    pressure = solution.force / solution.contact_area
+    full = FULL_CONTACT_SHARE * full_contact_stiffness(problem)
+    yield solution.flattened.stiffness / full, f"{FULL_CONTACT_SHARE:g} of the full-contact stiffness"
+    if kind in (SurfaceKind.PERIODIC, SurfaceKind.FLAT):
+        yield solution.contact_fraction / AREA_SHARE, "half of the area in contact"
+    if kind is SurfaceKind.FORM:
+        yield math.inf if solution.touches_edge else 0.0, "contact at the border of the map"
     if problem.plastic:
-        return (
-            f"{AREA_SHARE:g} of the force that the hardness bears"
-            if solution.force >= _borne(solution)
-            else ""
+        yield solution.force / _borne(solution), f"{AREA_SHARE:g} of the force that the hardness bears"
+    elif problem.geometry is not Geometry.FOUNDATION and not on_one_feature:
+        pressure = solution.force / solution.contact_area
+        yield (
+            pressure / (STRAINED * problem.modulus),
+            "a mean pressure in contact of half the reduced modulus",
         )
-    strained = pressure > STRAINED * problem.modulus and problem.geometry is not Geometry.FOUNDATION
-    return "a mean pressure in contact of half the reduced modulus" if strained and not on_one_feature else ""
 
 
 def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> LoadSearch:
@@ -204,7 +242,7 @@ def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> Load
         stiff = (load.force for load in rough.loads if load.stiffness >= few)
         start = max(start, next(stiff, rough.highest) / 10)
     search = climb(problem, kind, start, most)
-    while search.loads[0].stiff and start > SEARCHED[0] * scale:  # the pilot began too late
+    while search.loads[0].stiff >= 1 and start > SEARCHED[0] * scale:  # the pilot began too late
         search, start = climb(problem, kind, start / 10, start, search), start / 10
     return search
 

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState
-from roughcontact.adhesion.attraction import Adhesion
-from roughcontact.contact.adhesive_branches import AdhesiveLoop, collect_states
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import FlowReading, flow_reading
 from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.load_range import load_range
+from roughcontact.contact.mean_gaps import refuse_gaps
 from roughcontact.contact.press import control_of, grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.sticking import refuse_gaps, sticking_states
 from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Operator
@@ -28,6 +25,11 @@ from roughcontact.material import Solid
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Solver
 from roughcontact.validation import Array, exactly_one, number, numeric, require
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
+    from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.contact.adhesive_branches import AdhesiveLoop
 
 __all__ = ["loading_curve", "loading_path"]
 
@@ -82,7 +84,7 @@ def loading_path(
     adhesion: Adhesion | None = None,
     mean_gaps: Loads | None = None,
 ) -> Iterator[Solution] | Iterator[AdhesiveState]:
-    """Yield the solution of every load, in order; each starts from the one before.
+    """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
 
     Parameters
     ----------
@@ -117,7 +119,8 @@ def loading_path(
     ------
     Solution or AdhesiveState
         With its stiffness computed; with adhesion an `AdhesiveState` with the jumps on the way to it. A load that
-        missed its tolerance says so in its `status`.
+        missed its tolerance says so in its `status`. Under a hardness so do the loads below it, by
+        ``Status.AFTER_MISSED``: what flowed is kept, and is not known to the tolerance until a larger load follows.
 
     Raises
     ------
@@ -139,6 +142,8 @@ def loading_path(
     '1.03 uN, -0.44 uN, converged'
     """
     if adhesion is not None:
+        from roughcontact.contact.sticking import sticking_states
+
         raised = None if flow == "removed" else flow
         refused = {"pressures": pressures, "solver": solver, "hardness": hardness, "flow": raised}
         grid_of(surface)
@@ -265,7 +270,7 @@ def loading_curve(
     >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
     >>> curve = rc.loading_curve(soft, 1e8, depths=[0.0, 20e-9, 0.0, -5e-9], adhesion=adhesion)
     >>> curve.approach.tolist(), f"{curve.pull_off_force * 1e9:.0f} nN"
-    ([True, True, False, False], '507 nN')
+    ([True, True, False, False], '511 nN')
     """
     given: dict[str, Any] = {"forces": forces, "depths": depths, "pressures": pressures}
     given |= {"operator": operator, "solver": solver, "tolerance": tolerance, "hardness": hardness}
@@ -273,6 +278,8 @@ def loading_curve(
     path: Iterator[Any] = loading_path(surface, modulus, **given)
     if adhesion is None:
         return collect(path)
+    from roughcontact.contact.adhesive_branches import collect_states
+
     loads = np.negative(mean_gaps) if mean_gaps is not None else forces if depths is None else depths
     return collect_states(path, np.atleast_1d(np.asarray(loads, np.float64)))
 

@@ -85,16 +85,11 @@ class Loop:
 
     @property
     def dissipated_work(self) -> float:
-        """Work of loading that unloading does not give back [J]: the area of the loop.
+        """Work of loading that unloading does not give back [J]: the area of the loop, the energy of flow.
 
-        The energy of flow, less what the force takes up as the surface rises under it. The rise is integrated
-        over the force by the trapezoidal rule, to the second order of the steps of the loads.
+        NaN if the surface rises and the loads are too few for the work by which it lifts them, see `Flow`.
         """
-        flow = self.loading.flow
-        if flow is None or not self.flow.rise:
-            return self.flow.energy
-        rise = np.append(0.0, flow.flow_volume) * (self.flow.rise / self.flow.volume)
-        return self.flow.energy - float(np.trapezoid(np.append(0.0, self.loading.force), rise))
+        return self.flow.energy
 
     @property
     def work(self) -> float:

@@ -52,7 +52,7 @@ def loop_record(loop: Loop) -> dict[str, Any]:
     record = {name: plain_values(getattr(loop, name)) for name in _SCALARS}
     record |= {
         "flow_volume": loop.flow.volume,
-        "flow_energy": loop.flow.energy,
+        "flow_energy": plain_values(loop.flow.energy),
         "flow_rise": loop.flow.rise,
     }
     record |= {"units": units_of(record, kind)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -54,8 +55,13 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
 
 def _of_flow(solution: Solution) -> tuple[str, ...]:
     """Return what there is to say where a flattened surface bears more than the pressure that flattened it."""
-    flow = solution.problem.flow
-    if flow is None:
+    flow = solution.flow
+    if flow is not None and math.isnan(flow.energy):
+        return (
+            "The energy of flow is not known, because the loads are too few for the work by which the rise of the "
+            "surface lifts the force: give more loads between zero and the largest.",
+        )
+    if solution.problem.flow is None or flow is None:
         return ()
     beyond = float(solution.problem.measure.xp.max(solution.pressure / flow.hardness)) - 1
     if beyond <= BEYOND:

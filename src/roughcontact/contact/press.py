@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState
-from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
+from roughcontact.contact.mean_gaps import refuse_gaps
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
-from roughcontact.contact.sticking import refuse_gaps, sticking_states
 from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
@@ -29,6 +27,10 @@ from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, numeric, scalar
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
+    from roughcontact.adhesion.attraction import Adhesion
 
 __all__ = ["lock", "press", "solve", "solve_state"]
 
@@ -133,6 +135,8 @@ def press(
     """
     grid = grid_of(surface)
     if adhesion is not None:
+        from roughcontact.contact.sticking import sticking_states
+
         refused = {"pressure": pressure, "solver": solver, "hardness": hardness}
         loads = depth, force, mean_gap
         state = next(sticking_states(surface, modulus, adhesion, loads, operator, tolerance, **refused))

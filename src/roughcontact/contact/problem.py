@@ -23,7 +23,7 @@ from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
-from roughcontact.validation import Array, Mask, numeric, scalar
+from roughcontact.validation import Array, Mask, scalar
 
 __all__ = [
     "Body",
@@ -41,7 +41,7 @@ Body = Surface | RadialProfile
 # A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
 # `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
 LEAST_BYTES = 9
-_UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m"}
+_UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m", "lifting": "J"}
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
@@ -71,6 +71,8 @@ class ContactProblem:
         what it gives there.
     rise : float
         By how much the surface has been raised by what flowed [m]; it is in the separation already.
+    lifting : float
+        Work by which this rise lifted the force along the loads so far [J]; NaN if it is not known.
     flow : Flow, optional
         What flowed under larger loads; it is in the separation already.
 
@@ -99,6 +101,7 @@ class ContactProblem:
     hardness: float | Array = math.inf
     size_law: SizeLaw | None = None
     rise: float = 0.0
+    lifting: float = 0.0
     flow: Flow | None = None
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
@@ -216,14 +219,15 @@ class ContactProblem:
         object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
         return other
 
-    @numeric(rise="m")
-    def raised(self, rise: float) -> ContactProblem:
+    def raised(self, rise: float, lifting: float = 0.0) -> ContactProblem:
         """Return the same bodies with the surface raised as a whole; depths count as before.
 
         Parameters
         ----------
         rise : float
             By how much [m].
+        lifting : float
+            Work by which the rise lifted the force [J].
 
         Returns
         -------
@@ -238,7 +242,8 @@ class ContactProblem:
         >>> f"{(problem.separation - raised.separation).max() * 1e9:.1f} nm nearer"
         '10.0 nm nearer'
         """
-        return self._moved(self.separation - rise, rise=self.rise + rise)
+        rise, lifting = in_si(rise, "m", "rise"), in_si(lifting, "J", "lifting")
+        return self._moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
 
     def after(self, flow: Flow) -> ContactProblem:
         """Return the elastic contact of the surface that a load has flattened; depths count as before.

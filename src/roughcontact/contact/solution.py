@@ -161,7 +161,7 @@ class Solution:
         if problem.flow is not None or not problem.plastic:
             return problem.flow
         gap = self.displacement + problem.separation - self.depth
-        return flow_of(gap, self.plastic, problem.hardness, self._measure, problem.rise)
+        return flow_of(gap, self.plastic, problem.hardness, self._measure, problem.rise, problem.lifting)
 
     @cached_property
     def flattened(self) -> Solution:

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.ndimage
-import scipy.sparse
 
 from roughcontact.arrays import namespace
 from roughcontact.grid import AnyGrid
@@ -67,6 +65,8 @@ def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
 
 def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: AnyGrid, measure: Measure) -> Spots:
     """Return the spots of a contact; along a periodic axis they go on across the edge."""
+    import scipy.ndimage
+
     labels = np.zeros(contact.shape, np.intp)
     box = bounding_box(contact)
     count = 0 if box is None else scipy.ndimage.label(contact[box], output=labels[box])
@@ -77,6 +77,8 @@ def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: AnyGrid, m
             both = (first > 0) & (last > 0)
             pairs.append(np.stack([first[both], last[both]]))
     if count and pairs:
+        import scipy.sparse.csgraph
+
         rows, columns = np.concatenate(pairs, axis=1)
         links = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(count + 1, count + 1))
         _, merged = scipy.sparse.csgraph.connected_components(links, directed=False)

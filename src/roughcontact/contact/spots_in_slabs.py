@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.ndimage
-import scipy.sparse
 
 from roughcontact.contact.spots import Spots
 
@@ -23,6 +21,9 @@ def find_spots_in_slabs(contact: Any, pressure: Any, cell: float) -> Spots:
     cell : float
         Area of a cell [m^2].
     """
+    import scipy.ndimage
+    import scipy.sparse.csgraph
+
     functions, mine = contact.functions, contact.local
     labels = np.zeros(mine.shape, np.intp)
     count = int(scipy.ndimage.label(mine, output=labels))

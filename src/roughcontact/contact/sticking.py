@@ -18,7 +18,7 @@ from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, exactly_one, number, require, shown
 
-__all__ = ["refuse_gaps", "sticking_states"]
+__all__ = ["sticking_states"]
 
 Given = float | Sequence[float] | Array | None
 
@@ -70,18 +70,3 @@ def sticking_states(
         surface=surface,
         tolerance=allowed,
     )
-
-
-def refuse_gaps(mean_gaps: Given) -> None:
-    """Refuse mean gaps of bodies that do not stick, which have depths for it.
-
-    Raises
-    ------
-    ValueError
-        If any are given.
-    """
-    if mean_gaps is not None:
-        raise ValueError(
-            "mean gaps are prescribed with adhesion alone: give depths, on a whole periodic grid the mean separation "
-            "less the gap"
-        )

@@ -10,13 +10,13 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
 from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.theory import interaction, laws, persson
 from roughcontact.theory.law import Basis, LoadingLaw
@@ -27,6 +27,7 @@ __all__ = ["facts_for", "loading_laws", "persson_pressures"]
 
 
 @numeric(modulus="Pa")
+@analysed_on_host
 def loading_laws(
     surface: Surface,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -75,8 +76,6 @@ def loading_laws(
     """
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise ValueError("these theories are about surfaces; give a grid of two axes")
-    if not is_numpy(surface.heights):
-        raise ValueError("theories look at the heights in NumPy's memory: give a Surface of NumPy's numbers")
     wanted = [names] if isinstance(names, str) else list(names)
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):

@@ -13,6 +13,7 @@ from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
+from roughcontact.files.missing_marks import without_fills
 from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
@@ -42,6 +43,8 @@ def assemble(
     looked_at = is_numpy(found.heights)  # what lies on several processes is not, for spikes and noise
     if looked_at:
         require_memory(BYTES_TO_LOOK * found.heights.size)
+        heights, filled = without_fills(found.heights)
+        found = replace(found, heights=heights, doubts=(*found.doubts, *filled))
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)
@@ -61,7 +64,7 @@ def assemble(
     if (peak := highest(heights)) > IMPOSSIBLE:
         raise ContentError(
             f"it holds heights up to {peak:.3g} m",
-            "check that the file is whole and its unit is right (unit=)",
+            "pass unit= with the right unit, or write nan where this number marks a missing point",
         )
     try:
         surface = Surface(heights, grid)
@@ -93,7 +96,8 @@ def _require(found: HeightMap, unit: Length | None, size: object) -> None:
         )
         hints.append(_UNIT_HINT)
     if size is None and found.spacing is None and found.steps is None:
-        problems.append("no size")
+        unclear = "" if found.unclear is None else f" that is understood ({found.unclear})"
+        problems.append(f"no size{unclear}")
         hints.append(_size_hint(found))
     if problems:
         raise ContentError(f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")

@@ -8,12 +8,18 @@ from functools import partial
 
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.foreign import list_foreign, read_foreign
+from roughcontact.files.grd import read_grd
+from roughcontact.files.gsf import read_gsf
+from roughcontact.files.gwy import list_gwy, read_gwy
 from roughcontact.files.heightmap import Channel, HeightMap, pick, require_line, require_map
 from roughcontact.files.netcdf import list_netcdf, read_netcdf
 from roughcontact.files.numpy_files import list_npz, read_npy, read_npz
 from roughcontact.files.profile_text import read_profile
+from roughcontact.files.sdf import read_sdf
 from roughcontact.files.sur import read_sur
 from roughcontact.files.text import read_text
+from roughcontact.files.tiff import list_tiff, read_tiff
+from roughcontact.files.tmd import read_tmd
 from roughcontact.files.x3p import read_x3p
 from roughcontact.files.xyz import read_xyz
 
@@ -49,9 +55,15 @@ _PROFILE = _alone(read_profile)  # of a text that holds no map
 READERS = {
     ".npy": _alone(read_npy),
     **dict.fromkeys(_TEXTS, _alone(read_text)),
+    ".grd": _alone(read_grd),
     ".xyz": _alone(read_xyz),
     ".x3p": _alone(read_x3p),
     **dict.fromkeys((".sur", ".pro"), _alone(read_sur)),
+    ".sdf": _alone(read_sdf),
+    ".tmd": _alone(read_tmd),
+    ".gsf": _alone(read_gsf),
+    ".gwy": _Reader(read_gwy, list_gwy),
+    **dict.fromkeys((".tif", ".tiff"), _Reader(read_tiff, list_tiff)),
     ".npz": _Reader(read_npz, list_npz),
     **dict.fromkeys((".nc", ".nc4", ".cdf"), _Reader(read_netcdf, list_netcdf)),
 }
@@ -88,7 +100,7 @@ def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     if kind not in READERS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        holding = (each for each in READERS if each != ".xyz")
+        holding = (each for each in READERS if each not in (".grd", ".xyz"))
         raise ContentError(
             problem, f"name a text .txt, or export it as one of {', '.join(holding)}; read a map by read"
         )

@@ -6,8 +6,7 @@ import logging
 import math
 import re
 import sys
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
@@ -15,28 +14,24 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.files.block_ends import left_behind_blocks
+from roughcontact.files.choice import AS_TEXT, choose, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
-from roughcontact.files.heightmap import (
-    Channel,
-    HeightMap,
-    as_heights,
-    describe,
-    names_a_height,
-    names_something_else,
-    pick,
-)
+from roughcontact.files.heightmap import Channel, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.files.matlab import require_whole
+from roughcontact.files.nanoscope import height_factors
 from roughcontact.validation import Array
 
-__all__ = ["NOT_FOREIGN", "list_foreign", "read_foreign"]
+__all__ = ["NOT_FOREIGN", "lacking", "list_foreign", "read_foreign", "unlogged"]
 
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
 _OURS = {
     **{"npy": ".npy", "npz": ".npz", "x3p": ".x3p"},
-    **{"nc": ".nc", "sur": ".sur"},
+    **{"nc": ".nc", "sur": ".sur", "gwy": ".gwy", "sdf": ".sdf", "tmd": ".tmd"},
 }
 _TEXTS = {"asc", "matrix", "xyz"}
 NOT_FOREIGN = {*_OURS, *_TEXTS}  # what the library reads and is not asked to
@@ -47,15 +42,17 @@ _SIZE_UNRELIABLE = {"nms"}
 # Containers of bare matrices, whose rows are the rows of the picture; all other formats are indexed [x, y].
 _MATRICES = {"mat", "h5"}
 # Formats without a checksum whose last channel ends where the file ends: so a damaged number of points shows.
-_FILLED = {"di", "metropro", "mi", "tmd", "wsxm"}
+_FILLED = {"di", "metropro", "mi", "wsxm"}
 # Formats whose factor from counts to heights is a product of positive numbers: a wavelength, an obliquity, a share.
 _UPRIGHT = {"metropro"}
+# Bytes among which every format with a mark has it.
+_BEGINNING = 512
 # What these say about a damaged file, up to megabytes of it, is not for the user. Only what they log while we read is
 # left out, in this thread: the settings of the process stay as they are.
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
-_REMEDY = "check that the file is whole, or export it as X3P, Gwyddion text or .npz"
-_AS_TEXT = "give a map of heights, or export the profile as a text of two columns, places and heights"
+_EXPORT = "export it as X3P, Gwyddion text or .npz"
+_REMEDY = f"check that the file is whole, or {_EXPORT}"
 
 
 def _unless_reading(_: logging.LogRecord) -> bool:
@@ -73,37 +70,42 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
     is never taken.
     """
     with _opened(kind, data) as (reader, stream):
-        channels = _channels(reader)
-        index, doubts = _choose(channels, channel)
+        channels = _channels(reader, stream)
+        index, doubts = choose(channels, channel)
         found = _map(reader, index, channels[index])
-        return replace(found, doubts=(*doubts, *_left_over(reader, stream, found.heights.shape[1])))
+        if isinstance(factor := _factor(reader, stream, index), str):
+            found = replace(found, unclear=factor)
+        return replace(found, doubts=(*doubts, *_left_over(reader, stream)))
 
 
 def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:
     """Return the channels of a file in any format that SurfaceTopography knows."""
-    with _opened(kind, data) as (reader, _):
-        return _channels(reader)
+    with _opened(kind, data) as (reader, stream):
+        return _channels(reader, stream)
 
 
 @contextmanager
 def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     """Give the library's reader of the bytes, and what it reads; whatever goes wrong becomes a ContentError."""
+    if kind not in _UNMARKED and not is_hdf5(data) and not any(data[:_BEGINNING]):
+        raise ContentError(
+            f"its first {min(len(data), _BEGINNING)} bytes are zeros, which no format known here begins with",
+            "copy the file again",
+        )
     try:
         from SurfaceTopography.IO import open_topography
     except ImportError as error:
-        raise ContentError(
-            f"its format needs the package SurfaceTopography, which cannot be imported ({error})",
-            f"run: {sys.executable} -m pip install 'roughcontact[formats]'",
-        ) from error
+        raise lacking("SurfaceTopography", error) from error
     # Bytes in memory leave no open file behind when a reader gives up half-way.
     stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
-    reading = _READING.set(True)
     try:
+        require_whole(data)
         if is_hdf5(data):
             with opened_hdf5(data):
                 pass
         # What is odd about damaged numbers shows in the heights.
         with (
+            unlogged(),
             np.errstate(all="ignore"),
             closing(open_topography(stream, format=_UNMARKED.get(kind))) as reader,
         ):
@@ -114,6 +116,23 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     except Exception as error:  # any reader of forty may fail in any way on a damaged file
         hint = "" if b"\0" in data else "name a text of numbers .txt; "
         raise ContentError(f"it cannot be read ({_brief(error)})", hint + _REMEDY) from error
+
+
+def lacking(package: str, error: Exception, otherwise: str = "") -> ContentError:
+    """Return the error about a package that cannot be imported, with the command that installs it."""
+    wanted = package if package == "imagecodecs" else "'roughcontact[formats]'"
+    return ContentError(
+        f"its format needs the package {package}, which cannot be imported ({error})",
+        f"{otherwise}run: {sys.executable} -m pip install {wanted}",
+    )
+
+
+@contextmanager
+def unlogged() -> Iterator[None]:
+    """Leave out what the libraries that read for us log meanwhile, in this thread."""
+    reading = _READING.set(True)
+    try:
+        yield
     finally:
         _READING.reset(reading)
 
@@ -141,31 +160,30 @@ def _accept(format_name: str, kind: str) -> None:
         )
 
 
-def _channels(reader: Any) -> tuple[Channel, ...]:
+def _channels(reader: Any, stream: BoundedStream) -> tuple[Channel, ...]:
     """Return the channels with units that are checked; heights are known by name and unit."""
     found: list[Channel] = []
-    seen: Counter[str] = Counter()
-    for info in reader.channels:
+    for index, info in enumerate(reader.channels):
         lateral, unit = _units(info)
         points = tuple(int(n) for n in info.nb_grid_pts or ())
         shape = points if reader.format() in _MATRICES else points[::-1]
         sizes = info.physical_sizes
         size = None
-        if (
-            sizes is not None
-            and len(sizes) == 2
-            and is_length(lateral)
-            and reader.format() not in _SIZE_UNRELIABLE
-        ):
-            factor = length_factor(lateral)  # type: ignore[arg-type]  # a length, so not None
-            size = (float(sizes[1]) * factor, float(sizes[0]) * factor)
-        name = str(info.name)
-        seen[name] += 1
-        label = name if seen[name] == 1 else f"{name}#{seen[name]}"
-        found.append(Channel(label, shape, unit, size, is_height=False))
+        factor = _factor(reader, stream, index)
+        if sizes is not None and len(sizes) == 2 and is_length(lateral) and not isinstance(factor, str):
+            metres = length_factor(lateral)  # type: ignore[arg-type]  # a length, so not None
+            size = (float(sizes[1]) * metres * factor, float(sizes[0]) * metres)
+        found.append(Channel(str(info.name), shape, unit, size, is_height=False))
     if not found:
-        raise ContentError("it holds no channel", _REMEDY)
-    return tuple(replace(c, is_height=_is_height(c, found)) for c in found)
+        raise ContentError("it holds no channel that is known here", _EXPORT)
+    return marked(found)
+
+
+def _factor(reader: Any, stream: BoundedStream, index: int) -> float | str:
+    """Return what the height of a map that the library states is multiplied by, or why it is not known."""
+    if reader.format() in _SIZE_UNRELIABLE:
+        return "a size whose unit its reader mistakes"
+    return height_factors(stream.getvalue())[index] if reader.format() == "di" else 1.0
 
 
 def _units(info: Any) -> tuple[str | None, str | None]:
@@ -178,56 +196,11 @@ def _units(info: Any) -> tuple[str | None, str | None]:
     return info.unit, other if other is not None and not is_length(other) else info.unit
 
 
-def _is_height(channel: Channel, channels: Sequence[Channel]) -> bool:
-    """Whether a map is named as a height, or the only one and not named otherwise; its unit may be silent."""
-    if not _is_map(channel) or not (channel.unit is None or is_length(channel.unit)):
-        return False
-    alone = sum(map(_is_map, channels)) == 1
-    return names_a_height(channel.name) or (alone and not names_something_else(channel.name))
-
-
-def _is_map(channel: Channel) -> bool:
-    return len(channel.shape) == 2 and min(channel.shape) >= 2
-
-
-def _choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, tuple[str, ...]]:
-    """Return the position of the channel to read, and a doubt where another would do as well."""
-    if wanted is not None:
-        index = pick(channels, wanted)
-        return index, _doubts(channels[index])
-    if not any(map(_is_map, channels)):
-        raise ContentError(
-            f"it holds no map but {describe(channels)}",
-            _AS_TEXT,
-        )
-    heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
-    if not heights:  # without a unit they need the user's, which is asked for later
-        heights = [k for k, c in enumerate(channels) if c.is_height]
-    if not heights:
-        raise ContentError(
-            f"no channel is a height by its name and unit: {describe(channels)}",
-            "pass channel= with a name from this list, and unit= where its unit is no length",
-        )
-    if len(heights) == 1:
-        return heights[0], ()
-    names = ", ".join(repr(channels[k].name) for k in heights)
-    chosen = channels[heights[0]].name
-    return heights[0], (
-        f"{len(heights)} channels are heights ({names}); took {chosen!r}, pass channel= for another",
-    )
-
-
-def _doubts(channel: Channel) -> tuple[str, ...]:
-    """Return a doubt about a map that the user chose and whose name or unit is not that of heights."""
-    other_unit = channel.unit is not None and not is_length(channel.unit)
-    if not _is_map(channel) or not (other_unit or names_something_else(channel.name)):
-        return ()
-    unit = f" in {channel.unit}" if other_unit else ""
-    return (f"channel {channel.name!r}{unit} is not marked as heights, and read as heights all the same",)
-
-
-def _left_over(reader: Any, stream: BoundedStream, row: int) -> tuple[str, ...]:
-    """Return a doubt where the channels that the header announces do not end where the file ends, but for a row."""
+def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
+    """Return a doubt where the channels that the header announces do not end where the file ends."""
+    if left := left_behind_blocks(reader.format(), stream.getvalue()):
+        where = f"{left} bytes before" if left > 0 else "beyond"
+        return (f"its blocks end {where} the end of the file: it may be damaged",)
     if reader.format() not in _FILLED:
         return ()
     stream.forget()
@@ -235,7 +208,7 @@ def _left_over(reader: Any, stream: BoundedStream, row: int) -> tuple[str, ...]:
         _heights(reader, len(reader.channels) - 1)
     except Exception:  # as above, in any way
         return ("its last channel is not all there: it is cut short, or its header is damaged",)
-    if stream.unread < row:
+    if stream.unread == 0:
         return ()
     return (f"{stream.unread} bytes at its end belong to no channel: its header may be damaged",)
 
@@ -251,7 +224,7 @@ def _heights(reader: Any, index: int) -> Array:
 
 def _map(reader: Any, index: int, channel: Channel) -> HeightMap:
     if len(channel.shape) != 2:
-        raise ContentError(f"channel {channel.name!r} is a profile", _AS_TEXT)
+        raise ContentError(f"channel {channel.name!r} is a profile", AS_TEXT)
     require_memory(BYTES_PER_POINT * math.prod(channel.shape))
     info = reader.channels[index]
     if reader.format() in _UPRIGHT and not info.height_scale_factor > 0:

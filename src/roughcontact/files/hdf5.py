@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError
+from roughcontact.files.installed import lacking
 
 if TYPE_CHECKING:
     import h5py
@@ -39,6 +40,8 @@ def opened_hdf5(data: bytes) -> Iterator[h5py.File]:
     External links, external storage and virtual datasets name files of the machine that reads: a foreign file would
     show us any of them as numbers.
     """
+    if (lack := lacking("h5py")) is not None:
+        raise ContentError(f"HDF5 needs {lack[0]}", lack[1])
     import h5py
 
     with h5py.File(BytesIO(data), "r") as opened:

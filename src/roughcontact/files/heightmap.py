@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from roughcontact.validation import Array
 
 __all__ = [
     *("Array", "Channel", "HeightMap", "as_heights", "describe", "names_a_height", "names_something_else"),
-    *("pick", "require_line", "require_map"),
+    *("line_if_one_row", "pick", "require_line", "require_map"),
 ]
 
 
@@ -72,6 +72,8 @@ class HeightMap:
         Size of a cell (dy, dx) or (dx,) [m]; None where the file is silent.
     steps : tuple of float, optional
         Size of a cell in the unit of the heights, where the file gives numbers without a unit.
+    unclear : str, optional
+        What the file states about its size in words that are not understood.
     periodic : bool or tuple of bool
         Whether the file says that the surface repeats itself.
     history : tuple of str
@@ -86,6 +88,7 @@ class HeightMap:
     unit: str | float | None = None
     spacing: tuple[float, ...] | None = None
     steps: tuple[float, ...] | None = None
+    unclear: str | None = None
     periodic: bool | tuple[bool, ...] = False
     history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -109,6 +112,14 @@ def as_heights(values: npt.NDArray[Any]) -> Array:
     # A damaged file may hold signalling NaN or numbers beyond double precision.
     with np.errstate(all="ignore"):
         return values.astype(np.float64)
+
+
+def line_if_one_row(found: HeightMap) -> HeightMap:
+    """Return the map, or the profile where it holds a single row."""
+    if found.heights.shape[0] != 1:
+        return found
+    spacing = None if found.spacing is None else found.spacing[1:]
+    return replace(found, heights=found.heights[0], spacing=spacing)
 
 
 def require_map(found: HeightMap) -> None:

@@ -23,8 +23,10 @@ from roughcontact.files.heightmap import (
     pick,
 )
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.files.missing_marks import holds_mark
+from roughcontact.files.table_axes import counts
 
-__all__ = ["StoredVariable", "list_netcdf", "opened", "read_netcdf"]
+__all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
 # Coordinates and lengths are often computed in single precision.
@@ -55,14 +57,49 @@ class StoredVariable:
         values = self.load()
         # What is odd about damaged numbers shows later, in the heights.
         with np.errstate(all="ignore"):
+            if str(self.word("_Unsigned")).casefold() == "true" and values.dtype.kind == "i":
+                values = values.view(values.dtype.str.replace("i", "u"))
             result = values.astype(np.float64)
-            for name in ("_FillValue", "missing_value"):
-                if name in self.attributes:
-                    result[np.isin(values, np.asarray(self.attributes[name]))] = np.nan
+            marks = (*self._stated("_FillValue"), *self._stated("missing_value"))
+            result[holds_mark(result, marks) | self._invalid(result)] = np.nan
             for name, apply in (("scale_factor", np.multiply), ("add_offset", np.add)):
                 if name in self.attributes:
                     result = apply(result, float(np.asarray(self.attributes[name]).reshape(-1)[0]))
         return result
+
+    def _stated(self, name: str) -> tuple[float, ...]:
+        """Return the numbers of an attribute, be they text; none where it is missing or holds none."""
+        value = np.asarray(self.attributes.get(name, ())).reshape(-1)
+        try:
+            return tuple(float(number) for number in value)
+        except ValueError:
+            return ()
+
+    def _invalid(self, stored: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+        """Return where stored values lie outside ``valid_min`` and ``valid_max``, or ``valid_range``.
+
+        The limits are those of the stored values, unless these are packed into integers and the limits are not.
+        """
+        limits = self._stated("valid_range")
+        low = self._stated("valid_min") or limits[:1]
+        high = self._stated("valid_max") or limits[1:]
+        outside = np.zeros(stored.shape, dtype=bool)
+        if not (low or high):
+            return outside
+        names = ("valid_range", "valid_min", "valid_max")
+        kinds = {np.asarray(self.attributes[name]).dtype.kind for name in names if name in self.attributes}
+        factor, offset = 1.0, 0.0
+        if self.dtype.kind in "iu" and kinds == {"f"}:
+            factor, offset = (
+                (self._stated("scale_factor") or (1.0,))[0],
+                (self._stated("add_offset") or (0.0,))[0],
+            )
+        compared = (stored * factor + offset).astype(np.float32)
+        for limit in low:
+            outside |= compared < np.float32(limit)
+        for limit in high:
+            outside |= compared > np.float32(limit)
+        return outside
 
 
 def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
@@ -73,26 +110,42 @@ def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
     from the attribute ``length`` of the coordinates, or from coordinates with even steps.
     """
     with opened(data) as (variables, attributes):
-        found = _channels(variables)
-        if channel is None and "heights" in variables:
-            channel = "heights"
-        name = found[pick(found, channel)].name
-        chosen = variables[name]
-        heights = as_heights(_checked(chosen, name))
-        if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
-            heights = np.where(variables["mask"].load() != 0, np.nan, heights)
-        axes = chosen.dimensions
-        if axes == ("x", "y"):
-            heights, axes = heights.T, ("y", "x")
-        return HeightMap(
-            heights,
-            "NetCDF",
-            channel=name,
-            unit=chosen.word("unit", "units"),
-            spacing=_spacing(variables, axes, heights.shape, chosen.word("unit", "units")),
-            periodic=_periodic(variables, axes),
-            history=_history(attributes),
-        )
+        return height_map_of(variables, attributes, channel, "NetCDF")
+
+
+def height_map_of(
+    variables: Mapping[str, StoredVariable],
+    attributes: Mapping[str, Any],
+    channel: str | int | None,
+    format: str,
+) -> HeightMap:
+    """Return what variables, such as those of an open file, state about a map or a profile of heights."""
+    found = _channels(variables)
+    if channel is None and "heights" in variables:
+        channel = "heights"
+    name = found[pick(found, channel)].name
+    chosen = variables[name]
+    heights = as_heights(_checked(chosen, name))
+    if "mask" in variables and variables["mask"].shape == heights.shape and name == "heights":
+        heights = np.where(variables["mask"].load() != 0, np.nan, heights)
+    axes = chosen.dimensions
+    if axes == ("x", "y"):
+        heights, axes = heights.T, ("y", "x")
+    unit = chosen.word("unit", "units")
+    spacing = _spacing(variables, axes, heights.shape, unit)
+    silent = [axis for axis in axes if axis in variables and not variables[axis].word("unit", "units")]
+    borrowed = spacing is not None and "spacing" not in variables and silent
+    doubt = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
+    return HeightMap(
+        heights,
+        format,
+        channel=name,
+        unit=unit,
+        spacing=spacing,
+        periodic=_periodic(variables, axes),
+        history=_history(attributes),
+        doubts=(doubt,) if borrowed else (),
+    )
 
 
 def list_netcdf(data: bytes) -> tuple[Channel, ...]:
@@ -206,10 +259,13 @@ def _spacing(
 
 def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None) -> float | None:
     """Return the step [m] of a coordinate from its length or its values, which must not contradict each other."""
-    unit = coordinate.word("unit", "units") or unit
+    own = coordinate.word("unit", "units")
+    unit = own or unit
     if not is_length(unit) or coordinate.shape != (count,) or count < 2:
         return None
     places = coordinate.numbers()
+    if own is None and counts(places):
+        return None  # they number the points
     with np.errstate(all="ignore"):  # of places that are infinite
         steps = np.diff(places)
         step = (places[-1] - places[0]) / (count - 1)

@@ -3,69 +3,136 @@
 from __future__ import annotations
 
 import codecs
+import math
 import re
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from roughcontact.files.fields import (
+    EMPTY,
+    fields_of,
+    is_mark,
+    is_number,
+    number_of,
+    put_points,
+    require_one_separator,
+)
 from roughcontact.files.file_errors import ContentError
 from roughcontact.validation import Array
 
-__all__ = ["Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]
+__all__ = ["Marks", "Table", "decode", "last_digit", "parse_table", "require_rows", "stated_rows", "unended"]
 
 _HOLE = "write nan where a point was not measured, so that all rows are equally long"
 _ROWS = re.compile(
     r"(?:(?:number of )?rows|y-pixels|y-?res|ny|zeilen|lignes)\s*[:=,;\t]\s*(\d{1,9})", re.IGNORECASE
 )
 _PLAIN = "give rows of numbers only; lines of explanation before them start with #, or read name = value"
+_COMMENT = re.compile(r"(?:#(?!n/?a\b|num\b)|%|//|!)\s*", re.IGNORECASE)  # spreadsheets write #N/A and #NUM!
 # Above a table: a name that no number begins with, and what it is; or the words that end a header.
 _STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)
 _WORDS = re.compile(r"(?:(?!(?:nan|inf)\b)[^\W\d_]+\s+){2}.*", re.IGNORECASE)  # among such lines
+# Line ends of other systems; what typesetting and Japanese texts have for a minus, a dash and a colon.
+_SIGNS = {"\r\n": "\n", "\r": "\n", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{FULLWIDTH COLON}": ":"}
+_CORNER = re.compile(
+    r"(?!nan|inf)[^\W\d_]|[\[(/\\]", re.IGNORECASE
+)  # what a word above a first column begins with
+_TELLING = 32  # bytes, every other one zero, from which a text has two bytes a letter
+_PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, and doubts.
+    """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, notes and doubts.
 
-    `statements` says whether some of these lines had no ``#``, but were of the form ``name = value``.
+    `statements` says whether some of these lines had no ``#``.
     """
 
     values: Array
     comments: tuple[str, ...]
     statements: bool
+    notes: tuple[str, ...]
     doubts: tuple[str, ...]
+    corner: Corner | None
 
 
-def parse_table(data: bytes) -> Table:
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """What stands above the first column and beside the first row, and what is wrong if those are no places.
+
+    Where it is empty, a point of the map may be missing there: nothing is wrong.
+    """
+
+    text: str
+    error: ContentError | None
+
+
+@dataclass(slots=True)
+class Marks:
+    """The marks of missing points that a reader has met, counted by what they say."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+
+    def numbers(self, fields: list[str]) -> list[float]:
+        """Return the numbers in fields, NaN for marks; raise ValueError for anything else."""
+        try:
+            if not any("_" in text for text in fields):
+                return [float(text) for text in fields]
+        except ValueError:
+            pass
+        return [self.number(text) for text in fields]
+
+    def number(self, text: str) -> float:
+        """Return the number in a field, NaN for a mark; raise ValueError for anything else."""
+        number = number_of(text)
+        if math.isnan(number) and not _PLAIN_MARK.fullmatch(text):
+            if not is_mark(text):
+                raise ValueError(text)
+            self.counts[text] += 1
+        return number
+
+    def told(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return notes, and doubts about marks so short that damage may have left them."""
+        notes: list[str] = []
+        doubts: list[str] = []
+        for text, count in self.counts.items():
+            what = f"{count} fields are empty" if text == EMPTY else f"{count} fields hold {text!r}"
+            (notes if len(text) > 1 else doubts).append(f"{what}, and are read as missing points")
+        return tuple(notes), tuple(doubts)
+
+
+def parse_table(text: str, *, points: bool = False) -> Table:
     """Return the table in a text separated by blanks, tabs, semicolons or commas.
 
     Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood beside any
-    separator but the comma itself.
+    separator but the comma itself, and in quotes. A list of `points` may stand under any words, with empty lines
+    between its points, which have places of their own.
 
     Raises
     ------
     ContentError
-        If a row is longer or shorter than the first, a field is empty or not a number, or an empty line or a
-        comment interrupts the rows; the message names the row.
+        If a row is longer or shorter than the first, a field is not a number, commas may mean two things, or an empty
+        line or a comment interrupts the rows of a matrix; the message names the row.
     """
     comments: list[str] = []
     rows: list[tuple[int, str]] = []
     interrupted = False
     interruption = 0  # the line of an empty line or comment after the first row
     statements = False
-    text = decode(data)
     for number, line in enumerate(text.split("\n"), start=1):
         bare = line.strip()
-        if bare.startswith("#") or not bare:
-            if bare:
-                comments.append(bare.lstrip("# ").strip())
+        mark = _COMMENT.match(bare)
+        if mark or not bare:
+            if mark:
+                comments.append(bare[mark.end() :].lstrip("# ").strip())
             if rows and not interruption:
                 interruption = number
-        elif not rows and (_STATEMENT.fullmatch(bare) or (statements and _WORDS.fullmatch(bare))):
+        elif not rows and (_is_header(bare, statements) or (points and not _holds_a_point(bare))):
             comments.append(bare)
             statements = True
-        elif interruption:
+        elif interruption and not points:
             interrupted = True
             break
         else:
@@ -73,14 +140,30 @@ def parse_table(data: bytes) -> Table:
     if not rows:
         raise ContentError("it holds no numbers", _PLAIN)
     # The rows come first: one that holds no numbers says more about the file than the hole after it.
-    values = _numbers(rows)
+    table = _numbers(rows)
     if interrupted:
         raise ContentError(
             f"line {interruption}, empty or a comment, is a hole after row {len(rows)}",
-            "keep one uninterrupted table in a file",
+            "keep one uninterrupted table in a file, or name a list of points x, y, z .xyz",
         )
-    require_rows(comments, len(rows))
-    return Table(values, tuple(comments), statements, unended(text))
+    require_rows(comments, len(table.values))
+    return Table(
+        table.values,
+        (*comments, *table.comments),
+        statements or table.statements,
+        table.notes,
+        (*unended(text), *table.doubts),
+        table.corner,
+    )
+
+
+def _is_header(line: str, among_statements: bool) -> bool:
+    return bool(_STATEMENT.fullmatch(line) or (among_statements and _WORDS.fullmatch(line)))
+
+
+def _holds_a_point(line: str) -> bool:
+    """Whether a line is that of a point, be one of its numbers damaged."""
+    return sum(is_number(text.replace(",", ".")) for text in fields_of(line)) > 1
 
 
 def require_rows(comments: Iterable[str], found: int) -> None:
@@ -109,16 +192,20 @@ def unended(text: str) -> tuple[str, ...]:
 
 def decode(data: bytes) -> str:
     """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
-    utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    if len(data) >= _TELLING and data[1:_TELLING:2] == bytes(_TELLING // 2):
+        encoding = "utf-16-le"  # without its mark
     try:
-        text = data.decode("utf-16" if utf16 else "utf-8-sig")
+        text = data.decode(encoding)
     except UnicodeDecodeError:
         text = data.decode("latin-1")  # older Western exports: only comments are concerned
     if "\0" in text:
         raise ContentError(
             "it is not a text: it holds zero bytes", "rename it to the extension of its format"
         )
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    for sign, plain in _SIGNS.items():
+        text = text.replace(sign, plain)
+    return text
 
 
 def last_digit(number: str) -> float:
@@ -127,61 +214,68 @@ def last_digit(number: str) -> float:
     return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
 
-def _numbers(rows: list[tuple[int, str]]) -> Array:
-    separator, decimal_comma = _separator(rows[0][1])
-    lines = [line.strip(" ") for _, line in rows]
+def _numbers(rows: list[tuple[int, str]]) -> Table:
+    where = [f"row {k} (line {number})" for k, (number, _) in enumerate(rows, start=1)]
+    fields = [fields_of(line) for _, line in rows]
+    if len(rows) > 1 and not all(map(is_number, fields[0])):
+        fields[0] = fields_of(rows[0][1], like=rows[1][1])
     # A separator closing every row is a habit of some programs; one closing only some rows leaves holes.
-    closed = separator is not None and all(line.endswith(separator) for line in lines)
+    if all(len(row) > 1 and row[-1] == EMPTY for row in fields):
+        fields = [row[:-1] for row in fields]
+    names: tuple[str, ...] = ()
+    if _are_names(fields[:2]):
+        names = (rows[0][1].strip(),)
+        fields, where = fields[1:], where[1:]
+    put_points(fields, where)
+    corner = _corner(fields, where)
+    marks = Marks()
     table = []
-    for index, ((number, _), line) in enumerate(zip(rows, lines, strict=True)):
-        fields = line.split() if separator is None else line.split(separator)
-        if closed:
-            fields.pop()
-        if decimal_comma:
-            fields = _without_decimal_comma(fields, f"row {index + 1} (line {number})")
+    for index, (row, place) in enumerate(zip(fields, where, strict=True)):
+        fields[index] = []  # the row is no longer needed
         try:
-            if "_" in line:  # Python reads 1_000 as a thousand
-                raise ValueError
-            table.append([float(field) for field in fields])
+            table.append(marks.numbers(row))
         except ValueError:
-            raise _bad_field(fields, f"row {index + 1} (line {number})") from None
-        if len(fields) != len(table[0]):
-            raise ContentError(
-                f"row {index + 1} (line {number}) holds {len(fields)} numbers, the first row {len(table[0])}",
-                _HOLE,
-            )
-    return np.array(table, dtype=np.float64)
+            raise _bad_field(row, place) from None
+        if len(row) != len(table[0]):
+            raise ContentError(f"{place} holds {len(row)} numbers, the first row {len(table[0])}", _HOLE)
+    lines = [line for _, line in rows[bool(names) :]]
+    require_one_separator(lines[corner is not None :], where[corner is not None :])
+    notes, doubts = marks.told()
+    if names:
+        notes = (f"its first line, {names[0][:60]!r}, names the columns", *notes)
+    return Table(np.array(table, dtype=np.float64), names, bool(names), notes, doubts, corner)
 
 
-def _separator(line: str) -> tuple[str | None, bool]:
-    """Return the separator of a row (None: blanks) and whether a comma is the decimal mark."""
-    for mark in (";", "\t"):
-        if mark in line.strip(" "):
-            return mark, "," in line
-    if "," not in line:
-        return None, False
-    # "1,5 2,5" holds blanks away from its commas; "1, 2" and "1,2" do not.
-    blanks = re.search(r"[^,\s]\s+[^,\s]", line.strip()) is not None
-    return (None, True) if blanks else (",", False)
+def _are_names(fields: list[list[str]]) -> bool:
+    """Whether the first of two lines names the columns of the other: at least two words; rows may be named too."""
+    if len(fields) < 2 or len(fields[0]) < 2 or not 0 <= len(fields[1]) - len(fields[0]) <= 1:
+        return False
+    return all(text[0].isalpha() and not is_mark(text) for text in fields[0][fields[0][0] == EMPTY :] if text)
 
 
-def _without_decimal_comma(fields: list[str], where: str) -> list[str]:
-    if any("." in field for field in fields):
-        raise ContentError(f"{where} holds decimal commas and points", "write decimal points throughout")
-    return [field.replace(",", ".") for field in fields]
+def _corner(rows: list[list[str]], where: list[str]) -> Corner | None:
+    """Put NaN where the first row has a word, or nothing at all, above a column; return what stood there."""
+    first = rows[0]
+    if len(rows) < 2 or not all(map(is_number, first[1:])):
+        return None
+    if len(first) == len(rows[1]) - 1 and is_number(first[0]):
+        first.insert(0, "nan")
+        return Corner(
+            "",
+            ContentError(f"{where[1]} holds {len(rows[1])} numbers, the first row {len(first) - 1}", _HOLE),
+        )
+    if len(first) > 1 and (first[0] == EMPTY or (_CORNER.match(first[0]) and not is_mark(first[0]))):
+        corner = Corner(first[0], _bad_field(first, where[0]) if first[0] else None)
+        first[0] = "nan"
+        return corner
+    return None
 
 
 def _bad_field(fields: list[str], where: str) -> ContentError:
     """Return the error that names the first field which is not a number."""
-    for column, field in enumerate(fields, start=1):
-        if not field.strip():
-            return ContentError(f"{where}, column {column} is empty", _HOLE)
-        try:
-            if "_" not in field:
-                float(field)
-                continue
-        except ValueError:
-            pass
-        shown = field.strip() if len(field.strip()) <= 30 else field.strip()[:27] + "..."
+    for column, text in enumerate(fields, start=1):
+        if is_mark(text) or not math.isnan(number_of(text)):
+            continue
+        shown = text if len(text) <= 30 else text[:27] + "..."
         return ContentError(f"{where}, column {column}: {shown!r} is not a number", _PLAIN)
     return ContentError(f"{where} is not a row of numbers", _PLAIN)

@@ -15,7 +15,10 @@ import numpy.typing as npt
 from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
+from roughcontact.files.point_grid import grid_of_points
+from roughcontact.files.table_axes import axes_of
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = [
     "list_npz",
@@ -24,11 +27,13 @@ __all__ = [
     "read_npy",
     "read_npy_header",
     "read_npz",
+    "require_no_list",
     "whole_npy_header",
 ]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
 _MEANINGS = ("spacing", "size", "unit", "periodic", "history")
+_LISTED = 8  # rows from which two or three columns are places and heights
 _MAGIC = b"\x93NUMPY"
 _LONGEST = 10_000  # bytes of a header, as in NumPy
 # NumPy evaluates the header as Python; numbers need no more than these, and nothing that can warn. Python 2 wrote 3L.
@@ -95,8 +100,49 @@ def read_npy_header(stream: IO[bytes]) -> NpyHeader:
 
 
 def read_npy(data: bytes) -> HeightMap:
-    """Return the one array of a ``.npy`` file; it states neither unit nor size."""
-    return HeightMap(as_heights(_array(data)), "npy")
+    """Return the one array of a ``.npy`` file; it states neither unit nor size.
+
+    Points, shape (n, 3) or (3, n), are put on their grid; places in the first row and column are no heights.
+    """
+    values = as_heights(_array(data))
+    require_no_list(values.shape)
+    points = values if values.shape[1:] == (3,) else values.T
+    if points.ndim == 2 and points.shape[1] == 3 and len(points) >= _LISTED:
+        return _of_points(points)
+    axes = axes_of(values)
+    if axes is None:
+        return HeightMap(values, "npy")
+    return HeightMap(axes.heights, "npy", doubts=(axes.doubt,))
+
+
+def require_no_list(shape: tuple[int, ...]) -> None:
+    """Refuse what is a list of places and heights, two columns or rows of many numbers.
+
+    Raises
+    ------
+    ContentError
+        If it is.
+    """
+    if len(shape) == 2 and min(shape) == 2 and max(shape) >= _LISTED:
+        which = "column, array[:, 1]" if shape[1] == 2 else "row, array[1]"
+        raise ContentError(
+            f"its {' x '.join(map(str, shape))} numbers look like places and heights, not a map",
+            f"save the {which}, alone for read_line, or a map so narrow as .npz under the key 'heights'",
+        )
+
+
+def _of_points(points: Array) -> HeightMap:
+    try:
+        grid = grid_of_points(points)
+    except ContentError as error:
+        raise ContentError(
+            f"its {len(points)} rows of 3 look like points x, y, z, not a map ({error.problem})",
+            "save the heights as a matrix, rows by columns, or a map so narrow as .npz under the key 'heights'",
+        ) from None
+    ny, nx = grid.heights.shape
+    doubt = f"its {len(points)} rows of 3 are points x, y, z, and are put on their grid of {ny} x {nx}"
+    unclear = f"steps of {grid.steps[1]:g} along x and {grid.steps[0]:g} along y, without a unit"
+    return HeightMap(grid.heights, "npy of points", unclear=unclear, doubts=(doubt, *grid.doubts))
 
 
 def read_npz(data: bytes, channel: str | int | None) -> HeightMap:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from opcode import opmap
+from types import TracebackType
 
-__all__ = ["is_ours"]
+__all__ = ["PACKAGE", "is_ours", "raised_in"]
 
 _RAISE = opmap["RAISE_VARARGS"]
-_PACKAGE = "roughcontact"
+PACKAGE = "roughcontact"
 
 
 def is_ours(error: ValueError | OSError) -> bool:
@@ -21,11 +22,16 @@ def is_ours(error: ValueError | OSError) -> bool:
         return False  # whoever read our output has gone; typer knows how to leave quietly
     if isinstance(error, OSError) and error.filename is not None:
         return True
+    last, package = raised_in(error)
+    return last is not None and package == PACKAGE and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE
+
+
+def raised_in(error: BaseException) -> tuple[TracebackType | None, str]:
+    """Return where an error was raised, and the package of that place by its name; None and "" of one that was not.
+
+    By its name and not its file, which bundles of programs do not have.
+    """
     last = error.__traceback__
     while last is not None and last.tb_next is not None:
         last = last.tb_next
-    if last is None:
-        return False
-    # By its name and not its file, which bundles of programs do not have.
-    ours = str(last.tb_frame.f_globals.get("__name__")).partition(".")[0] == _PACKAGE
-    return ours and last.tb_frame.f_code.co_code[last.tb_lasti] == _RAISE
+    return last, "" if last is None else str(last.tb_frame.f_globals.get("__name__")).partition(".")[0]

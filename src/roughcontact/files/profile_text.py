@@ -6,10 +6,16 @@ import re
 
 import numpy as np
 
+from roughcontact.files.column_units import VALIDITY, column_units
+from roughcontact.files.fields import EMPTY, fields_of, is_mark, is_number, put_points
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
-from roughcontact.files.length_units import is_length, length_factor, parse_length
-from roughcontact.files.numbers import decode, last_digit, require_rows, unended
+from roughcontact.files.length_units import is_length, length_factor, stated_length
+from roughcontact.files.missing_marks import without_marks
+from roughcontact.files.numbers import Marks, decode, last_digit, require_rows, unended
+from roughcontact.files.table_axes import counts
+from roughcontact.files.text_dialects import dialect_of
+from roughcontact.files.text_header import header_of
 from roughcontact.validation import Array
 
 __all__ = ["read_profile"]
@@ -17,13 +23,10 @@ __all__ = ["read_profile"]
 # Places may lie so far from even ones: in steps, or in units of their last printed digit.
 _SLACK = 0.1
 _PRINTED = 1.001
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|nan", re.IGNORECASE)
 _UNIT = r"[^\W\d_]{1,10}"
-_NAMED = {"micrometer": "um", "micrometers": "um", "nanometer": "nm", "nanometers": "nm", "millimeter": "mm"}
 _REMEDY = (
     "give one column of heights, or two: places along the line and heights; or a third, valid, of 1 and 0"
 )
-_VALID = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)
 
 
 def read_profile(data: bytes) -> HeightMap:
@@ -32,69 +35,116 @@ def read_profile(data: bytes) -> HeightMap:
     Lines of words come first; their last one may name the units of two columns, in brackets or as last words
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
     such as ``Length, 1500 um`` is compared with the places. A third column that the words call ``valid`` says by 1 and
-    0 which heights were measured, as in the profiles headed ``X;Y;valid`` and ``[mm];[mm];[1/0]``.
+    0 which heights were measured, as in the profiles headed ``X;Y;valid`` and ``[mm];[mm];[1/0]``. A line such as
+    ``nodata = -9999`` states what stands where nothing was measured, as in a map.
     """
     text = decode(data)
-    words, rows = _split(text)
+    if dialect_of(text) is not None:
+        raise ContentError("it is a text of a map, by its first line", "use read")
+    words, rows, doubts = _without_name(*_split(text))
     require_rows(words, len(rows))
-    doubts = unended(text)
-    values = np.array([[float(field or "nan") for field in row] for row in rows])
-    if values.shape[1] == 3:
-        values[values[:, 2] == 0, 1] = np.nan
-    if values.shape[1] == 1:
-        unit = _header_units(words, 1)[0]
-        return HeightMap(as_heights(values[:, 0]), "text profile", unit=unit, doubts=doubts)
-    step, note = _step(values[:, 0], [row[0] for row in rows])
-    lateral, unit = _header_units(words, 2)
-    factor = length_factor(lateral) if lateral is not None else None
-    if factor is not None:
-        doubts += _announced(words, step * factor * (len(values) - 1))
+    columns = len(rows[0])
+    header = header_of(words, (0, 0))
+    marks = Marks()
+    values = np.array([marks.numbers(row) for row in rows])
+    notes, of_marks = marks.told()
+    heights, stated, near = without_marks(values[:, min(columns - 1, 1)], header.missing)
+    notes, doubts = (*notes, *stated), (*unended(text), *doubts, *of_marks, *header.doubts, *near)
+    if columns == 3:
+        heights = np.where(values[:, 2] == 0, np.nan, heights)
+    lateral, unit = (None, None, *column_units(words, min(columns, 2)))[-2:]
+    lateral = lateral or header.lateral
+    spacing, steps, unclear = None, None, header.unclear
+    if columns == 1:
+        length = header.dx if header.width is None else header.width / len(rows)
+        spacing = None if length is None else (length,)
+    else:
+        step, of_places = _step(values[:, 0], [row[0] for row in rows])
+        notes = (*notes, *of_places)
+        if is_length(lateral):
+            spacing = (step * length_factor(lateral or ""),)
+            doubts += _announced(words, spacing[0] * (len(values) - 1))
+        else:
+            unclear = _unclear(lateral, unit, values[:, 0])
+            steps = (step,) if unclear is None else None
     return HeightMap(
-        as_heights(values[:, 1]),
+        as_heights(heights),
         "text profile",
-        unit=unit,
-        spacing=None if factor is None else (step * factor,),
-        steps=(step,) if factor is None else None,
-        notes=note,
+        unit=unit or header.unit,
+        spacing=spacing,
+        steps=steps,
+        unclear=unclear,
+        notes=notes,
         doubts=doubts,
     )
+
+
+def _unclear(lateral: str | None, unit: str | None, places: Array) -> str | None:
+    """Return why the unit of places is open; None where they may be in that of the heights, as nothing states one."""
+    if lateral is not None:
+        return f"places in {lateral!r}"
+    if unit is not None:
+        return f"heights in {unit}, places without a unit"
+    return "the first column numbers the heights" if counts(places) else None
+
+
+def _without_name(
+    words: list[str], rows: list[list[str]]
+) -> tuple[list[str], list[list[str]], tuple[str, ...]]:
+    """Return rows without a first one that is 0, the name that data frames give to a lone column of heights."""
+    if rows[0] == ["0"] and len(rows) > 2 and all("." in row[0] or is_mark(row[0]) for row in rows[1:]):
+        return words, rows[1:], ("its first number, 0, is taken for the name of the column, and left out",)
+    return words, rows, ()
 
 
 def _split(text: str) -> tuple[list[str], list[list[str]]]:
     """Return the lines of words and the rows of numbers after them."""
     words: list[str] = []
     rows: list[list[str]] = []
-    lines = text.rstrip().split("\n")
-    for number, line in enumerate(lines, start=1):
-        bare = line.strip().rstrip(",;").rstrip()
-        fields = _fields(bare)
+    where: list[str] = []
+    for number, line in enumerate(text.rstrip().split("\n"), start=1):
+        fields = _trimmed(fields_of(line.strip(" ")), len(rows[0]) if rows else 1)
         judged = len(fields) == 3 and _of_validity(words) and fields[2] in ("0", "1")
-        if all(_NUMBER.fullmatch(field) for field in fields) or (judged and fields[1:] == ["", "0"]):
+        if _is_row(fields, judged):
             if len(fields) > 2 + judged or len(fields) != len((rows or [fields])[0]):
                 raise ContentError(f"line {number} holds {len(fields)} numbers", _REMEDY)
-            rows.append(fields)
+            rows.append([field or "nan" for field in fields] if judged else fields)
+            where.append(f"line {number}")
         elif rows:
             raise ContentError(
                 f"line {number}: {line.strip()[:30]!r} interrupts the rows of numbers", _REMEDY
             )
-        elif bare.strip("# "):
-            words.append(bare.strip("# "))
+        elif bare := line.strip("# \t,;"):
+            words.append(bare)
     if len(rows) < 2:
         raise ContentError(f"it holds {len(rows)} rows of numbers", _REMEDY)
+    put_points(rows, where)
     return words, rows
 
 
-def _fields(line: str) -> list[str]:
-    """Return the fields of a line; beside a semicolon or a tab a comma is the decimal mark."""
-    if re.search(r"[;\t]", line):
-        return re.split(r"\s*[;\t]\s*", line.replace(",", "."))
-    return re.split(r"\s*,\s*|\s+", line)
+def _trimmed(fields: list[str], fewest: int) -> list[str]:
+    """Return fields without the empty ones at their end, where at least so many are left."""
+    while len(fields) > fewest and fields[-1] == EMPTY:
+        fields = fields[:-1]
+    return fields
+
+
+def _is_row(fields: list[str], judged: bool) -> bool:
+    """Whether fields are a row: a number, then numbers or marks of missing points; a lone mark is one too."""
+    known = [is_number(field.replace(",", ".")) for field in fields]
+    if not fields or not all(number or is_mark(field) for number, field in zip(known, fields, strict=True)):
+        return False
+    if len(fields) == 1:
+        return known[0] or fields[0].casefold() == "nan"
+    return (known[0] or fields[0].casefold() == "nan") and (
+        fields[1] != EMPTY or not judged or fields[2] == "0"
+    )
 
 
 def _of_validity(words: list[str]) -> bool:
     """Whether the last two lines of words call the third of three columns that of validity."""
     columns = (re.split(r"\s*[,;\t]\s*|\s+", line) for line in words[-2:])
-    return any(len(each) == 3 and _VALID.fullmatch(each[2]) for each in columns)
+    return any(len(each) == 3 and VALIDITY.fullmatch(each[2]) for each in columns)
 
 
 def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
@@ -116,27 +166,14 @@ def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
     return step, (f"places printed to {digit:g} are taken as even steps of {step:g}",)
 
 
-def _header_units(words: list[str], columns: int) -> tuple[str | None, ...]:
-    """Return the units that the last line of words gives to the columns."""
-    if words:
-        bracketed = re.findall(r"[\[(]\s*([^\])]+?)\s*[\])]", words[-1])
-        last = [re.split(r"\s+", part.strip())[-1] for part in re.split(r"[,;\t]", words[-1])]
-        for found in (bracketed, last):
-            units = [_NAMED.get(unit.casefold(), unit) for unit in found if not _VALID.fullmatch(unit)]
-            if len(units) == columns and all(map(is_length, units)):
-                return tuple(units)
-    return (None,) * columns
-
-
 def _announced(words: list[str], span: float) -> tuple[str, ...]:
     """Return a doubt where a line of words announces another length [m] than the places cover."""
     for line in words:
         parts = re.fullmatch(rf"(?:scan )?length\s*[,:;=\t]\s*([\d.]+\s*{_UNIT})", line, re.IGNORECASE)
         if parts is None:
             continue
-        try:
-            length = parse_length(parts[1])
-        except ValueError:
+        length = stated_length(parts[1])
+        if length is None:
             continue
         if abs(span - length) > 0.01 * length:
             return (f"it announces a length of {length:g} m and covers {span:g} m: it may be cut short",)

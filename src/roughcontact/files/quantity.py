@@ -34,6 +34,11 @@ _PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
 _UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
 # Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
 _SMALLEST, _LARGEST = 1e-30, 1e30
+# Before N, m and Pa: pint, which knows all other units, takes longer to load than a small contact to solve.
+_PREFIXES = {
+    **{"p": 1e-12, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2},
+    **{"k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12},
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +130,9 @@ def parse_number(text: str, example: str) -> float:
 
 def _factor(unit: str, kind: Kind, text: str) -> float:
     """Return how many SI units of `kind` one `unit` is."""
+    prefix = unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit  # not of m^2: (mm)^2 is none of it
+    if prefix != unit and prefix in _PREFIXES:
+        return _PREFIXES[prefix]
     expected = f"expected {kind.name} such as {kind.example}"
     # Asked for a unit that is right first: a broken pint is not the fault of the given one.
     registry = _registry()

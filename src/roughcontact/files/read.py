@@ -33,9 +33,9 @@ def read(
 ) -> Surface:
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
-    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.xyz``, ``.x3p``, ``.nc`` and ``.sur`` are read
-    strictly; every other format needs SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a
-    profile is refused: see `read_line`.
+    ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.grd``, ``.xyz``, ``.x3p``, ``.nc``, ``.sur``,
+    ``.sdf``, ``.tmd``, ``.gsf`` and ``.gwy`` are read strictly; ``.tif`` and every other format need SurfaceTopography,
+    ``pip install roughcontact[formats]``. A file that holds a profile is refused: see `read_line`.
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ def read(
     channel : str or int, optional
         Name of the channel, or its position counted from 0. Without it the height is found by name and unit.
     unit : str or float, optional
-        Unit of the heights in the file, such as ``"nm"``, or metres per unit. It goes before what the file
-        states.
+        Unit of the heights in the file, such as ``"nm"``, any length that pint knows, or metres per unit. It goes
+        before what the file states.
     size : length or pair of lengths, optional
         Width Lx of a map of square cells, or ``(Ly, Lx)``: numbers [m] or texts such as ``"10 um"``. Lengths
         are those of all cells, ``n * spacing``. It goes before what the file states.
@@ -72,8 +72,9 @@ def read(
     Warns
     -----
     SurfaceWarning
-        If several channels may be meant, or if the size or the heights are hardly those of a surface: lone
-        spikes, slopes or heights beyond measure, random numbers.
+        If several channels may be meant, if numbers were left out that are places and no heights, or read as missing
+        points without a word of the file, or if the size or the heights are rarely those of a surface: lone spikes,
+        slopes or heights beyond measure, one number again and again, random numbers.
 
     Examples
     --------

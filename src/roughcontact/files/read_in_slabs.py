@@ -14,8 +14,10 @@ import numpy.typing as npt
 from roughcontact.files.assemble import assemble
 from roughcontact.files.content import content, named, ordinary_file
 from roughcontact.files.dispatch import height_map
+from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights, require_map
-from roughcontact.files.numpy_files import NpyHeader, whole_npy_header
+from roughcontact.files.numpy_files import NpyHeader, require_no_list, whole_npy_header
+from roughcontact.files.table_axes import axes_of
 from roughcontact.grid import Grid
 from roughcontact.slabs.agreement import by_each, by_first
 from roughcontact.slabs.by_rows import dealt_from_first
@@ -67,6 +69,7 @@ def _npy(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, str]:
             header = whole_npy_header(stream, os.fstat(stream.fileno()).st_size)
             as_heights(np.zeros((1,) * len(header.shape), header.dtype))  # refuses what is none
             require_map(HeightMap(np.broadcast_to(0.0, header.shape), "npy"))
+            _require_heights_alone(_mapped(stream, header))
             stream.seek(0)
             bytes_of_file: Any = stream
             return header, hashlib.file_digest(bytes_of_file, "sha256").hexdigest()[:16]
@@ -76,9 +79,24 @@ def _npy(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, str]:
 
     def read() -> None:
         with named(path), ordinary_file(path) as stream:
-            order: Any = "F" if header.fortran else "C"
-            whole = np.memmap(stream, header.dtype, "r", header.offset, header.shape, order)
-            own.append(as_heights(whole[slabs.rows(header.shape[0])]))
+            own.append(as_heights(_mapped(stream, header)[slabs.rows(header.shape[0])]))
 
     by_each(slabs.communicator, read)
     return HeightMap(slabs.array(own[0]), "npy"), digest  # type: ignore[arg-type]
+
+
+def _mapped(stream: Any, header: NpyHeader) -> npt.NDArray[Any]:
+    order: Any = "F" if header.fortran else "C"
+    return np.memmap(stream, header.dtype, "r", header.offset, header.shape, order)
+
+
+def _require_heights_alone(values: npt.NDArray[Any]) -> None:
+    """Refuse points and axes, which are recognised where one process reads the file."""
+    require_no_list(values.shape)
+    if values.ndim == 2 and (
+        (min(values.shape) == 3 and max(values.shape) > 8) or axes_of(values) is not None
+    ):
+        raise ContentError(
+            "it holds points x, y, z, or places in its first row or column, beside heights",
+            "read it by one process, or save the heights alone",
+        )

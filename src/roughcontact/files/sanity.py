@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.files.noisy_rows import noisy_rows
 from roughcontact.surface.spikes import spikes_in
 from roughcontact.validation import Array
 
@@ -20,6 +24,11 @@ _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
 _CHOSEN = 100_000  # points that a quantile is taken of
 _ENOUGH_IN_A_ROW = 32
+# Equal neighbours, and by how many times more than in any other run: a plateau has as many in each row.
+_RUN, _LONGER = 12, 4
+_FEW = 64  # points for what is far from the others
+_REPEATED = 4  # equal numbers far from all others
+_MOSTLY = 0.5  # share of missing points
 _DEVIATIONS = 3.0  # standard deviations within which a correlation counts as none
 _NOISY = 0.2  # share of rows without correlation
 
@@ -50,8 +59,12 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
         found.append(
             f"an rms height of {rms:.3g} m on {min(lengths):.3g} m is unusual; check unit= and size="
         )
-    if np.count_nonzero(~np.isnan(heights)) < _ENOUGH:
-        return tuple(found)
+    missing = np.count_nonzero(np.isnan(heights)) / heights.size
+    if missing > _MOSTLY:
+        found.append(f"{missing:.0%} of its points are missing")
+    known = int(np.count_nonzero(~np.isnan(heights)))
+    if known < _ENOUGH:
+        return (*found, *(_apart(heights) if known >= _FEW and not flat else ()))
     if flat:
         return (*found, "all its heights are equal, as nothing measured is")
     return (*found, *_statistics(heights, spacing))
@@ -59,7 +72,7 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
 
 def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     """Return doubts that need many points: rows without heights, spikes, slopes, noise."""
-    found = _broken_off(heights)
+    found = _broken_off(heights) or _long_runs(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
         found.append(
@@ -70,12 +83,19 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
             f"{count} points lie more than {_FAR:g} interquartile ranges from the median height; "
             "take them out by masked()"
         )
+    else:
+        found += _apart(heights)
     slopes = [_quantile(step, 0.5) / width for step, width in zip(steps, spacing, strict=True)]
     if (slope := max(slopes)) > _STEEPEST:
         found.append(f"a typical slope of {slope:.3g} is unusual; check unit= and size=")
     if (share := _noise(heights)) > _NOISY:
         found.append(
             f"in {share:.0%} of the rows neighbouring heights are unrelated, as random numbers are; check the file"
+        )
+    elif (rows := noisy_rows(heights)) > 0:
+        found.append(
+            f"in {rows} rows or columns neighbouring heights are unrelated and far apart, as random numbers are; "
+            "check the file"
         )
     return found
 
@@ -95,10 +115,49 @@ def _broken_off(heights: Array) -> list[str]:
     return found
 
 
+def _long_runs(heights: Array) -> list[str]:
+    """Return a doubt where one number is repeated far more often than any other: what damage to a file leaves.
+
+    Looked for along rows and columns, and along rows that are stored from the bottom up.
+    """
+    orders: tuple[Callable[[Any], Any], ...] = (lambda a: a, lambda a: a.T, lambda a: a[::-1])
+    for order in orders[: 2 * heights.ndim - 1]:
+        values = order(heights).reshape(-1)
+        ends = np.flatnonzero(np.append(values[1:] != values[:-1], True))  # of runs; NaN is unlike itself
+        lengths = np.diff(ends, prepend=-1)
+        longest = int(np.argmax(lengths))
+        second = int(np.delete(lengths, longest).max(initial=1))
+        if (count := int(lengths[longest])) >= max(_RUN, _LONGER * second):
+            first = order(np.arange(heights.size).reshape(heights.shape)).reshape(-1)[
+                ends[longest] - count + 1
+            ]
+            place = ", ".join(str(k) for k in np.unravel_index(first, heights.shape))
+            return [
+                f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as damage leaves "
+                "them; write nan there if they were not measured"
+            ]
+    return []
+
+
 def _far_points(heights: Array) -> int:
     """Count the points that lie far from all the heights."""
     low, middle, high = (_quantile(heights, q) for q in (0.25, 0.5, 0.75))
     return int(np.count_nonzero(np.abs(heights - middle) > _FAR * (high - low))) if high > low else 0
+
+
+def _apart(heights: Array) -> list[str]:
+    """Return a doubt where the lowest or highest number is repeated, and further from the others than they reach."""
+    known = heights[~np.isnan(heights)]
+    for extreme in (known.min(), known.max()):
+        others = known[known != extreme]
+        count = known.size - others.size
+        low, high = others.min(), others.max()
+        if count >= _REPEATED and high > low and min(abs(extreme - low), abs(extreme - high)) > high - low:
+            return [
+                f"{count} points hold {extreme:g} m, as a mark of missing points does, and the others {low:g} to "
+                f"{high:g} m; take them out by masked()"
+            ]
+    return []
 
 
 def _noise(heights: Array) -> float:

@@ -26,20 +26,19 @@ from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes
 from roughcontact.files.provenance import provenance
+from roughcontact.files.surface_dataset import dataset_without_heights, surface_dataset
 from roughcontact.files.text import text_bytes
-from roughcontact.files.write import netcdf_bytes, write_csv, write_netcdf, write_text
+from roughcontact.files.write import netcdf_bytes, require_netcdf, write_csv, write_netcdf, write_text
 from roughcontact.files.write_in_slabs import write_netcdf_in_slabs, write_npy_in_slabs
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.grid import AnyGrid, RadialGrid
-from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
-    import xarray
+    pass
 
 __all__ = ["require_surface_file", "write"]
 
@@ -122,7 +121,7 @@ def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
     elif Path(path).suffix.casefold() == ".npy":
         write_npy_in_slabs(what.heights, path)
     else:
-        write_netcdf_in_slabs(_dataset(what, {}), {"heights": what.heights}, path)
+        write_netcdf_in_slabs(dataset_without_heights(what, {}), {"heights": what.heights}, path)
 
 
 def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False) -> None:
@@ -131,7 +130,8 @@ def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False
     Raises
     ------
     WriteError
-        If its extension is not known, or there is no such folder, no permission, a folder of that name.
+        If its extension is not known or needs a package that is not installed, or there is no such folder, no
+        permission, a folder of that name.
     """
     if in_slabs:
         _require_kind(path, "Surface in slabs", _IN_SLABS[Surface])
@@ -143,6 +143,8 @@ def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str],
     kind = Path(path).suffix.casefold()
     if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
+    if kind == ".nc":
+        require_netcdf()
     return kind
 
 
@@ -151,14 +153,7 @@ def _vti(surface: Surface) -> bytes:
 
 
 def _netcdf(surface: Surface) -> bytes:
-    heights = variable("heights", Geometry.of(surface.grid).axes, surface.heights)
-    return netcdf_bytes(_dataset(surface, {"heights": heights}))
-
-
-def _dataset(surface: Surface, maps: dict[str, Any]) -> xarray.Dataset:
-    grid, geometry = surface.grid, Geometry.of(surface.grid)
-    dataset = dataset_of(sizes(grid) | maps, centres(grid, geometry), "heights of a surface", geometry)
-    return dataset.assign_attrs(provenance(surface))
+    return netcdf_bytes(surface_dataset(surface))
 
 
 def _solution(solution: Pressed) -> bytes:

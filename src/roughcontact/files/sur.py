@@ -14,6 +14,7 @@ from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.files.numbers import decode
 from roughcontact.validation import Array
 
 __all__ = ["read_sur"]
@@ -52,16 +53,17 @@ _AGAIN = "copy the file again, or export it as X3P"
 def read_sur(data: bytes) -> HeightMap:
     """Return the one map or profile of the file; its heights are whole numbers of a stated step."""
     header = _header(data)
-    ny, nx = int(header["ny"]), int(header["nx"])
-    counts = _counts(data, header).reshape(ny, nx)
+    counts, unread = _counts(data, header)
     notes: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
+    if unread:
+        doubts = (f"{unread} bytes at its end belong to no height: its header may be damaged",)
     missing = np.zeros(counts.shape, dtype=np.bool_)
     if header["special_points"] == 1:
         missing = counts == int(header["lowest"]) - 2
     outside = ~missing & ((counts < header["lowest"]) | (counts > header["highest"]))
     if outside.any():
-        doubts = (f"{int(outside.sum())} heights lie outside the range that its header states",)
+        doubts = (*doubts, f"{int(outside.sum())} heights lie outside the range that its header states")
     heights: Array = np.where(missing, np.nan, counts * float(header["dz"]))
     if (inversion := int(header["inversion"])) in (1, 2, 3):
         # 2 and 3 mirror as well; the same reading as that of Gwyddion.
@@ -72,9 +74,11 @@ def read_sur(data: bytes) -> HeightMap:
     spacing: tuple[float, ...] | None = None
     if all(map(is_length, units)):
         spacing = (steps[0] * length_factor(units[0]), steps[1] * length_factor(units[1]))
-    if header["kind"] == _PROFILE:
+    if header["kind"] == _PROFILE and len(heights) == 1:
         heights = heights[0]
         spacing = (steps[1] * length_factor(units[1]),) if is_length(units[1]) else None
+    elif header["kind"] == _PROFILE:
+        notes = (*notes, f"of type 1 (profile) with {len(heights)} lines: a map, as Gwyddion exports it")
     return HeightMap(
         as_heights(heights),
         "Digital Surf",
@@ -106,29 +110,32 @@ def _header(data: bytes) -> Any:
             f"its header states {ny} x {nx} points of {header['bits']} bits, {header['points']} in all",
             _AGAIN,
         )
-    if header["kind"] == _PROFILE and ny != 1:
-        raise ContentError(f"it holds a series of {ny} profiles", "export one of them")
     if not all(math.isfinite(header[name]) and header[name] > 0 for name in ("dx", "dy", "dz")):
         steps = ", ".join(f"{header[name]:g}" for name in ("dx", "dy", "dz"))
         raise ContentError(f"its header states steps of {steps} (x, y, z)", _AGAIN)
     return header
 
 
-def _counts(data: bytes, header: Any) -> npt.NDArray[np.int64]:
-    """Return the whole numbers behind the header and its two appendices."""
+def _counts(data: bytes, header: Any) -> tuple[npt.NDArray[np.int64], int]:
+    """Return the whole numbers (ny, nx) behind the header and its two appendices, and how many bytes follow them."""
     dtype = np.dtype(f"<i{header['bits'] // 8}")
     expected = int(header["points"]) * dtype.itemsize
     rest = data[_HEADER.itemsize + int(header["comment"]) + int(header["private"]) :]
+    unread = max(0, len(rest) - expected)
     if header["magic"] == b"DSCOMPRESSED":
         require_memory(BYTES_PER_POINT * int(header["points"]))
-        rest = _unpacked(rest, expected)
+        rest, unread = _unpacked(rest, expected)
     if len(rest) < expected:
         raise ContentError(f"{len(rest)} of {expected} bytes of heights are there: it is cut short", _AGAIN)
-    return np.frombuffer(rest, dtype=dtype, count=int(header["points"])).astype(np.int64)
+    counts = np.frombuffer(rest, dtype=dtype, count=int(header["points"])).astype(np.int64)
+    return counts.reshape(int(header["ny"]), int(header["nx"])), unread
 
 
-def _unpacked(packed: bytes, expected: int) -> bytes:
-    """Return the contents of the zlib streams behind a table of their lengths, each checked by its checksum."""
+def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
+    """Return the contents of the zlib streams behind a table of their lengths, and how many bytes are no part of it.
+
+    Each stream is checked by its checksum.
+    """
     try:
         (streams,) = struct.unpack_from("<I", packed)
         lengths = struct.unpack_from(f"<{2 * streams}I", packed, 4) if streams <= expected else ()
@@ -142,8 +149,9 @@ def _unpacked(packed: bytes, expected: int) -> bytes:
             left -= min(whole, left)
     except (struct.error, zlib.error, ValueError) as error:
         raise ContentError(f"its compressed heights are damaged ({error})", _AGAIN) from error
-    return b"".join(parts)
+    unpacked = b"".join(parts)
+    return unpacked, len(packed) - place + max(0, len(unpacked) - expected)
 
 
 def _text(field: bytes) -> str:
-    return field.split(b"\0")[0].decode("latin-1").strip()
+    return decode(field.split(b"\0")[0]).strip()

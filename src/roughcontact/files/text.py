@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import numpy as np
-
+from roughcontact.files.column_units import column_units
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
-from roughcontact.files.numbers import parse_table, stated_rows
+from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.files.missing_marks import without_marks
+from roughcontact.files.numbers import Table, decode, parse_table, stated_rows
+from roughcontact.files.table_axes import Axes, axes_of
+from roughcontact.files.text_dialects import dialect_of
 from roughcontact.files.text_header import TextHeader, header_of
 from roughcontact.surface.surface import Surface
 
@@ -20,39 +23,69 @@ _COORDINATES = 8  # rows from which two or three bare columns are taken for coor
 def read_text(data: bytes) -> HeightMap:
     """Return a matrix of heights; without a header it states neither unit nor size.
 
-    A header are lines that begin with ``#`` or read ``name = value`` or ``name: value``.
+    A header are lines that begin with ``#`` or read ``name = value`` or ``name: value``, or what a program of
+    ``text_dialects`` writes. Places in the first row and column are no heights.
     """
-    table = parse_table(data)
-    ny, nx = table.values.shape
+    text = decode(data)
+    if (dialect := dialect_of(text)) is not None:
+        return dialect(text)
+    table = parse_table(text)
+    _require_no_points(table)
+    axes = axes_of(table.values)
+    doubts = table.doubts
+    if axes is None and table.corner is not None:
+        if table.corner.error is not None:
+            raise table.corner.error
+        doubts = (*doubts, "its first field is empty, and is read as a missing point")
+    heights = table.values if axes is None else axes.heights
+    ny, nx = heights.shape
     header = header_of(table.comments, (ny, nx))
-    if nx in (2, 3) and (ny >= _COORDINATES or table.statements) and not header.states_a_size:
-        raise ContentError(
-            f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
-            "read a profile by read_line" if nx == 2 else "name a list of points x, y, z .xyz",
-        )
     if header.columns is not None and header.columns != nx:
         raise ContentError(
             f"its rows hold {nx} numbers where it states {header.columns}",
             "copy or export it again, or take out that line if it says something else",
         )
-    heights = table.values
-    notes: tuple[str, ...] = ()
-    if header.missing is not None and (found := heights == header.missing).any():
-        heights = np.where(found, np.nan, heights)
-        notes = (f"not measured where it is {header.missing:g}, as its header states",)
+    notes, doubts = table.notes, (*doubts, *header.doubts)
+    if axes is not None:
+        doubts = (*doubts, axes.doubt)
+    heights, stated, near = without_marks(heights, header.missing)
     return HeightMap(
         as_heights(heights),
         "text" if header == TextHeader(doubts=header.doubts) else "text with a header",
         channel=header.channel,
-        unit=header.unit,
-        spacing=header.spacing((ny, nx)),
-        notes=notes,
-        doubts=(
-            *table.doubts,
-            *header.doubts,
-            *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx))),
-        ),
+        unit=header.unit or column_units(table.comments, 3)[2],
+        spacing=header.spacing((ny, nx)) or _cell_of(axes, header.lateral or _lateral(table)),
+        unclear=header.unclear,
+        notes=(*notes, *stated),
+        doubts=(*doubts, *near, *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx)))),
     )
+
+
+def _require_no_points(table: Table) -> None:
+    ny, nx = table.values.shape
+    if nx not in (2, 3) or not (ny >= _COORDINATES or table.statements):
+        return
+    if not header_of(table.comments, (ny, nx)).states_a_size:
+        raise ContentError(
+            f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
+            "read a profile by read_line" if nx == 2 else "name a list of points x, y, z .xyz",
+        )
+
+
+def _lateral(table: Table) -> str | None:
+    """Return the one unit that the corner of a table, or a line such as ``x [mm] y [mm] z [um]``, gives to its axes."""
+    corner = [] if table.corner is None else [table.corner.text]
+    units = {*column_units(table.comments, 3)[:2]}, {*column_units(corner, 2)}, {*column_units(corner, 1)}
+    return next((unit for found in units if len(found) == 1 for unit in found if is_length(unit)), None)
+
+
+def _cell_of(axes: Axes | None, lateral: str | None) -> tuple[float, float] | None:
+    """Return the cell (dy, dx) [m] between axes in a lateral unit."""
+    steps = None if axes is None else axes.steps()
+    if steps is None or not is_length(lateral):
+        return None
+    factor = length_factor(lateral or "")
+    return steps[0] * factor, steps[1] * factor
 
 
 def _rows_missing(header: TextHeader, shape: tuple[int, int]) -> tuple[str, ...]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from roughcontact.files.length_units import is_length, length_factor, parse_length
+from roughcontact.files.length_units import is_length, length_factor, stated_length
 from roughcontact.files.numbers import last_digit
 
 __all__ = ["TextHeader", "header_of"]
@@ -15,23 +14,32 @@ __all__ = ["TextHeader", "header_of"]
 # What programs call it, in lower case, with blanks for underscores and hyphens. Width and height in the languages of
 # Gwyddion's menus that Western files come in.
 _LABELS = {
-    "channel": r"channel( name)?|kanal|canal|canale",
-    "width": r"width|breite|largeur|anchura|larghezza|largura",
-    "height": r"height|höhe|hauteur|altura|altezza",
+    "channel": r"channel( name)?|kanal|kanál|canal|canale|канал|チャネル|채널",
+    "width": r"width|breite|largeur|anchura|larghezza|largura|šířka|ширина|幅|폭",
+    "height": r"height|höhe|hauteur|altura|altezza|výška|высота|高さ|높이",
     "x": r"(scan )?x (length|range)|length x",
     "y": r"(scan )?y (length|range)|length y",
-    "dx": r"pixel ?size( x)?|x ?pixel ?size|cell ?size|d ?x|x (step|spacing|increment)|scale x|pitch( x)?|spacing",
-    "dy": r"pixel ?size y|y ?pixel ?size|d ?y|y (step|spacing|increment)|scale y|pitch y",
+    "dx": r"pixel ?size( x)?|x ?pixel ?size|cell ?size( x)?|d ?x|x (step|spacing|increment)|scale x|pitch( x)?|spacing"
+    r"|(pixelgrösse|schrittweite)( x)?",
+    "dy": r"pixel ?size y|y ?pixel ?size|cell ?size y|d ?y|y (step|spacing|increment)|scale y|pitch y"
+    r"|(pixelgrösse|schrittweite) y",
     "columns": r"x pixels|x ?res|nx|n ?cols|columns|number of columns|points per line",
-    "unit": r"(value|height|data|z) ?units?|unit (z|data)|einheit(en)?( der werte)?|werteeinheit(en)?"
-    r"|unités|unità valore|unidades de valor",
-    "lateral": r"(lateral|x|xy) ?units?|unit (x|xy)",
+    "unit": r"(value|height|data|z) ?units?|unit (z|data)|(z ?)?einheit(en)?( der werte)?|werteeinheit(en)?"
+    r"|unités|unità valore|unidades de valor|jednotky hodnot|единицы измерения|値の単位|값 단위",
+    "lateral": r"(lateral|x|xy) ?units?|unit (x|xy)|(laterale|x) ?einheit",
+    "lateral y": r"y ?units?|unit y|y ?einheit",
     "any": r"units?",
-    "missing": r"(no ?data|missing|invalid|bad|undefined)( data)? ?values?|no ?data|missing data",
+    "missing": r"(no ?data|missing|invalid|bad|undefined|null|void|fill|mask|blank)( data| pixel| point)? ?values?"
+    r"|no ?data|missing data|fehlwert|fehlender wert|ungültiger wert|valeur manquante|sin datos",
     "format": r"file format",
 }
 _LABELS_OF = {name: re.compile(words) for name, words in _LABELS.items()}
+_SIDES = ("width", "height", "dx", "dy")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_THOUSANDS = re.compile(r"[1-9]\d{0,2}(,\d{3})+(?!\d)")  # or three decimals: who can say
+_LABELLED = re.compile(r"([^\d=:]+?)[\s,;]\s*([-+]?\.?\d[^=:]*)")
+_DIGIT = re.compile(r"[-+.]*\d")
+_PIXELS = re.compile(r"\d+\s*(px|pix|pixels?|points?|pts|samples?|cells?)?\.?", re.IGNORECASE)
 # What changes heights and is no unit: a reader that does not know it must say so.
 _SCALES = re.compile(
     r"(z|height|data) scale|scale (z|data)|bit2nm|multiplier"
@@ -57,8 +65,12 @@ class TextHeader:
         Number of heights in a row.
     unit : str, optional
         Unit of the heights.
-    missing : float, optional
-        Number that stands where nothing was measured.
+    lateral : str, optional
+        Unit of lengths along the map.
+    missing : tuple of float
+        Numbers that stand where nothing was measured.
+    unclear : str, optional
+        A side of the map or of a cell in words that are not understood here.
     doubts : tuple of str
         What was read and may be otherwise.
     """
@@ -71,7 +83,9 @@ class TextHeader:
     rounding: float = 0.0
     columns: int | None = None
     unit: str | None = None
-    missing: float | None = None
+    lateral: str | None = None
+    missing: tuple[float, ...] = ()
+    unclear: str | None = None
     doubts: tuple[str, ...] = ()
 
     @property
@@ -80,10 +94,13 @@ class TextHeader:
         return any(each is not None for each in (self.width, self.height, self.dx, self.dy, self.columns))
 
     def spacing(self, shape: tuple[int, int]) -> tuple[float, float] | None:
-        """Return the cell (dy, dx) of a map of a shape (ny, nx) [m]; with one side of a cell alone it is a square."""
+        """Return the cell (dy, dx) of a map of a shape (ny, nx) [m]; with one side of a cell alone it is a square.
+
+        None where a side that is needed is not stated, or not understood.
+        """
         dy = self.dy if self.height is None else self.height / shape[0]
         dx = self.dx if self.width is None else self.width / shape[1]
-        if dy is None and self.height is None and self.width is None:
+        if dy is None and self.width is None and self.unclear is None:
             dy = dx
         return None if dx is None or dy is None else (dy, dx)
 
@@ -95,11 +112,14 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
     nanometres.
     """
     stated: dict[str, str] = {}
+    missing: list[float] = []
     doubts: list[str] = []
     for line in lines:
         label, value = _parts(line)
         name = next((name for name, words in _LABELS_OF.items() if words.fullmatch(label)), None)
-        if name is not None and value:
+        if name == "missing":
+            missing += _numbers(value)
+        elif name is not None and value:
             stated.setdefault(name, value)
         elif _SCALES.fullmatch(label) and not _is_one(value):
             doubts.append(f"its header states {line.strip()[:60]!r}, which is not applied: check the heights")
@@ -116,7 +136,9 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
         doubts.append(
             f"its one unit, {lateral}, is taken for lengths along the map as for heights; else pass size="
         )
-    lengths = {name: _length(stated.get(name), lateral) for name in ("width", "height", "dx", "dy")}
+    along_y = stated.get("lateral y", lateral)
+    units = {"width": lateral, "height": along_y, "dx": lateral, "dy": along_y}
+    lengths = {name: _length(stated.get(name), each) for name, each in units.items()}
     sides = [stated[name] for name in ("width", "height") if name in stated]
     return TextHeader(
         channel=stated.get("channel"),
@@ -124,37 +146,56 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
         rounding=sum(map(_rounding, sides)),
         columns=_whole(stated.get("columns")),
         unit=unit,
-        missing=_value(stated.get("missing")),
+        lateral=lateral,
+        missing=tuple(missing),
+        unclear=_unclear(stated, lengths),
         doubts=tuple(doubts),
     )
 
 
+def _unclear(stated: dict[str, str], lengths: dict[str, float | None]) -> str | None:
+    """Return the first side that is stated by a number, neither understood nor in pixels."""
+    sides = {name: stated[name] for name in _SIDES if name in stated and lengths[name] is None}
+    unclear = (name for name, text in sides.items() if _DIGIT.match(text) and not _PIXELS.fullmatch(text))
+    return next((f"{name} = {sides[name][:40]}" for name in unclear), None)
+
+
 def _parts(line: str) -> tuple[str, str]:
-    """Return the label and the value of a line ``label = value`` or ``label: value``."""
+    """Return the label and the value of a line ``label = value``, ``label: value`` or ``label [unit]: value``.
+
+    A number may follow a label as it is: ``NODATA_value -9999``.
+    """
+    bare = _LABELLED.fullmatch(line)
     label, _, value = re.sub(r"[=:]", "=", line, count=1).partition("=")
+    if bare is not None:
+        label, value = bare[1], bare[2]
+    named = re.fullmatch(r"(.*?)\s*[\[(]([^\])]+)[\])]\s*", label)
+    if named is not None and _NUMBER.fullmatch(value.strip().replace(",", ".")):
+        label, value = named[1], f"{value} {named[2]}"
     return re.sub(r"[\s_-]+", " ", label).strip().casefold(), value.strip()
+
+
+def _numbers(text: str) -> list[float]:
+    """Return the numbers in a list, with or without a unit behind them; a comma in a lone one is a decimal mark."""
+    whole = text.replace(",", ".") if re.fullmatch(rf"{_NUMBER.pattern},\d+", text.strip()) else text
+    return [float(found[0]) for found in re.finditer(rf"(?<![\w.]){_NUMBER.pattern}", whole)]
 
 
 def _bare(stated: dict[str, str]) -> bool:
     """Whether a length of the map or of a cell is stated without a unit."""
-    return any(_NUMBER.fullmatch(stated.get(name, "")) for name in ("width", "height", "dx", "dy"))
+    return any(_NUMBER.fullmatch(stated.get(name, "")) for name in _SIDES)
 
 
 def _length(text: str | None, lateral: str | None) -> float | None:
-    if text is None:
+    if text is None or _THOUSANDS.match(text):
         return None
     text = text.replace(",", ".")
-    try:
-        if _NUMBER.fullmatch(text):
-            length = (
-                float(text) * length_factor(lateral)
-                if lateral is not None and is_length(lateral)
-                else math.nan
-            )
-            return length if length > 0 else None
-        return parse_length(text)
-    except ValueError:
+    if not _NUMBER.fullmatch(text):
+        return stated_length(text)
+    if not is_length(lateral):
         return None
+    length = float(text) * length_factor(lateral or "")
+    return length if length > 0 else None
 
 
 def _rounding(text: str) -> float:

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.aside import written_aside
+from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.files.installed import lacking
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = [
-    *("netcdf_bytes", "plain_cells", "scale_remark", "units_remark"),
+    *("netcdf_bytes", "plain_cells", "require_netcdf", "scale_remark", "units_remark"),
     *("write_csv", "write_json", "write_netcdf", "write_table", "write_text"),
 ]
 
@@ -48,6 +49,7 @@ def netcdf_bytes(dataset: xarray.Dataset) -> bytes:
 
     They are made in memory since HDF5 does not survive a disk that fills up: it takes the process down with it.
     """
+    require_netcdf()
     import h5netcdf
     from xarray.backends import H5NetCDFStore
 
@@ -64,6 +66,18 @@ def netcdf_bytes(dataset: xarray.Dataset) -> bytes:
     with h5netcdf.File(stream, "w") as file:
         dataset.dump_to_store(H5NetCDFStore(file), encoding=encoding)
     return stream.getvalue()
+
+
+def require_netcdf() -> None:
+    """Refuse to write NetCDF where nothing can; meant to be asked before a long computation.
+
+    Raises
+    ------
+    WriteError
+        If what writes it is not installed.
+    """
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
+        raise WriteError(f"NetCDF needs {lack[0]}; {lack[1]}")
 
 
 def write_csv(

@@ -43,7 +43,7 @@ def read_x3p(data: bytes) -> HeightMap:
     for axis in ("CX", "CY") if kind == "SUR" else ("CX",):
         if axes.text(f"{axis}/AxisType", "I") != "I":
             raise ContentError(f"its axis {axis} is not incremental", f"{_AGAIN} on a regular grid")
-    values, notes = _values(data, folder, main, root, shape)
+    values, notes, doubts = _values(data, folder, main, root, shape)
     # An absolute axis needs no increment, but writers of whole numbers put their scale there.
     with np.errstate(all="ignore"):
         heights = values * axes.number("CZ/Increment", 1.0) + axes.number("CZ/Offset", 0.0)
@@ -52,13 +52,16 @@ def read_x3p(data: bytes) -> HeightMap:
         notes = (*notes, f"{infinite} infinite heights count as missing")
     if kind == "PRF":
         line = as_heights(heights[0])
-        return HeightMap(line, "X3P", unit="m", spacing=(axes.number("CX/Increment"),), notes=notes)
+        return HeightMap(
+            line, "X3P", unit="m", spacing=(axes.number("CX/Increment"),), notes=notes, doubts=doubts
+        )
     return HeightMap(
         as_heights(heights),
         "X3P",
         unit="m",
         spacing=(axes.number("CY/Increment"), axes.number("CX/Increment")),
         notes=notes,
+        doubts=doubts,
     )
 
 
@@ -86,8 +89,8 @@ def _shape(root: _Node) -> tuple[int, int]:
 
 def _values(
     data: bytes, folder: str, main: bytes, root: _Node, shape: tuple[int, int]
-) -> tuple[Array, tuple[str, ...]]:
-    """Return the numbers of the data list or the linked file as float64, NaN where invalid, and remarks."""
+) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
+    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks and doubts."""
     kind = root.child("Record1/Axes").text("CZ/DataType")
     if kind not in _TYPES:
         raise ContentError(f"its heights are of the type {kind!r}, not one of I, L, F, D", _AGAIN)
@@ -109,7 +112,8 @@ def _values(
         mask = _member(members, _resolve(folder, mask_link))
         _check(mask, root.text("Record3/DataLink/MD5ChecksumValidPoints"), "the valid points")
         values = np.where(_valid(mask, shape), values, np.nan)
-    return values, _check_main(members.get(_resolve(folder, checksum_file)), main, points)
+    guarded = bool(link and root.text("Record3/DataLink/MD5ChecksumPointData"))
+    return values, *_check_main(members.get(_resolve(folder, checksum_file)), main, points, guarded)
 
 
 def _resolve(folder: str, link: str) -> str:
@@ -170,16 +174,27 @@ def _check(content: bytes, stated: str, what: str) -> None:
         )
 
 
-def _check_main(stated: bytes | None, main: bytes, points: bytes) -> tuple[str, ...]:
-    """Compare the checksum of ``main.xml``; some writers put the checksum of the heights there instead."""
+def _check_main(
+    stated: bytes | None, main: bytes, points: bytes, guarded: bool
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Compare the checksum of ``main.xml``, and return a note or a doubt where it is another.
+
+    Some writers put the checksum of the heights there instead. Programs that edit ``main.xml`` leave a stale one: the
+    file is read where the heights have a checksum of their own, which is right.
+    """
     words = (stated or b"").split()
     if not words:
-        return ()
+        return (), ()
     checksum = words[0].decode("latin-1").casefold()
     if checksum == hashlib.md5(main, usedforsecurity=False).hexdigest():
-        return ()
+        return (), ()
     if points and checksum == hashlib.md5(points, usedforsecurity=False).hexdigest():
-        return ("the checksum file states the heights instead of main.xml; they agree",)
+        return ("the checksum file states the heights instead of main.xml; they agree",), ()
+    if guarded:
+        return (), (
+            "the checksum of main.xml is wrong, that of its heights is right: main.xml was changed after it was "
+            "written; compare its steps and unit with the instrument's",
+        )
     raise ContentError(
         "the checksum of main.xml is wrong: the file is damaged", f"copy it again, or {_AGAIN}"
     )

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import os
 import stat
+import sys
 import tempfile
 from pathlib import Path
 
@@ -71,11 +72,11 @@ def private(folder: Path) -> Path | None:
 
 def _is_ours(status: os.stat_result, kind: int, *, parent: bool = False) -> bool:
     """Whether it is a file or folder, as asked, that only this user and root can change; a parent may be sticky."""
-    mode = status.st_mode
-    if os.name != "posix":
-        return stat.S_IFMT(mode) == kind
-    shared = mode & (stat.S_IWGRP | stat.S_IWOTH) and not (parent and mode & stat.S_ISVTX)
-    return stat.S_IFMT(mode) == kind and not shared and status.st_uid in (0, os.geteuid())
+    mode, owned = status.st_mode, True
+    if sys.platform != "win32":
+        shared = mode & (stat.S_IWGRP | stat.S_IWOTH) and not (parent and mode & stat.S_ISVTX)
+        owned = not shared and status.st_uid in (0, os.geteuid())
+    return owned and stat.S_IFMT(mode) == kind
 
 
 def _without_links(path: str, flags: int) -> int:

@@ -73,7 +73,8 @@ def _nap() -> tuple[int, int]:
     """Return the address of the system's function that lets a thread sleep, and what to tell it for a short time."""
     if sys.platform == "win32":
         return _place(ctypes.windll.kernel32.Sleep), 1  # ms
-    return _place(ctypes.CDLL(None).usleep), 50  # us
+    else:  # in its own branch, by which mypy knows platforms
+        return _place(ctypes.CDLL(None).usleep), 50  # us
 
 
 def _place(function: Any) -> int:

@@ -89,7 +89,7 @@ _VARIABLES = {
     "plastic_area": Variable("m2", "area of the cells whose pressure is the hardness"),
     "flow_depth": Variable("m", "depth by which the surface has flowed", "depth of flow"),
     "flow_volume": Variable("m3", "volume that has flowed", "volume of flow"),
-    "flow_energy": Variable("J", "work of the pressure upon the cells that flow", "energy of flow"),
+    "flow_energy": Variable("J", "work that first loading spent on flow", "energy of flow"),
     "flow_rise": Variable("m", "rise of the whole surface by what has flowed", "rise"),
     "unloading_stiffness": Variable(
         "N m-1", "normal stiffness dF/dd as the load is reduced, contact region held fixed"
@@ -114,13 +114,20 @@ _VARIABLES = {
         "N m-1", "slope of the force with the depth, contact and attraction held fixed"
     ),
     "stability": Variable(
-        "1", "smallest eigenvalue of the Hessian over that without attraction, as it is controlled"
+        "1", "smallest eigenvalue found of the Hessian over that without attraction, as it is controlled"
     ),
-    "stability_bound": Variable("1", "distance within which an eigenvalue lies from the stability"),
+    "stability_residual": Variable(
+        "1", "residual of the eigenvector of the stability: some eigenvalue lies within it of the stability"
+    ),
     "attracted": Variable("", "whether the cell is apart from the wall by no more than the range"),
     "largest_tension": Variable("Pa", "largest tension of a cell"),
-    "pull_off_force": Variable("N", "largest tension of the retreat"),
-    "jump_in_force": Variable("N", "tension from which the body first jumped on the approach"),
+    "lowest_force": Variable(
+        "N", "lowest force since the body is drawn back, between the loads and in jumps"
+    ),
+    "pull_off_force": Variable("N", "largest tension of the retreat, between the loads and in jumps"),
+    "jump_in_force": Variable(
+        "N", "tension from which the body first jumped on the approach, negative where it was pressed"
+    ),
     "lost_energy": Variable("J", "energy lost in all jumps", "energy lost"),
     "jumped": Variable("1", "load, counted from 0, that the jump came on the way to"),
     "jump_depth": Variable("m", "last depth of the branch that ends"),

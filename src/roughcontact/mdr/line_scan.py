@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
-import numpy as np
-
 from roughcontact.grid import Grid
 from roughcontact.material import Solid
 from roughcontact.mdr.equivalent_line import LineSpectrum, line_spectrum
@@ -18,7 +16,7 @@ from roughcontact.surface.analysis.cut import surface_spectrum
 from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array, RngLike, numeric
 
 __all__ = ["scan_curves", "scan_spectrum"]
 
@@ -99,7 +97,7 @@ def scan_spectrum(
 def scan_curves(
     scan: Surface,
     modulus: float | Solid | tuple[Solid, Solid],
-    rng: np.random.Generator,
+    rng: RngLike,
     *,
     forces: Sequence[float] | Array,
     count: int = 100,
@@ -113,7 +111,7 @@ def scan_curves(
         On a grid of one axis.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa].
-    rng : numpy.random.Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the phases.
     forces : array, shape (loads,)
         Strictly increasing normal forces on the whole square [N].

@@ -11,7 +11,7 @@ import scipy.fft
 from roughcontact.grid import Grid
 from roughcontact.surface.random_phases import Amplitudes, draw_keys, require_amplitudes, unit_waves
 from roughcontact.surface.wave_grid import Spectrum, cell_centres, wave_amplitudes
-from roughcontact.validation import Array, numeric, positive_scalar, require_generator, shown, whole
+from roughcontact.validation import Array, RngLike, as_generator, numeric, positive_scalar, shown, whole
 
 __all__ = ["line_heights", "random_waves", "rough_lines"]
 
@@ -24,7 +24,7 @@ BATCH = 2**20
 def rough_lines(
     grid: Grid,
     spectrum: Spectrum,
-    rng: np.random.Generator,
+    rng: RngLike,
     count: int,
     *,
     rms: float | None = None,
@@ -40,9 +40,9 @@ def rough_lines(
     spectrum : callable
         Two-sided C1D [m^3] of the wavenumber [rad/m]; that of a line which is equivalent to a surface comes from
         `line_spectrum`.
-    rng : numpy.random.Generator
-        Source of the phases: yields a key for each line. The same state gives the same phases for every spectrum and
-        every number of points, see `roughcontact.self_affine`.
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
+        Source of the phases: a generator yields a key for each line. The same seed or state gives the same phases for
+        every spectrum and every number of points, see `roughcontact.self_affine`.
     count : int
         Number of lines.
     rms : float, optional
@@ -75,18 +75,20 @@ def rough_lines(
     [1e-06, 1e-06, 1e-06]
     """
     whole(count, "count, the number of lines,")
-    require_generator(rng)
+    generator = as_generator(rng)  # once: batches are drawn when they are asked for
     require_amplitudes(amplitudes)
     amplitude = _amplitude(grid, spectrum, rms, rms_band)
     rows = max(1, BATCH // grid.size)
     sizes = [min(rows, count - start) for start in range(0, count, rows)]
-    return (_lines(grid, amplitude, random_waves(grid, rng, size, amplitudes=amplitudes)) for size in sizes)
+    return (
+        _lines(grid, amplitude, random_waves(grid, generator, size, amplitudes=amplitudes)) for size in sizes
+    )
 
 
 @numeric
 def random_waves(
     grid: Grid,
-    rng: np.random.Generator,
+    rng: RngLike,
     count: int,
     *,
     amplitudes: Amplitudes = "exact",
@@ -101,7 +103,7 @@ def random_waves(
     ----------
     grid : Grid
         Of one axis.
-    rng : numpy.random.Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the phases.
     count : int
         Number of lines.

@@ -19,7 +19,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from roughcontact.page.crew import Crew
 from roughcontact.page.frames import packed
-from roughcontact.page.guard import HEADERS, Guard
+from roughcontact.page.guard import HEADERS, Guard, Refused
+from roughcontact.page.server_folder import SCRATCH
 from roughcontact.page.session import Session
 from roughcontact.page.sessions import GIVEN, MOST_SESSIONS, Sessions
 from roughcontact.page.uploads import LARGEST, TooLargeError, TooSlowError, store
@@ -59,7 +60,7 @@ class PageServer:
     @classmethod
     def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
         """Return a server without sessions, whose files and those of its workers lie in a folder."""
-        scratch = folder / "scratch"
+        scratch = folder / SCRATCH
         scratch.mkdir(mode=0o700)
         return cls(guard, Sessions(Crew(scratch), folder, given))
 
@@ -207,8 +208,13 @@ class _Guarded:
 
         query = scope["query_string"].decode("latin-1")
         refused = self.guard.check(scope["method"], scope["path"], query, scope["headers"])
-        app = self.app if refused is None else PlainTextResponse(refused.reason + "\n", refused.status)
+        app = self.app if refused is None else _hung_up(refused)
         await app(scope, receive, send_safely)
+
+
+def _hung_up(refused: Refused) -> Response:
+    """Return an answer after which the connection is closed: no more is read from who has no key."""
+    return PlainTextResponse(refused.reason + "\n", refused.status, {"Connection": "close"})
 
 
 @dataclass(frozen=True, slots=True)

@@ -145,17 +145,16 @@ def _unsent(header: Mapping[str, Any], data: bytes = b"") -> None:
 
 def _limit_memory() -> None:
     """Let a file that asks for more memory than there is fail here, and not bring the machine to a halt."""
-    if sys.platform != "linux":  # elsewhere the address space says little
-        return
-    import resource
+    if sys.platform == "linux":  # elsewhere the address space says little
+        import resource
 
-    import psutil
+        import psutil
 
-    from roughcontact.memory import free_memory
+        from roughcontact.memory import free_memory
 
-    most = psutil.Process().memory_info().vms + int(_SHARE * free_memory())
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (most if hard < 0 else min(most, hard), hard))
+        most = psutil.Process().memory_info().vms + int(_SHARE * free_memory())
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (most if hard < 0 else min(most, hard), hard))
 
 
 if __name__ == "__main__":

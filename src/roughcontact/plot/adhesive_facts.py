@@ -66,7 +66,8 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
         ("elastic and adhesive energy", " and ".join(energies)),
         (
             "stability",
-            f"{state.stability:.3g} +- {state.stability_bound:.1g} (1 without attraction, 0 at a jump)",
+            f"at most {state.stability:.3g}, residual {state.stability_residual:.0e} "
+            "(1 without attraction, 0 at a jump)",
         ),
         ("certificate", f"{state.residual:.1e} (tolerance {blank.tolerance:.0e}: {met})"),
     ]

@@ -17,6 +17,7 @@ from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.usual_range import usual_range
 from roughcontact.surface.analysis.histogram import height_histogram
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
 
@@ -100,6 +101,7 @@ def pressure_distribution(
 
 
 @numeric
+@analysed_on_host
 def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int = 60) -> Axes:
     """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
 

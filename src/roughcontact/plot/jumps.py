@@ -46,7 +46,7 @@ def jump_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
     >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=2.5e-9), depth=10e-9)
     >>> axes = rc.plot.jump_loop(loop)
     >>> axes.get_title(), [text.get_text() for text in axes.texts]
-    ('pull-off 495 nN, 478 aJ lost in 7 jumps', ['307 aJ', '170 aJ'])
+    ('pull-off 499 nN, 478 aJ lost in 7 jumps', ['307 aJ', '170 aJ'])
     """
     axes, kind = axes_for(ax), loop.geometry
     finite = np.isfinite(loop.depth)

@@ -17,6 +17,7 @@ from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.marks import faint_spots
 from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_image, length_scale, part, show
 from roughcontact.plot.ticks import LABEL
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
@@ -28,6 +29,7 @@ _SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of 
 
 
 @numeric
+@analysed_on_host
 def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights of a surface, with a colour bar; points that were not measured are hatched.
 

@@ -14,6 +14,7 @@ from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -25,6 +26,7 @@ _FLAT = (7.0, 2.8)  # size of a picture of a line
 
 
 @numeric
+@analysed_on_host
 def profile_curve(
     surface: Surface, ax: Axes | None = None, *, row: int | None = None, spikes: Spikes | None = None
 ) -> Axes:

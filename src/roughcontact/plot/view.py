@@ -15,6 +15,7 @@ from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale
 from roughcontact.plot.raster import length_scale
 from roughcontact.plot.ticks import LABEL, label_axes
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import numeric
 
@@ -25,6 +26,7 @@ _HEIGHT = 0.3  # of the box over its longer side: heights are drawn larger than 
 
 
 @numeric
+@analysed_on_host
 def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = True) -> Axes3D:
     """Draw a surface from aside, its heights enlarged to be seen; points that were not measured are left open.
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.slabs.rows import Edges, edges_of
 from roughcontact.slabs.slab_array import SlabArray
@@ -46,6 +45,8 @@ def filtered_in_slabs(
     ValueError
         If the transforms are longer than the field: the plane is not periodic.
     """
+    import scipy.fft
+
     if tuple(field.shape) != tuple(lengths):
         raise ValueError(
             "a surface in slabs must be periodic along both axes: Grid(..., periodic=True), or press it in one process"
@@ -84,6 +85,8 @@ def plane_of_waves(
     functions : SlabFunctions
         Of the processes that make it together.
     """
+    import scipy.fft
+
     (ny, nx), rank, edges = shape, functions.rank, edges_of(shape[0], functions.size)
     heights = np.diff(edges).tolist()
     spectrum = np.empty((heights[rank], nx // 2 + 1), np.complex128)

@@ -148,6 +148,7 @@ class Status(Enum):
     MAX_STEPS = "step limit"
     STAGNATED = "stagnated"
     UNSETTLED = "unsettled"
+    AFTER_MISSED = "after a missed load"
 
     @property
     def converged(self) -> bool:
@@ -171,6 +172,10 @@ _MESSAGES = {
     Status.UNSETTLED: (
         "The hardness of the spots and the spots under that hardness did not settle on each other; take a hardness "
         "that falls as spots grow, or change the load a little."
+    ),
+    Status.AFTER_MISSED: (
+        "This load meets the tolerance on the surface that a larger load before it flattened, and that load missed "
+        "the tolerance; repeat the loads with a solver that is allowed more steps, or change the larger load a little."
     ),
 }
 

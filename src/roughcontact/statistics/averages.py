@@ -11,6 +11,7 @@ from roughcontact.solver.control import Status
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import Window
 from roughcontact.statistics.samples import dimensions, summary
+from roughcontact.validation import RngLike, as_generator
 
 if TYPE_CHECKING:
     import xarray
@@ -49,7 +50,7 @@ def averages(
     dataset: xarray.Dataset,
     window: Window | None = None,
     *,
-    rng: np.random.Generator,
+    rng: RngLike,
     samples: str | Sequence[str] | None = None,
 ) -> xarray.Dataset:
     """Return means, scatter and errors of all that a study computed, and the power laws of its loading curves.
@@ -62,7 +63,7 @@ def averages(
         As `roughcontact.study.export` makes it.
     window : Window, optional
         In which power laws are fitted, see `fit_power_laws`.
-    rng : Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         For the intervals of the laws.
     samples : str or sequence of str, optional
         Dimensions of the samples; by default those of `sample_dimensions`.
@@ -78,7 +79,7 @@ def averages(
     Raises
     ------
     ValueError
-        If no samples lie along a dimension.
+        If no samples lie along a dimension, or `rng` is no seed.
 
     Examples
     --------
@@ -93,6 +94,7 @@ def averages(
     >>> dict(found["stiffness_mean"].sizes), found["cases"].values.tolist()
     ({'hurst': 2, 'load': 3}, [3, 3])
     """
+    rng = as_generator(rng)
     over = sample_dimensions(dataset) if samples is None else dimensions(samples)
     if not over or any(d not in dataset.sizes for d in over):
         raise ValueError(

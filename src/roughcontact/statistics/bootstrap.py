@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.validation import Array, Mask
@@ -78,6 +77,8 @@ def interval(values: Array, level: float, samples: int) -> Array:
     ``Phi(-sqrt(n/(n-1)) t)`` instead of ``(1 - level)/2``, with Student's t of n - 1 (T. C. Hesterberg, What
     teachers should know about the bootstrap, Am. Stat. 69, 371 (2015), expanded percentiles).
     """
+    from scipy.special import ndtr, stdtrit
+
     if samples < 2 or not len(values):
         return np.full((2, *values.shape[1:]), np.nan)
     quantile = float(stdtrit(samples - 1, (1 + level) / 2))

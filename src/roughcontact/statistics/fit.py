@@ -17,7 +17,7 @@ from roughcontact.statistics.ensemble_mean import Mean, mean_over_samples
 from roughcontact.statistics.fit_window import Window, window_of
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.statistics.samples import dimensions
-from roughcontact.validation import Array, Mask, number, require
+from roughcontact.validation import Array, Mask, RngLike, as_generator, number, require
 
 if TYPE_CHECKING:
     import xarray
@@ -57,7 +57,7 @@ def fit_power_laws(
     dataset: xarray.Dataset,
     window: Window | None = None,
     *,
-    rng: np.random.Generator,
+    rng: RngLike,
     mean: Mean = "arithmetic",
     samples: str | Sequence[str] = "sample",
     replicates: int = 1000,
@@ -78,7 +78,7 @@ def fit_power_laws(
         Such as `force_window` or `resolved_window` return. Without, that of the thesis, for which loading curves bring
         along what it takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to
         0.07. A law that is not quite a power law has another exponent in another window.
-    rng : Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Draws the samples again. All ensembles are drawn alike, since their samples are paired.
     mean : {"arithmetic", "geometric"}
         Which mean over the samples.
@@ -121,7 +121,7 @@ def fit_power_laws(
     stiffness, force, points = _curves(dataset, over)
     window = window_of(dataset, over, points) if window is None else window
     size = math.prod(stiffness.sizes[d] for d in over)
-    fit = _fitting(window.force, mean, rng.random((replicates, size)), level)
+    fit = _fitting(window.force, mean, as_generator(rng).random((replicates, size)), level)
     found = xarray.apply_ufunc(
         fit,
         force,

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
 
 from roughcontact.validation import Array, numeric, require
 
@@ -65,9 +64,10 @@ class PowerLaw:
         """Whether it is a power law as far as the points say: the exponent changes by less than 0.1, or by chance."""
         if self.count < 4:
             return True
-        sure = (
-            -float(stdtrit(self.count - 3, CHANCE)) * self.bend_error
-        )  # by Student: few points deviate by more
+        from scipy.special import stdtrit
+
+        # By Student: few points deviate by more.
+        sure = -float(stdtrit(self.count - 3, CHANCE)) * self.bend_error
         return abs(self.bend) <= max(BEND, sure)
 
     @property

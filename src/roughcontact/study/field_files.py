@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughcontact.files.aside import written_aside
+from roughcontact.files.installed import lacking
 from roughcontact.files.write import netcdf_bytes
 from roughcontact.study.study_errors import StoreError, computed_again, on_disk
 
@@ -55,6 +56,8 @@ def read_fields(folder: Path, key: str) -> xarray.Dataset:
     """
     import xarray
 
+    if (lack := lacking("h5py", "h5netcdf")) is not None:
+        raise StoreError(folder, f"its fields need {lack[0]}", lack[1])
     try:
         return xarray.load_dataset(_file(folder, key), engine="h5netcdf")
     except (OSError, ValueError) as error:

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse
 
 from roughcontact.grid import Grid
+from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
 
@@ -22,6 +23,7 @@ _SAME = 1e-9
 
 
 @numeric
+@on_host_only
 def combined(
     lower: Surface,
     upper: Surface,
@@ -92,6 +94,7 @@ def combined(
 
 
 @numeric
+@on_host_only
 def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
     """Return the heights interpolated at the cell centres of another grid with the same middle.
 

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.validation import Array, numeric, require
 
@@ -130,6 +129,8 @@ def _weighted_sum(values: Array, axis: int, reach: float, periodic: bool) -> Arr
 
     On a periodic axis they are the weights whose transmission is exact at every wave of the grid.
     """
+    import scipy.fft
+
     count = values.shape[axis]
     if periodic:
         waves = scipy.fft.rfftfreq(count)

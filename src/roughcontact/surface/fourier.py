@@ -22,7 +22,7 @@ from roughcontact.surface.wave_grid import (
     wavenumbers,
 )
 from roughcontact.surface.waves_in_slabs import SizedSpectrum, heights_in_slabs
-from roughcontact.validation import Array, numeric, require_generator
+from roughcontact.validation import Array, RngLike, numeric
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
 
@@ -35,7 +35,7 @@ def self_affine(
     grid: Grid,
     hurst: float,
     rms: float,
-    rng: np.random.Generator,
+    rng: RngLike,
     *,
     rms_band: tuple[float, float] | None = None,
     rolloff: float | None = None,
@@ -50,7 +50,7 @@ def self_affine(
     """Return a random self-affine surface or line (thesis, eqs 2.10 to 2.15 as corrected).
 
     The phases are random; the amplitudes follow the spectrum exactly, so that every sample has the same
-    power spectrum and exactly the wanted rms height. The same generator state gives the
+    power spectrum and exactly the wanted rms height. The same seed or generator state gives the
     same phases for every Hurst exponent, so that samples can be compared pair by pair, and on every grid of
     the same outer sides the same waves: a finer grid adds finer ones. See the notes.
 
@@ -63,8 +63,9 @@ def self_affine(
     rms : float
         Root mean square height [m]: of this sample; with Gaussian amplitudes that of
         the process, about which samples scatter.
-    rng : numpy.random.Generator
-        Source of the phases: yields a key of 128 bits and moves on by that, whatever the grid.
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
+        Source of the phases: a generator yields a key of 128 bits and moves on by that, whatever the grid; a seed
+        stands for ``numpy.random.default_rng(seed)``; None draws other phases each time.
     rms_band : tuple of float, optional
         ``(longest, shortest)``: wavelengths [m] of the waves whose rms height is `rms`, both limits included. By
         default all waves of the grid. For one surface on several grids: a band that is on all of them, from the side
@@ -82,8 +83,8 @@ def self_affine(
         The thesis' grids of n + 1 nodes: the surface is made with period ``n * spacing`` and its first row
         and column are repeated at the end. For free grids only.
     slabs : Slabs, optional
-        Processes that make the surface together, each its rows, with generators in the same state; on periodic grids.
-        Its waves are the same on any number of processes.
+        Processes that make the surface together, each its rows, with the same seed or generators in the same state; on
+        periodic grids. Its waves are the same on any number of processes. With None the first process draws for all.
 
     Returns
     -------
@@ -133,7 +134,7 @@ def self_affine(
 def synthesise(
     grid: Grid,
     spectrum: Spectrum,
-    rng: np.random.Generator,
+    rng: RngLike,
     *,
     rms: float | None = None,
     rms_band: tuple[float, float] | None = None,
@@ -152,7 +153,7 @@ def synthesise(
         ``spectrum(q)``: C2D [m^4] of a surface at the wavenumbers ``|q|`` [rad/m], or the two-sided C1D [m^3] of a
         line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction wrap a
         function of ``(qy, qx)`` in `DirectionalSpectrum`. It is never asked for q = 0.
-    rng : numpy.random.Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the phases, see `self_affine`.
     rms : float, optional
         Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
@@ -206,7 +207,7 @@ def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
 def _heights(
     grid: Grid,
     spectrum: Spectrum,
-    rng: np.random.Generator,
+    rng: RngLike,
     rms: float | None,
     rms_band: tuple[float, float] | None,
     support: Support,
@@ -215,7 +216,6 @@ def _heights(
     slabs: Slabs | None,
 ) -> Array:
     """Return the heights of eqs 2.12 and 2.15; the border has looked at `rms`, the rest is looked at here."""
-    require_generator(rng)
     require_amplitudes(amplitudes)
     if nodal and any(grid.periodic):
         raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
@@ -225,7 +225,7 @@ def _heights(
     shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
     if slabs is not None:
         sized = SizedSpectrum(spectrum, support, rms, rms_band)
-        return heights_in_slabs(grid, sized, draw_keys(rng), amplitudes, slabs)  # type: ignore[return-value]
+        return heights_in_slabs(grid, sized, rng, amplitudes, slabs)  # type: ignore[return-value]
     amplitude = wave_amplitudes(spectrum, shape, grid.spacing, support, rms=rms, rms_band=rms_band)
     amplitude *= math.prod(shape)  # of the transform
     waves = _waves(draw_keys(rng), amplitude, shape, amplitudes, nodal)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from roughcontact.grid import Grid
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, moderate, numeric, require
 
@@ -90,6 +91,7 @@ def fractal_dimension(hurst: float, dimension: int = 2) -> float:
 
 
 @numeric
+@analysed_on_host
 def box_counting_dimension(surface: Surface) -> float:
     """Return the fractal dimension of a surface or a line by counting boxes (thesis, eq. 2.9).
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric, require_generator
+from roughcontact.validation import Array, RngLike, as_generator, numeric
 
 __all__ = ["midpoint_line", "midpoint_surface"]
 
@@ -20,7 +20,7 @@ Distribution: TypeAlias = Literal["uniform", "gaussian"]
 def midpoint_line(
     grid: Grid,
     hurst: float,
-    rng: np.random.Generator,
+    rng: RngLike,
     *,
     displacement: float | None = None,
     rms: float | None = None,
@@ -37,8 +37,8 @@ def midpoint_line(
         Free grid of 2^n + 1 nodes, shape ``(2**n + 1,)``.
     hurst : float
         Hurst exponent H, from 0 to 1.
-    rng : numpy.random.Generator
-        Source of the displacements, drawn level by level: the same state on a finer grid gives a finer
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
+        Source of the displacements, drawn level by level: the same state or seed on a finer grid gives a finer
         version of the same line.
     displacement : float
         Largest displacement of the first level [m].
@@ -55,7 +55,8 @@ def midpoint_line(
     Raises
     ------
     ValueError
-        If the grid is periodic or has another number of nodes or axes, or a parameter is out of range.
+        If the grid is periodic or has another number of nodes or axes, a parameter is out of range, or `rng` is
+        no seed.
 
     Notes
     -----
@@ -73,11 +74,11 @@ def midpoint_line(
     '1e-06 m, ends at 0 and 0 m'
     """
     levels = _levels(grid, 1)
-    first = _first(hurst, rng, displacement, rms, distribution)
+    first, generator = _first(hurst, displacement, rms, distribution), as_generator(rng)
     heights = np.zeros(grid.shape)
     for level in range(levels):
         step = 2 ** (levels - level)
-        middle = _draw(rng, (2**level,), first * 2 ** (-hurst * level), distribution)
+        middle = _draw(generator, (2**level,), first * 2 ** (-hurst * level), distribution)
         heights[step // 2 :: step] = (heights[:-1:step] + heights[step::step]) / 2 + middle
     return _finished(heights, grid, rms, f"random midpoint line, H = {hurst:g}, {distribution}")
 
@@ -86,7 +87,7 @@ def midpoint_line(
 def midpoint_surface(
     grid: Grid,
     hurst: float,
-    rng: np.random.Generator,
+    rng: RngLike,
     *,
     displacement: float | None = None,
     rms: float | None = None,
@@ -105,8 +106,8 @@ def midpoint_surface(
         Free grid of 2^n + 1 nodes and the same spacing along both axes.
     hurst : float
         Hurst exponent H, from 0 to 1.
-    rng : numpy.random.Generator
-        Source of the displacements, drawn level by level: the same state on a finer grid gives a finer
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
+        Source of the displacements, drawn level by level: the same state or seed on a finer grid gives a finer
         version of the same surface.
     displacement : float
         Largest displacement of the first centre [m].
@@ -130,7 +131,8 @@ def midpoint_surface(
     Raises
     ------
     ValueError
-        If the grid is periodic or has another number of nodes or axes, or a parameter is out of range.
+        If the grid is periodic or has another number of nodes or axes, a parameter is out of range, or `rng` is
+        no seed.
 
     Notes
     -----
@@ -148,7 +150,7 @@ def midpoint_surface(
     '1e-06 m'
     """
     levels = _levels(grid, 2)
-    first = _first(hurst, rng, displacement, rms, distribution)
+    first, generator = _first(hurst, displacement, rms, distribution), as_generator(rng)
     if half_steps not in ("same", "saupe"):
         raise ValueError(f"half_steps must be 'same' or 'saupe', not {half_steps!r}")
     if borders not in ("three", "wrap"):
@@ -159,14 +161,14 @@ def midpoint_surface(
         half, limit = step // 2, first * 2 ** (-hurst * level)
         corners = heights[::step, ::step]
         pairs = corners[:, :-1] + corners[:, 1:]
-        centres = (pairs[:-1] + pairs[1:]) / 4 + _draw(rng, (m, m), limit, distribution)
+        centres = (pairs[:-1] + pairs[1:]) / 4 + _draw(generator, (m, m), limit, distribution)
         heights[half::step, half::step] = centres
         if half_steps == "saupe":
             limit *= 2 ** (-hurst / 2)
-        flat = _edges(pairs, centres, _draw(rng, (m + 1, m), limit, distribution), wrap)
+        flat = _edges(pairs, centres, _draw(generator, (m + 1, m), limit, distribution), wrap)
         heights[::step, half::step] = flat
         pairs = (corners[:-1] + corners[1:]).T
-        upright = _edges(pairs, centres.T, _draw(rng, (m + 1, m), limit, distribution), wrap)
+        upright = _edges(pairs, centres.T, _draw(generator, (m + 1, m), limit, distribution), wrap)
         heights[half::step, ::step] = upright.T
     return _finished(
         heights,
@@ -217,7 +219,6 @@ def _levels(grid: Grid, ndim: int) -> int:
 
 def _first(
     hurst: float,
-    rng: np.random.Generator,
     displacement: float | None,
     rms: float | None,
     distribution: str,
@@ -227,7 +228,6 @@ def _first(
         raise ValueError(
             f"hurst must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
         )
-    require_generator(rng)
     if distribution not in ("uniform", "gaussian"):
         raise ValueError(f"distribution must be 'uniform' or 'gaussian', not {distribution!r}")
     if (displacement is None) == (rms is None):

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.grid import Grid
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import (
     Spectrum,
@@ -135,6 +135,7 @@ def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square")
 
 
 @numeric
+@analysed_on_host
 def surface_moments(
     surface: Surface, *, derivative: Literal["spectral", "difference"] | None = None
 ) -> Moments:
@@ -183,6 +184,8 @@ def surface_moments(
             raise ValueError(
                 f"{surface.missing} points are missing: use derivative='difference' or fill them first"
             )
+        import scipy.fft
+
         transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
         return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
     require(derivative == "difference", f"derivative must be 'spectral' or 'difference', not {derivative!r}")

@@ -20,7 +20,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.validation import require_generator
+from roughcontact.validation import RngLike, as_generator
 
 __all__ = ["Amplitudes", "Keys", "draw_keys", "require_amplitudes", "unit_waves"]
 
@@ -33,12 +33,12 @@ _UNUSED = np.uint64(11)  # bits of a word that a double has no place for
 _UNIT = 2.0**-53
 
 
-def draw_keys(rng: np.random.Generator, count: int = 1) -> Keys:
-    """Return keys of 128 bits from a generator, which moves on by two words a key whatever is made of them.
+def draw_keys(rng: RngLike, count: int = 1) -> Keys:
+    """Return keys of 128 bits; a generator moves on by two words a key whatever is made of them.
 
     Parameters
     ----------
-    rng : numpy.random.Generator
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the keys.
     count : int
         How many.
@@ -51,7 +51,7 @@ def draw_keys(rng: np.random.Generator, count: int = 1) -> Keys:
     Raises
     ------
     ValueError
-        If `rng` is no generator.
+        If `rng` is neither a generator nor a seed.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def draw_keys(rng: np.random.Generator, count: int = 1) -> Keys:
     (3, 2)
     """
     # All values of a word: NumPy takes it as it is drawn and rejects none.
-    return require_generator(rng).integers(0, 2**64 - 1, (count, 2), dtype=np.uint64, endpoint=True)
+    return as_generator(rng).integers(0, 2**64 - 1, (count, 2), dtype=np.uint64, endpoint=True)
 
 
 def require_amplitudes(amplitudes: str) -> None:

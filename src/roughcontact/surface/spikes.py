@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.missing import filled
 from roughcontact.validation import Array, Mask, numeric, require
 
@@ -72,6 +73,7 @@ class Spikes:
 
 
 @numeric
+@analysed_on_host
 def find_spikes(surface: Surface) -> Spikes:
     """Return the clusters of a few cells that stand out of all that is around them.
 

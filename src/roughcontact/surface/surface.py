@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import wraps
-from typing import ClassVar, Concatenate, ParamSpec, TypeVar
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.datasets import surface_from_dataarray, surface_to_dataset
 from roughcontact.grid import Grid
 from roughcontact.pictures import plot_surface, surface_html
-from roughcontact.slabs.exchange import is_in_slabs
 from roughcontact.surface.filters import filtered
 from roughcontact.surface.height_range import own_heights
+from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.levelling import levelled, without_form
 from roughcontact.surface.mask import masked
 from roughcontact.surface.missing import filled
@@ -31,27 +30,6 @@ from roughcontact.validation import Array, require, shown
 __all__ = ["Surface"]
 
 
-P = ParamSpec("P")
-R = TypeVar("R")
-
-
-def on_host_only(
-    method: Callable[Concatenate[Surface, P], R], *, or_in_slabs: bool = False
-) -> Callable[Concatenate[Surface, P], R]:
-    """Return a method that refuses heights which NumPy could not work on where they live."""
-
-    @wraps(method)
-    def checked(self: Surface, /, *args: P.args, **kwargs: P.kwargs) -> R:
-        if not (is_numpy(self.heights) or (or_in_slabs and is_in_slabs(self.heights))):
-            raise ValueError(
-                f"{method.__name__} is for heights in NumPy's memory, not a {type(self.heights).__name__}: prepare the "
-                "surface first, then put its heights on the device"
-            )
-        return method(self, *args, **kwargs)
-
-    return checked
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Surface:
     """A topography: heights above a mean plane, positive toward the other body.
@@ -60,8 +38,8 @@ class Surface:
     ----------
     heights : array, shape ``grid.shape``
         Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured. Arrays of other
-        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there in double precision; to prepare and
-        analyse them, use NumPy.
+        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there in double precision. Analyses copy them
+        into NumPy's memory; prepare a surface there, before its heights go to the device.
     grid : Grid
         Where the cells are and whether the surface repeats itself.
     provenance : tuple of str
@@ -201,4 +179,6 @@ class Surface:
     rotated = on_host_only(rotated)
 
     plot = on_host_only(plot_surface)
+    to_dataset = on_host_only(surface_to_dataset)
+    from_dataarray = staticmethod(surface_from_dataarray)
     _repr_html_ = surface_html

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import scipy.ndimage
 
 from roughcontact.grid import Grid
 from roughcontact.validation import Array, moderate, numeric, require
@@ -79,6 +78,8 @@ def _dilated(
     heights: Array, grid: Grid, reach: float, radius: float, tip: str, axes: tuple[int, ...]
 ) -> Array:
     """Return the largest height less the tip's over all shifts along `axes` within `reach` [m]."""
+    import scipy.ndimage
+
     # On a free axis no neighbour is farther than the other end; on a periodic one all have been met by then.
     far = [
         min(math.floor(reach / step * (1 + 1e-12)), n - 1) if axis in axes else 0

@@ -11,7 +11,6 @@ from typing import Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.validation import Array, pair, positive_scalar
 
@@ -73,7 +72,7 @@ def wave_vectors(shape: tuple[int, ...], spacing: tuple[float, ...], part: Part 
     """Return the components of the wave vectors [rad/m], an open mesh: ``(qy, qx)``, on a line ``(q,)``."""
     last = len(shape) - 1
     components = [
-        2 * np.pi * (scipy.fft.rfftfreq(n, d) if axis == last else scipy.fft.fftfreq(n, d))[here]
+        2 * np.pi * (np.fft.rfftfreq(n, d) if axis == last else np.fft.fftfreq(n, d))[here]
         for axis, (n, d, here) in enumerate(zip(shape, spacing, part, strict=False))
     ]
     return tuple(np.meshgrid(*components, indexing="ij", sparse=True))

@@ -12,7 +12,7 @@ from roughcontact.grid import Grid
 from roughcontact.slabs.exchange import plane_of_waves
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.slabs.slabs import Slabs
-from roughcontact.surface.random_phases import Amplitudes, Keys, unit_waves
+from roughcontact.surface.random_phases import Amplitudes, Keys, draw_keys, unit_waves
 from roughcontact.surface.wave_grid import (
     ALL,
     Spectrum,
@@ -25,6 +25,7 @@ from roughcontact.surface.wave_grid import (
     wave_integers,
     wave_powers,
 )
+from roughcontact.validation import RngLike
 
 __all__ = ["SizedSpectrum", "heights_in_slabs"]
 
@@ -42,7 +43,7 @@ class SizedSpectrum:
 
 
 def heights_in_slabs(
-    grid: Grid, sized: SizedSpectrum, keys: Keys, amplitudes: Amplitudes, slabs: Slabs
+    grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitudes, slabs: Slabs
 ) -> SlabArray:
     """Return the heights [m] of random waves.
 
@@ -50,24 +51,21 @@ def heights_in_slabs(
     ----------
     grid : Grid
     sized : SizedSpectrum
-    keys : array of uint64, shape (1, 2)
-        The same on all processes.
+    rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
+        The same seed or state on all processes; of None the first process draws for all.
     amplitudes : {"exact", "gaussian"}
     slabs : Slabs
 
     Raises
     ------
     ValueError
-        If the grid is not periodic, the keys differ, or no wave is left.
+        If the grid is not periodic, the processes draw different phases, or no wave is left.
     """
     if grid.ndim != 2 or not all(grid.periodic):
         raise ValueError(
             "a surface in slabs must be periodic along both axes: Grid(..., periodic=True), or make it in one process"
         )
-    if len(set(map(bytes, slabs.communicator.allgather(keys.tobytes())))) > 1:
-        raise ValueError(
-            "the processes drew different phases: give each a generator in the same state, as default_rng(1)"
-        )
+    keys = _keys(rng, slabs)
     shape, factor = grid.shape, _scale(grid, sized, slabs)
     ky, _ = wave_integers(shape)
     down, along = cell_centres(shape)
@@ -84,6 +82,17 @@ def heights_in_slabs(
         return made
 
     return plane_of_waves(waves, shape, slabs.functions)  # type: ignore[arg-type]
+
+
+def _keys(rng: RngLike, slabs: Slabs) -> Keys:
+    """Return the key that all processes draw, or that the first of them draws if none has a seed."""
+    drawn = slabs.communicator.allgather((draw_keys(rng), rng is None))
+    if not all(unseeded for _, unseeded in drawn) and len({keys.tobytes() for keys, _ in drawn}) > 1:
+        raise ValueError(
+            "the processes drew different phases: give each the same seed, as rng=1, or a generator in the same state"
+        )
+    first: Keys = drawn[0][0]
+    return first
 
 
 def _scale(grid: Grid, sized: SizedSpectrum, slabs: Slabs) -> float:

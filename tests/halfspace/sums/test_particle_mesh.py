@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 import roughcontact as rc
+from roughcontact.halfspace.sums.mesh import SPLINE_ORDER, _spline
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.kernels import loader
 
@@ -152,3 +154,13 @@ class TestTiles:
                     y, x = int(tiles.rows[tile]) + dy, int(tiles.columns[tile]) + dx
                     wanted = places.get((y % 7, x % 9) if periodic else (y, x), len(tiles))
                     assert found.numbers.ravel()[place + dy * across + dx] == wanted
+
+
+def test_the_splines_are_those_of_the_recursion():
+    """No value exceeds 0.55, and those of the truncated powers that cancel are below 2.1."""
+    knots = np.arange(SPLINE_ORDER + 1) - SPLINE_ORDER / 2
+    x = np.linspace(-SPLINE_ORDER / 2, SPLINE_ORDER / 2, 241)
+    assert _spline(x) == pytest.approx(BSpline.basis_element(knots)(x), abs=8 * np.finfo(float).eps)
+    beyond = SPLINE_ORDER / 2 + np.array([0.0, 0.1, 7.0])
+    assert not _spline(beyond).any()
+    assert not _spline(-beyond).any()

@@ -47,6 +47,11 @@ def test_it_is_the_loop_of_the_library(law):
     assert str(record["status"].item()) in ("converged", "no contact")
 
 
+def test_the_pull_off_is_the_same_whatever_the_loads():
+    few, many = (float(run(loads=loads)["pull_off_force"]) for loads in (2, 20))
+    assert few == pytest.approx(many, rel=2e-6)  # each is found to 1e-6
+
+
 def test_it_is_pure_and_survives_as_text():
     one = run(seed=3)
     require_record(one)

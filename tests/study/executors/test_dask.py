@@ -1,6 +1,9 @@
 """Dask as an engine: nothing is lost with a worker, and nothing is left behind."""
 
+import asyncio
 import random
+import socket
+import ssl
 import sys
 import time
 
@@ -26,6 +29,7 @@ def threads():
 
 
 def test_a_killed_worker_costs_nothing_and_a_killing_case_only_itself(monkeypatch):
+    pytest.importorskip("cryptography")
     # Every task whose worker dies is put aside at once: that takes fewer new workers, which are slow to start.
     monkeypatch.setattr(dask, "FORGIVEN", 0)
     rng = random.Random(2)
@@ -43,19 +47,45 @@ def test_a_killed_worker_costs_nothing_and_a_killing_case_only_itself(monkeypatc
     assert workers() == []
 
 
-def test_local_workers_listen_to_this_machine_alone():
+def answered(port, strangers):
+    """Return what a port answers to plain text, or by TLS to the keys of somebody else; nothing if it hangs up."""
+    try:
+        with (
+            socket.create_connection(("127.0.0.1", port), timeout=60) as plain,
+            strangers.wrap_socket(plain) if strangers else plain as speaking,
+        ):
+            speaking.sendall(b"GET /metrics HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+            return speaking.recv(1000)
+    except OSError:
+        return b""
+
+
+def test_nobody_without_the_keys_of_the_run_is_answered():
+    pytest.importorskip("cryptography")
     outcomes = Dask(workers=1).outcomes(perform, tasks(NUMBERS, [{}, {}, {}]))
     next(outcomes)
     family = [psutil.Process(), *workers()]
     assert len(family) == 2
-    hosts = {
-        connection.laddr.ip
+    listening = {
+        connection.laddr
         for process in family
         for connection in process.net_connections()
         if connection.status == psutil.CONN_LISTEN
     }
-    assert hosts == {"127.0.0.1"}
-    outcomes.close()
+    assert {place.ip for place in listening} == {"127.0.0.1"}
+    others = distributed.Security.temporary()
+    known, stranger = (others.get_connection_args("client") for _ in range(2))
+    strangers = stranger["ssl_context"]
+    strangers.verify_mode = ssl.CERT_NONE  # they take any server: what is tried is whether it takes them
+    pages = {place.port for place in listening if answered(place.port, None).startswith(b"HTTP/1.1 404")}
+    obedient = {place.port for place in listening} - pages
+    assert (len(pages), len(obedient)) == (2, 3)  # of the scheduler and its worker; these two and the nanny
+    for port in obedient:
+        assert answered(port, None) == answered(port, strangers) == b""
+        for address, given in (f"tcp://127.0.0.1:{port}", {}), (f"tls://127.0.0.1:{port}", known):
+            with pytest.raises(OSError, match=r"closed|certificate|reset"):
+                asyncio.run(distributed.connect(address, 60, **given))
+    assert len(list(outcomes)) == 2
     assert workers() == []
 
 
@@ -106,6 +136,10 @@ def test_what_makes_no_sense_is_refused(monkeypatch):
         Dask("tcp://127.0.0.1:9", workers=2)
     with pytest.raises(ValueError, match="workers is 0"):
         Dask(workers=0)
+    monkeypatch.setitem(sys.modules, "cryptography.x509", None)
+    with pytest.raises(WorkersError, match=r"cryptography.* pip install 'roughcontact\[cluster\]'"):
+        Dask(workers=2)
+    assert repr(Dask("tls://127.0.0.1:9")) == "Dask('tls://127.0.0.1:9')"  # whose keys are not made here
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(WorkersError, match=r"pip install 'roughcontact\[cluster\]'"):
         Dask(workers=2)

@@ -42,4 +42,5 @@ def test_processes_that_are_killed_at_random_export_what_serial_execution_does(t
 
 def test_dask_exports_what_serial_execution_does(truth, tmp_path):
     pytest.importorskip("distributed")
+    pytest.importorskip("cryptography")
     assert exported(tmp_path, Dask(workers=1)) == truth

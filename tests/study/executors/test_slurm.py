@@ -3,17 +3,21 @@
 import os
 import sys
 import time
+from pathlib import Path
 from types import SimpleNamespace
 
 import psutil
 import pytest
 
 from roughcontact.study.executors import slurm
+from roughcontact.study.executors.keys import keys_in
 from roughcontact.study.executors.slurm import Slurm
 from roughcontact.study.executors.worker import WorkersError
 from study.executors.workload import NUMBERS, bits, perform, tasks, truth
 
 pytest.importorskip("dask_jobqueue")
+pytest.importorskip("cryptography")
+distributed = pytest.importorskip("distributed")
 config = pytest.importorskip("dask.config")
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="SLURM runs on Linux")
 
@@ -45,13 +49,50 @@ def test_cases_are_computed_in_jobs_that_are_cancelled_in_the_end(options, tmp_p
     script = (tmp_path / "job.sh").read_text()
     assert "--nthreads 1" in script
     assert "--nworkers 2" in script
-    assert "--no-dashboard" in script
+    assert "--no-dashboard --dashboard-address 127.0.0.1:0" in script
+    assert "ROUTES='[]'" in script
+    assert "SPILL=False" in script
+    assert f"--protocol tls:// --tls-ca-file {tmp_path}/.roughcontact-keys-" in script
+    assert list(tmp_path.glob(".roughcontact-keys-*")) == []
     deadline = time.monotonic() + 30
     while any(
         os.fspath(tmp_path) in " ".join(p.info["cmdline"] or []) for p in psutil.process_iter(["cmdline"])
     ):
         assert time.monotonic() < deadline
         time.sleep(0.1)
+
+
+def test_keys_lie_where_their_user_alone_can_read_them_for_as_long_as_the_run(tmp_path):
+    with keys_in(os.fspath(tmp_path)) as security:
+        paths = {*security.get_tls_config_for_role("worker").values()} - {None}
+        assert {os.path.dirname(path) for path in paths} == {os.fspath(each) for each in tmp_path.iterdir()}
+        (folder,) = tmp_path.iterdir()
+        modes = [os.stat(each).st_mode & 0o777 for each in (folder, *paths)]
+        assert modes == [0o700, 0o600, 0o600]
+        for role in "client", "scheduler", "worker":
+            assert security.get_connection_args(role)["require_encryption"]
+            assert "BEGIN PRIVATE KEY" in Path(security.get_tls_config_for_role(role)["key"]).read_text()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_security_of_ones_own_is_kept(options, monkeypatch):
+    monkeypatch.setitem(sys.modules, "cryptography.x509", None)
+    given = distributed.Security(require_encryption=False)
+    job = Slurm(2, **options, security=given)._job
+    assert job["security"] is given
+    assert "shared_temp_directory" not in job
+
+
+def test_a_folder_for_keys_that_a_job_cannot_name_is_refused_with_another_way(options, tmp_path, monkeypatch):
+    spaced = tmp_path / "a study"
+    spaced.mkdir()
+    monkeypatch.chdir(spaced)
+    with pytest.raises(WorkersError, match=r"a study'.* give shared_temp_directory="):
+        Slurm(2, **options)
+    assert Slurm(2, **options, shared_temp_directory="..")._job["shared_temp_directory"] == str(tmp_path)
+    with config.set({"jobqueue.slurm.shared-temp-directory": "$HERE/keys"}):
+        monkeypatch.setenv("HERE", "/shared")
+        assert Slurm(2, **options)._job["shared_temp_directory"] == "/shared/keys"
 
 
 def test_a_refused_job_is_told_of(options):
@@ -92,6 +133,9 @@ def test_a_job_that_has_ended_is_submitted_again(monkeypatch):
 def test_what_is_missing_is_told_of(options, monkeypatch):
     with pytest.raises(ValueError, match="workers is 0"):
         Slurm(0, **options)
+    monkeypatch.setitem(sys.modules, "cryptography.x509", None)
+    with pytest.raises(WorkersError, match=r"cryptography.* pip install 'roughcontact\[cluster\]'"):
+        Slurm(2, **options)
     monkeypatch.setenv("PATH", "")
     with pytest.raises(WorkersError, match="there is no sbatch here"):
         Slurm(2, **options)

@@ -78,6 +78,35 @@ def test_peaks_and_pits_hill_by_hill(seed):
     assert found.Rz == pytest.approx((peaks + pits).mean(), rel=1e-12)
 
 
+def test_rq_is_that_of_the_evaluation_length_and_not_a_mean_over_sections():
+    """ISO 4287 takes the mean over sampling lengths: the same Ra, another Rq."""
+    wave = np.sin(2 * np.pi * np.arange(640) / 64)
+    heights = np.concatenate([math.sqrt(2) * wave, 3 * math.sqrt(2) * wave])
+    found = profile_parameters(line(heights), section_length=64.0)
+    apart = [profile_parameters(line(part), section_length=64.0) for part in np.split(heights, 2)]
+    assert found.sections == 2
+    assert found.Rq == pytest.approx(math.sqrt((1 + 9) / 2), rel=1e-12)
+    assert np.mean([each.Rq for each in apart]) == pytest.approx(2, rel=1e-12)
+    assert np.mean([each.Ra for each in apart]) == pytest.approx(found.Ra, rel=1e-12)
+
+
+def test_no_filter_is_applied_and_the_recipe_gives_r_parameters():
+    """A short wave upon a long one and a tilt: P-parameters see all of it, R-parameters the short wave."""
+    n, spacing = 16000, 0.5e-6
+    x = np.arange(n) * spacing
+    short = 0.2e-6 * np.sin(2 * np.pi * x / 50e-6)
+    whole = line(short + 5e-6 * np.sin(2 * np.pi * x / 8e-3) + 1e-3 * x, spacing)
+    assert profile_parameters(whole).Rq > 10 * short.std()
+    roughness = whole.levelled("plane").filtered(short_cutoff=2.5e-6, long_cutoff=0.8e-3)
+    inside = roughness.cropped(slice(1600, 14400))
+    found = profile_parameters(inside, section_length=0.8e-3)
+    assert found.sections == 8
+    # Of the long wave, and of the straight line that levelling sees in it, 1 - 2^-(0.8/8)^2 = 0.7 % stays: 0.035 um.
+    assert found.Rq == pytest.approx(
+        short.std() * 2 ** -((2.5 / 50) ** 2), rel=0.5 * (0.035 / 0.2) ** 2 + 5e-3
+    )
+
+
 def test_any_profile_against_sums():
     z = np.random.default_rng(0).standard_normal(503) ** 3
     found = profile_parameters(line(z))

@@ -9,7 +9,6 @@ from functools import cache
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import factorial, xlog1py, zeta
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love
@@ -195,6 +194,8 @@ def _rest_of_row() -> Array:
 
     With l = 2(a + b), r^l P_l(y/r) = sum_a (-1/4)^a l!/((a!)^2 (l - 2a)!) x^(2a) y^(l - 2a).
     """
+    from scipy.special import factorial, zeta
+
     a = np.arange(POWERS)
     b = a[:, None].T
     a = a[:, None]
@@ -236,5 +237,7 @@ def _waves(x: Array, y: Array, cell: tuple[float, float], period: float) -> Arra
 
 def _mean_log(x: Array, side: float) -> Array:
     """Return the mean of ``-2 ln(x)`` over a side that does not reach beyond zero."""
+    from scipy.special import xlog1py
+
     part = side / (2 * x)
     return np.asarray(2 - 2 * np.log(x) - (xlog1py(1 + part, part) - xlog1py(1 - part, -part)) / part)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import ellipkm1, hyp2f1
 
 from roughcontact.validation import Array
 
@@ -71,6 +70,8 @@ def ring_matrix(edges: Array) -> Array:
 
 def _discs(edges: Array) -> Array:
     """Differences of discs: all pairs of rings, those of narrow ones with few digits."""
+    from scipy.special import hyp2f1
+
     inner, outer = np.minimum.outer(edges, edges), np.maximum.outer(edges, edges)
     m = np.divide(inner, outer, out=np.zeros_like(inner), where=outer > 0) ** 2
     discs = 2 * np.pi**2 * outer * inner**2 * hyp2f1(-0.5, 0.5, 2, m)
@@ -79,6 +80,8 @@ def _discs(edges: Array) -> Array:
 
 def _circles(r: Array, t: Array) -> Array:
     """Two circles of radii r and r + t, per width of each."""
+    from scipy.special import ellipkm1
+
     return np.asarray(8 * np.pi * r * (r + t) / (2 * r + t) * ellipkm1((t / (2 * r + t)) ** 2))
 
 

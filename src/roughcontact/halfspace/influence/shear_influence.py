@@ -9,7 +9,6 @@ from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.cerruti import cerruti, cerruti_table
@@ -83,6 +82,8 @@ class ShearWaves:
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the table [m/Pa]."""
+        import scipy.fft
+
         ny, nx = self.grid.shape
         half = self.transfer_function()
         beyond = half[:, ny - half.shape[1] : 0 : -1] * np.array([1.0, -1.0, 1.0])[:, None, None]
@@ -155,7 +156,7 @@ def _waves(shape: tuple[int, ...], spacing: tuple[float, ...]) -> tuple[Array, A
     At Nyquist's wavenumber, the same for both signs, the mean of qx qy over both is zero. Of the constant, which has no
     direction, both squares are 1/2.
     """
-    qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
+    qy, qx = (2 * np.pi * np.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     q = wavenumbers(shape, spacing)
     square = np.where(q > 0, q * q, 1.0)
     cos, sin, cross = qx**2 / square, qy[:, None] ** 2 / square, qy[:, None] * qx / square

@@ -9,7 +9,6 @@ from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love, love_table, strip, wave_compliance
@@ -319,6 +318,8 @@ def table_of_waves(transfer: Array, period: tuple[int, ...], shape: tuple[int, .
     ny, nx = period
     if max(shape) <= SMALL_TABLE:  # a transform would make the whole table
         return _waves(ny, shape[0]) @ transfer @ _waves(nx, shape[1]).T
+    import scipy.fft
+
     full = np.concatenate([transfer, transfer[ny - transfer.shape[0] : 0 : -1]])
     return np.ascontiguousarray(scipy.fft.irfft2(full, s=(ny, nx))[: shape[0], : shape[1]])
 
@@ -347,7 +348,7 @@ def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], columns: sli
 
     Of some columns, if no others are wanted.
     """
-    qy, qx = (2 * np.pi * scipy.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
+    qy, qx = (2 * np.pi * np.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     return np.asarray(np.sqrt(qy[:, None] ** 2 + qx[columns] ** 2))  # hypot takes several times as long
 
 

@@ -107,7 +107,8 @@ def line(
     reference_length : float, optional
         Of a free line: distance from a load at which its displacement is zero [m]; by default the grid's length.
         Depths depend on it, by ``2 F ln(L2/L1)/(pi E*)``: a line load sinks without bound into an endless body.
-        Pressures at given force do not.
+        Pressures at given force do not. With ``2 sqrt(R1 R2)/e`` the depth is the approach of the axes of two cylinders
+        of one material, see the notes.
     method : {"fft", "moving-grid", "multilevel"}
         How the sum over the cells is done, see `half_space`; the latter two on a free line.
 
@@ -126,6 +127,12 @@ def line(
     -----
     Strips of constant pressure, and means of the displacement over strips (thesis, eqs A.37 to A.46 as
     corrected); a periodic line answers each wave by 2/(E* q), mean displacement zero.
+
+    A cylinder of radius R that is pressed from two opposite sides is shortened, from the contact of half width a to its
+    axis, by ``F (1 - nu^2)/(pi E) (2 ln(4 R/a) - 1)`` (Johnson, Contact Mechanics, 1985, section 5.6). The depth of
+    Hertz' line contact is ``F/(pi E*) (2 ln(2 L/a) + 1)``. So the depth is the approach of the axes of two cylinders if
+    ``L = (2/e) R1^w R2^(1 - w)``, w the share of the first body in 1/E*: ``2 sqrt(R1 R2)/e`` for one material, 0.74 of
+    the geometric mean of their radii. The grid must be shorter than that.
 
     Examples
     --------

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import erf, erfc
 
 from roughcontact.halfspace.influence.tables import Love, Periodic, wavenumbers
 from roughcontact.transforms import even_multiplier
@@ -56,6 +55,8 @@ class FreeSplit:
 
     def _long_range(self, rows: Offsets, columns: Offsets) -> Array:
         """Return the mean of the long-range part over a cell, by Gauss's rule."""
+        from scipy.special import erf
+
         (dy, dx), width = self.kernel.spacing, self.reach / SCREENING
         mean = np.zeros(np.broadcast_shapes(rows.shape, columns.shape))
         for a, first in zip(_NODES / 2, _WEIGHTS / 2, strict=True):
@@ -77,12 +78,16 @@ class PeriodicSplit:
 
     def short_range(self, cells: Pair) -> Array:
         """Return the short-range part [m/Pa]."""
+        from scipy.special import erf
+
         near = self.kernel.transfer_function() * erf(self._phase)
         near[0, 0] = self._mean
         return _values(near, self.kernel.grid.shape, cells)
 
     def long_range(self, step: Pair, lengths: Pair) -> Array:
         """Return the transfer function of the long-range part [m/Pa]; the nodes share the period."""
+        from scipy.special import erfc
+
         far = self.kernel.transfer_function() * erfc(self._phase)
         far[0, 0] = -self._mean
         ny, nx = (n // 2 + 1 for n in lengths)

@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import scipy.fft
 
 from roughcontact.arrays import Placed, namespace
 from roughcontact.grid import Grid
@@ -87,6 +86,8 @@ def transfer_function(table: Array, parity: Parity, lengths: Pair, periodic: Seq
     array, shape (My//2 + 1, Mx//2 + 1)
         Rows beyond repeat in reverse, with the other sign if the kernel is odd along y.
     """
+    import scipy.fft
+
     shape = [m if around else m // 2 + 1 for m, around in zip(lengths, periodic, strict=True)]
     transfer = np.zeros(shape)
     transfer[: table.shape[0], : table.shape[1]] = table

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_array
 
 from roughcontact.halfspace.sums.near_sum import add_near
 from roughcontact.halfspace.sums.transfer import NodeGrid, interpolation, offset_weights
 from roughcontact.validation import Array
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
 __all__ = ["GridLevel", "Kernel", "LevelSum", "coarsen"]
 
 Offsets = npt.NDArray[np.intp]
-Transfer = csr_array | None  # none along an axis that stays as it is
+Transfer: TypeAlias = "csr_array | None"  # none along an axis that stays as it is
 
 # Nodes up to which a full matrix between them costs no more than another level.
 COARSEST_NODES = 512

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from roughcontact.validation import Array
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 __all__ = ["NodeGrid", "coarse_count", "interpolation", "offset_weights"]
 
@@ -75,6 +78,8 @@ def interpolation(count: int, order: int) -> csr_array:
         Coarse node c lies at node ``2 (c + 1) - order``. Some lie outside the grid: without this ring, pressures
         that do not vanish at the edge would be off by a per cent.
     """
+    from scipy.sparse import csr_array
+
     even, odd = np.arange(0, count, 2), np.arange(1, count, 2)
     rows = np.concatenate([even, np.repeat(odd, order)])
     columns = np.concatenate([even // 2 + order // 2 - 1, np.add.outer(odd // 2, np.arange(order)).ravel()])

@@ -109,4 +109,4 @@ def _retreat(loop: AdhesiveLoop, values: Array, parameters: AdhesionParameters) 
     return np.pad(back, (0, parameters.loads + 1 - back.size), constant_values=np.nan)[::-1].copy()
 
 
-CASE = Case("adhesion", 1, AdhesionParameters, run)
+CASE = Case("adhesion", 2, AdhesionParameters, run)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import logging
 import multiprocessing.resource_tracker
 import signal
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.study.executors.farm import Site, connected, farmed
+from roughcontact.study.executors.keys import NO_PAGES, require_keys
 from roughcontact.study.executors.processes import usable_cores
 from roughcontact.study.executors.worker import WorkersError, require_cluster
 
@@ -40,10 +42,13 @@ class Dask:
     Raises
     ------
     WorkersError
-        If Dask is not installed.
+        If Dask is not installed, or cryptography is not where workers are started here.
 
     Notes
     -----
+    Workers that are started here and their scheduler talk by TLS, with keys that are made for the run: other users of
+    the machine can neither give them work nor read along. A scheduler or cluster that is given keeps its own security.
+
     A task whose worker dies is tried again. One that the scheduler gives up after several deaths is computed once more
     at the end, with nothing else beside it, and has failed if its workers die again. When the iterator is closed, the
     workers of a foreign scheduler finish what they are computing, and it is forgotten.
@@ -66,6 +71,8 @@ class Dask:
             raise ValueError(f"workers is {workers}; at least one is needed")
         require_cluster("distributed", "Dask")
         self._target = cluster if address is None else address
+        if self._target is None:
+            require_keys()
         self._workers = usable_cores() if workers is None else workers
 
     def __repr__(self) -> str:
@@ -107,7 +114,7 @@ class Dask:
 
 @contextmanager
 def _local(workers: int) -> Iterator[Site]:
-    """Start a scheduler and workers of one thread each, which nobody outside this machine can reach."""
+    """Start a scheduler and workers of one thread each, which obey nobody but this process."""
     import dask.config
     from distributed import LocalCluster
 
@@ -116,6 +123,7 @@ def _local(workers: int) -> Iterator[Site]:
         "distributed.scheduler.worker-saturation": 1.0,
         # A worker that is away twice within this time, having died twice, would not be started again.
         "distributed.deploy.lost-worker-timeout": "1 h",
+        **NO_PAGES,
     }
     with dask.config.set(settings):
         try:
@@ -124,6 +132,7 @@ def _local(workers: int) -> Iterator[Site]:
                     n_workers=workers,
                     threads_per_worker=1,
                     host="127.0.0.1",
+                    security=True,
                     memory_limit=0,  # the arrays of a case are not Dask's to count
                     silence_logs=logging.CRITICAL,
                     dashboard_address=None,
@@ -141,12 +150,12 @@ def _local(workers: int) -> Iterator[Site]:
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
     """Keep Ctrl-C from threads and processes that are started meanwhile: it is the coordinator's to stop them."""
-    if not hasattr(signal, "pthread_sigmask"):
+    if sys.platform == "win32":
         yield
-        return
-    multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    else:
+        multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.study.executors.farm import Site, farmed
+from roughcontact.study.executors.keys import NO_PAGES, as_folder, keys_in, require_keys
 from roughcontact.study.executors.worker import WorkersError, require_cluster
 
 if TYPE_CHECKING:
@@ -21,6 +23,12 @@ if TYPE_CHECKING:
 __all__ = ["Slurm"]
 
 AWAY = 60.0  # [s] without any of its workers, after which a job has ended
+UNSEEN = "127.0.0.1:0"  # of the servers for status pages, which Dask starts in any case
+WORKER_SETTINGS = (
+    "export DASK_DISTRIBUTED__WORKER__HTTP__ROUTES='[]'",
+    # Nothing pickled lies in a folder for temporary files, which another user may have made before.
+    "export DASK_DISTRIBUTED__WORKER__MEMORY__TARGET=False DASK_DISTRIBUTED__WORKER__MEMORY__SPILL=False",
+)
 
 
 class Slurm:
@@ -38,10 +46,15 @@ class Slurm:
     Raises
     ------
     WorkersError
-        If dask-jobqueue is not installed, there is no SLURM, or cores and memory of a job are not known.
+        If dask-jobqueue or cryptography is not installed, there is no SLURM, cores and memory of a job are not known,
+        or a job could not name the folder of the keys.
 
     Notes
     -----
+    Scheduler and workers talk by TLS, with keys that are made for the run. During the run they lie where only the user
+    can read them, in ``shared_temp_directory``, by default the current folder, which all nodes must see. With
+    ``security`` of your own none are made.
+
     A job that has ended, at its time limit for example, is submitted again. Otherwise as `Dask`.
 
     Examples
@@ -97,9 +110,16 @@ class Slurm:
 
     @contextmanager
     def _opened(self) -> Iterator[Site]:
+        import dask.config
         from dask_jobqueue import SLURMCluster
 
-        with SLURMCluster(**self._job) as cluster:
+        job = self._job
+        keys = nullcontext(job["security"]) if "security" in job else keys_in(job["shared_temp_directory"])
+        with (
+            dask.config.set(NO_PAGES),
+            keys as security,
+            SLURMCluster(**job | {"security": security}) as cluster,
+        ):
             jobs = _Jobs(cluster, self._workers)
             jobs.submit()
             yield Site(cluster, jobs.keep)
@@ -122,14 +142,23 @@ def _complete(options: dict[str, Any]) -> dict[str, Any]:
             "the cores and the memory of a job are not known: give them, as in Slurm(48, cores=24, memory='48 GB'), or "
             "write them to ~/.config/dask/jobqueue.yaml"
         )
-    hidden = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    if "security" not in options:
+        require_keys()
+        options = options | {
+            "shared_temp_directory": as_folder(configured("shared_temp_directory", os.getcwd()))
+        }
+    hidden = {"dashboard": False, "dashboard_address": UNSEEN}
     return (
         {"silence_logs": "critical"}
         | options
         | {
             "processes": cores,
             "scheduler_options": hidden | configured("scheduler_options", {}),
-            "worker_extra_args": ["--no-dashboard", *configured("worker_extra_args", [])],
+            "worker_extra_args": [
+                *("--no-dashboard", "--dashboard-address", UNSEEN),
+                *configured("worker_extra_args", []),
+            ],
+            "job_script_prologue": [*WORKER_SETTINGS, *configured("job_script_prologue", [])],
         }
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
 
@@ -85,6 +86,7 @@ class LagMap:
 
 
 @numeric
+@analysed_on_host
 def autocorrelation(surface: Surface) -> LagMap:
     """Return the autocorrelation ``<h(x + r) h(x)>`` of the heights above their mean.
 
@@ -117,6 +119,7 @@ def autocorrelation(surface: Surface) -> LagMap:
 
 
 @numeric
+@analysed_on_host
 def structure_function(surface: Surface) -> LagMap:
     """Return the structure function ``<(h(x + r) - h(x))^2>`` of the heights.
 
@@ -150,6 +153,7 @@ def structure_function(surface: Surface) -> LagMap:
 
 
 @numeric
+@analysed_on_host
 def structure_profile(
     surface: Surface, direction: Literal["x", "y"] = "x", *, lags: npt.ArrayLike | None = None
 ) -> LagCurve:

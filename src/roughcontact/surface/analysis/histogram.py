@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
 
@@ -65,6 +66,7 @@ class HeightHistogram:
 
 
 @numeric(ends="m")
+@analysed_on_host
 def height_histogram(
     surface: Surface, *, bins: int = 100, ends: tuple[float, float] | None = None
 ) -> HeightHistogram:

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.surface.wave_grid import wave_vectors
 from roughcontact.validation import Array, numeric
@@ -77,6 +78,7 @@ class PowerMap:
 
 
 @numeric
+@analysed_on_host
 def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level = "auto") -> PowerMap:
     """Return the two-dimensional power spectrum C2D of a surface (thesis, eqs 2.13 and 2.14).
 

@@ -12,6 +12,7 @@ import scipy.fft
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, prepared, tapers
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
 
@@ -24,6 +25,7 @@ FINEST = 1e5  # bins to a factor of ten: no surface has waves for more
 
 
 @numeric
+@analysed_on_host
 def power_spectrum(
     surface: Surface,
     direction: Literal["auto", "ring", "x", "y"] = "auto",

@@ -14,6 +14,7 @@ from scipy.optimize import least_squares
 
 from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, numeric, require
@@ -64,6 +65,7 @@ class _Band:
 
 
 @numeric
+@analysed_on_host
 def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLike | None = None) -> HurstFit:
     """Return the self-affine law whose band-limited structure function fits a surface best.
 

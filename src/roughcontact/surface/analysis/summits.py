@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
 
@@ -60,6 +61,7 @@ class MeasuredSummits:
 
 
 @numeric
+@analysed_on_host
 def find_summits(surface: Surface) -> MeasuredSummits:
     """Return the summits of a surface: points higher than all eight neighbours.
 

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.ndimage import map_coordinates, spline_filter
 
 from roughcontact.surface.analysis.correlation import autocorrelation
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -64,11 +65,16 @@ class ArealParameters:
 
 
 @numeric
+@analysed_on_host
 def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters:
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 
-    Heights count above their mean. The standard wants a scale-limited surface: remove its tilt and filter it first,
-    since nothing is removed here but the mean. Missing points are left out, as are pairs and triangles that hold one.
+    Heights count above their mean, over all measured points of the map as one evaluation area: there are no sections as
+    in a profile (`profile_parameters`). No filter is applied and no form is removed except the mean. The standard wants
+    a scale-limited surface: remove tilt or form (the F-operation: `Surface.levelled`, `Surface.without_form`), then
+    filter by the Gaussian of ISO 16610-61 (`Surface.filtered`: ``short_cutoff`` is the nesting index of the S-filter,
+    ``long_cutoff`` that of the L-filter; ISO 25178-3 takes the latter as the side of the evaluation area). Missing
+    points are left out, as are pairs and triangles that hold one.
 
     Parameters
     ----------

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
 
@@ -119,6 +120,7 @@ class StratifiedParameters:
 
 
 @numeric
+@analysed_on_host
 def material_ratio(surface: Surface) -> MaterialRatio:
     """Return the material ratio curve of a surface or a line (ISO 25178-2:2021, 4.5.1).
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -64,11 +65,14 @@ class ProfileParameters:
 
 
 @numeric(section_length="m")
+@analysed_on_host
 def profile_parameters(line: Surface, *, section_length: float | None = None) -> ProfileParameters:
     """Return the height and gradient parameters of ISO 21920-2:2021 of a profile.
 
-    Heights count above their mean over the evaluation length. The letter R of the names assumes that the
-    profile went through the roughness filters of the standard; with another profile read P or W.
+    No filter is applied and no tilt removed: heights count above their mean over the evaluation length. The letter R of
+    the names holds for a profile that went through the roughness filters; without them read P. Ra, Rq, Rsk, Rku and Rt
+    are those of the whole evaluation length, over all its points; Rp, Rv and Rz are means over its sections. See the
+    notes for the filters, and for ISO 4287.
 
     A peak is the highest point of a hill, between two crossings of the mean line, and belongs to the section that it
     lies in; a pit likewise the lowest of a dale. A section without a peak or pit counts with zero. ISO 4287 looked at
@@ -93,6 +97,19 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
         If the grid has two axes, points are missing, the profile is flat or shorter than seven points, or a section
         does not fit in it.
 
+    Notes
+    -----
+    For R-parameters take the tilt or form out, then filter by the Gaussian of ISO 16610-21 between the nesting indices
+    lambda_s and lambda_c (of ground surfaces usually 2.5 um and 0.8 mm), and give lambda_c as the section length; the
+    standard's default is five such sections. Half a lambda_c at either end of a profile that does not repeat itself is
+    under the influence of its end: cut it off.
+
+    ISO 4287 (1997) takes Ra and Rq of each sampling length, which is the section, about the common mean line, and ISO
+    4288 the mean over five of them. For Ra that is the same number. The mean of the sections' Rq is at most the Rq
+    here, and less if sections differ: of two sections with the rms heights 1 and 3 um it is 2 um, where Rq is 2.24 um.
+    The areal Sq of ISO 25178-2 has no sections, and other filters (`areal_parameters`): the Rq of a row of a map is not
+    its Sq.
+
     Examples
     --------
     >>> import roughcontact as rc
@@ -100,6 +117,10 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
     >>> parameters = rc.profile_parameters(wave)
     >>> f"Rq = {parameters.Rq:.3g} m, Rz = {parameters.Rz:.2g} m"
     'Rq = 7.07e-07 m, Rz = 2e-06 m'
+    >>> roughness = wave.levelled("plane").filtered(short_cutoff=8e-6, long_cutoff=128e-6)
+    >>> parameters = rc.profile_parameters(roughness, section_length=128e-6)
+    >>> parameters.sections, f"Rq = {parameters.Rq:.3g} m"  # 2^-(8/64)^2 (1 - 2^-(128/64)^2) of it
+    (5, 'Rq = 6.56e-07 m')
     """
     grid = line.grid
     if grid.ndim != 1:

@@ -143,7 +143,8 @@ def line(
         Indentation depth against `reference_length` [m].
     reference_length : float, optional
         Needed for depths, stiffness and displacements [m]. At least the size of the body; a displacement far
-        away that is not zero shifts the depth by 2 F' ln(L2/L1)/(pi E*).
+        away that is not zero shifts the depth by 2 F' ln(L2/L1)/(pi E*). With 2 sqrt(R1 R2)/e the depth is the approach
+        of the axes of two cylinders of one material, see `roughcontact.line`.
 
     Returns
     -------

@@ -1,0 +1,147 @@
+"""The lowest force along a retreat: the largest tension of a body that is drawn back.
+
+It lies where the slope of the force with the depth changes its sign: where it vanishes, or where a cell leaves the
+wall; or where a branch ends. On rough surfaces the sign may change at many cells, so the slopes at two states do not
+bound the force between them. But the slope is the least value of a quadratic form, ``(y + 1).K (y + 1) - y.D y`` over
+all changes y of the gap that vanish at the wall. It falls as the curvature D of the attraction grows, and as cells
+leave the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and
+with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
+them are computed until this point is no lower than the lowest force that was found.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+
+import numpy as np
+
+from roughcontact.adhesion.control_form import DepthControl, ForceControl
+from roughcontact.adhesion.gap_energy import Point
+from roughcontact.adhesion.tangent import force_slope
+from roughcontact.adhesion.truncated_newton import Counter, minimise
+from roughcontact.validation import Array, Mask
+
+__all__ = ["FORCE_TOLERANCE", "LowestForce"]
+
+FORCE_TOLERANCE = 1e-6  # of the lowest force, within which it is found
+CLOSEST = 0.05  # of the way between two states, that a state between them keeps from each
+
+
+@dataclass(slots=True)
+class LowestForce:
+    """The lowest force of a retreat so far.
+
+    Parameters
+    ----------
+    control : DepthControl or ForceControl
+    counter : Counter
+        Counts products.
+    force : float
+        The lowest so far [N].
+    """
+
+    control: DepthControl | ForceControl
+    counter: Counter
+    force: float
+    _last: _BranchPoint | None = None
+
+    def begin(self, value: float, point: Point) -> None:
+        """Begin a branch at a state."""
+        self._last = None
+        self.go_on(value, point)
+
+    def go_on(self, value: float, point: Point) -> None:
+        """Go on to the next state of a branch; the energy is strictly convex between it and the last."""
+        if isinstance(self.control, ForceControl):
+            self.force = min(self.force, value)
+            return
+        new = _BranchPoint(value, self.control.energy_at(value).force(point), point.displacement, point.gap)
+        self.force = min(self.force, new.force)
+        if self._last is not None:
+            self._search(self.control, self._last, new)
+        self._last = new
+
+    def _search(self, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint) -> None:
+        """Find the lowest force between two states, if it is a tension and lower than the lowest so far."""
+        order = count()
+        pairs: list[tuple[float, int, _Pair]] = []
+
+        def add(upper: _BranchPoint, lower: _BranchPoint) -> None:
+            pair = _Pair.of(control, upper, lower, enough(), self.counter)
+            heappush(pairs, (pair.bound, next(order), pair))
+
+        def enough() -> float:
+            return min(self.force, 0.0) - FORCE_TOLERANCE * abs(self.force)
+
+        add(upper, lower)
+        while pairs and pairs[0][0] < enough():
+            _, _, pair = heappop(pairs)
+            middle = pair.middle(control, self.counter)
+            if middle is not None:
+                self.force = min(self.force, middle.force)
+                add(pair.upper, middle)
+                add(middle, pair.lower)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _BranchPoint:
+    """A state under a given depth [m]: its force [N], and displacement and gap [m] on the cells of the computation."""
+
+    depth: float
+    force: float
+    displacement: Array
+    gap: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Pair:
+    """Two states of a branch; the force between them is not below `bound` [N], which it may be `part` of the way up."""
+
+    upper: _BranchPoint
+    lower: _BranchPoint
+    bound: float
+    part: float
+
+    @classmethod
+    def of(
+        cls, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint, enough: float, counter: Counter
+    ) -> _Pair:
+        """Bound the force between two states, so far as it may be below `enough` [N] and below zero."""
+        if min(upper.force, lower.force) >= 0:
+            return cls(upper, lower, 0.0, 0.0)
+        law = control.attraction
+        near, far = np.minimum(upper.gap, lower.gap), np.maximum(upper.gap, lower.gap)
+
+        def slope(free: Mask, curvature: Array) -> float:
+            return force_slope(control.form, free, np.where(free, curvature, 0.0), counter)
+
+        least = slope(far > 0, law.curvature_between(near, far))
+        width = upper.depth - lower.depth
+        if least >= 0 or lower.force + least * width >= enough:
+            return cls(upper, lower, lower.force + min(0.0, least) * width, 0.0)
+        # The curvature has one peak at most, so that the smallest is at an end.
+        most = slope(near > 0, np.minimum(law.curvature(near), law.curvature(far)))
+        if most <= 0:
+            return cls(upper, lower, upper.force, 1.0)
+        rise = (lower.force - upper.force + most * width) / (most - least) if math.isfinite(most) else width
+        rise = min(max(rise, 0.0), width)
+        return cls(upper, lower, lower.force + least * rise, rise / width)
+
+    def middle(self, control: DepthControl, counter: Counter) -> _BranchPoint | None:
+        """Return the state where the force may be lowest; None where rounding leaves none in between."""
+        upper, lower = self.upper, self.lower
+        part = min(max(self.part, CLOSEST), 1 - CLOSEST)
+        depth = lower.depth + part * (upper.depth - lower.depth)
+        if not lower.depth < depth < upper.depth:
+            return None
+        energy = control.energy_at(depth)
+        start = lower.displacement + part * (upper.displacement - lower.displacement)
+        held = (upper.gap <= 0) & (lower.gap <= 0)
+        start = np.where(held, energy.obstacle, start)
+        end = minimise(energy, start, counter, convex_only=True)
+        if not end.converged:
+            return None
+        return _BranchPoint(depth, energy.force(end.point), end.point.displacement, end.point.gap)

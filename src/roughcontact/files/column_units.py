@@ -1,0 +1,46 @@
+"""The units that a line of words above a table gives to its columns."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from roughcontact.files.length_units import is_length
+
+__all__ = ["VALIDITY", "column_units"]
+
+VALIDITY = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)  # of a column that says which heights were measured
+
+
+def column_units(lines: Sequence[str], columns: int) -> tuple[str | None, ...]:
+    """Return the unit of each column as the last line that names any states it, in words that may be unknown here.
+
+    Units stand in brackets, ``x [mm], z (um)``, or behind a name, ``Lateral um, Raw Micrometer``, ``x_mm z/um``.
+    """
+    for line in reversed(lines):
+        found = _units_in(line, columns)
+        if any(found):
+            return found
+    return (None,) * columns
+
+
+def _units_in(line: str, columns: int) -> tuple[str | None, ...]:
+    brackets = [
+        unit for unit in re.findall(r"[\[(]\s*([^\])]*?)\s*[\])]", line) if not VALIDITY.fullmatch(unit)
+    ]
+    if len(brackets) == columns:
+        return tuple(brackets)
+    for parts in (re.split(r"[,;\t]", line), line.split()):
+        columns_of = [part.strip(" \"'") for part in parts if not VALIDITY.fullmatch(part.strip(" \"'"))]
+        if len(columns_of) == columns:
+            alone = all(map(is_length, columns_of))
+            return tuple(part if alone else _unit_behind(part) for part in columns_of)
+    return (None,) * columns
+
+
+def _unit_behind(part: str) -> str | None:
+    bracket = re.search(r"[\[(]\s*([^\])]*?)\s*[\])]", part)
+    if bracket is not None:
+        return bracket[1]
+    *name, last = re.split(r"[\s_/]+", part)
+    return last if name and is_length(last) else None

@@ -1,0 +1,41 @@
+"""A known count of numbers in a text, on lines of any length."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from roughcontact.files.fields import put_points
+from roughcontact.files.file_errors import ContentError
+from roughcontact.files.numbers import Marks
+from roughcontact.validation import Array
+
+__all__ = ["grid_of"]
+
+
+def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
+    """Return the heights (rows, columns) in the fields of a text, notes and doubts about the marks among them.
+
+    Raises
+    ------
+    ContentError
+        If a field is no number, or there are more or fewer than `shape` states.
+    """
+    expected = shape[0] * shape[1]
+    if len(fields) != expected:
+        cut = ": it is cut short" if len(fields) < expected else ""
+        raise ContentError(
+            f"{len(fields)} numbers are there where it states {shape[0]} rows of {shape[1]}{cut}",
+            "copy or export it again, or correct the numbers of rows and columns",
+        )
+    marks = Marks()
+    row = list(fields)
+    put_points([row], ["among its heights"])
+    try:
+        values = marks.numbers(row)
+    except ValueError as error:
+        raise ContentError(
+            f"{error.args[0]!r} is not a number", "write nan where a point was not measured"
+        ) from None
+    return np.array(values).reshape(shape), *marks.told()

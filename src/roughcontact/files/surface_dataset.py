@@ -1,0 +1,71 @@
+"""Surfaces as datasets of xarray, and arrays of xarray as surfaces."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.files.assemble import Length, Size, assemble
+from roughcontact.files.content import named
+from roughcontact.files.file_errors import SurfaceWarning
+from roughcontact.files.netcdf import StoredVariable, height_map_of
+from roughcontact.files.provenance import provenance
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
+from roughcontact.surface.surface import Surface
+from roughcontact.units import in_si
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["dataset_without_heights", "surface_dataset", "surface_of"]
+
+
+def surface_dataset(surface: Surface) -> xarray.Dataset:
+    """Return heights, cells and provenance, as `roughcontact.write` stores them in NetCDF."""
+    heights = variable("heights", Geometry.of(surface.grid).axes, surface.heights)
+    return dataset_without_heights(surface, {"heights": heights})
+
+
+def dataset_without_heights(surface: Surface, maps: dict[str, Any]) -> xarray.Dataset:
+    """Return what is stored of a surface beside its heights, and `maps` with it."""
+    grid, geometry = surface.grid, Geometry.of(surface.grid)
+    dataset = dataset_of(sizes(grid) | maps, centres(grid, geometry), "heights of a surface", geometry)
+    for axis, length, periodic in zip(geometry.axes, grid.lengths, grid.periodic, strict=True):
+        # A single array of the dataset takes its coordinates with it, and nothing else.
+        dataset[axis].attrs |= {"length": length, "periodic": int(periodic)}
+    return dataset.assign_attrs(provenance(surface))
+
+
+def surface_of(
+    array: xarray.DataArray,
+    unit: Length | None,
+    size: Size | None,
+    periodic: bool | tuple[bool, ...] | None,
+) -> Surface:
+    """Return the surface of an array with named dimensions; see ``Surface.from_dataarray``."""
+    if not hasattr(array, "coords"):
+        raise ValueError(
+            f"an xarray.DataArray is wanted, not a {type(array).__name__}: give Surface(heights, grid)"
+        )
+    variables = {"heights": _stored(array)}
+    variables |= {str(axis): _stored(array.coords[axis]) for axis in array.dims if axis in array.coords}
+    with named(f"DataArray {str(array.name or 'heights')!r}") as label:
+        found = height_map_of(variables, {}, "heights", "xarray")
+        digest = hashlib.sha256(np.ascontiguousarray(found.heights).tobytes()).hexdigest()[:16]
+        surface, doubts = assemble(found, label, digest, unit=unit, size=size, periodic=periodic)
+    for doubt in doubts:
+        warnings.warn(f"{label}: {doubt}", SurfaceWarning, stacklevel=4)
+    return surface
+
+
+def _stored(array: xarray.DataArray) -> StoredVariable:
+    """Return an array as a variable of a file; one around quantities of pint states their unit."""
+    values, attributes = array.data, dict(array.attrs)
+    if hasattr(values, "units"):
+        attributes["units"], values = "m", in_si(values, "m", str(array.name or "heights"))
+    plain = np.asarray(values)
+    return StoredVariable(tuple(map(str, array.dims)), plain.shape, plain.dtype, attributes, lambda: plain)

@@ -1,0 +1,42 @@
+"""Surfer's text grid: ``DSAA``, numbers of columns and rows, ranges of x, y and z, rows from the smallest y."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughcontact.files.fields import number_of
+from roughcontact.files.file_errors import ContentError
+from roughcontact.files.heightmap import HeightMap, as_heights
+from roughcontact.files.missing_marks import holds_mark
+from roughcontact.files.number_stream import grid_of
+
+__all__ = ["read_surfer"]
+
+_BLANK = 2.0**127  # printed as 1.70141e+38
+_HEAD = 9  # fields before the heights
+_ROUNDING = 1e-6  # of the range: its printed digits
+
+
+def read_surfer(text: str) -> HeightMap:
+    """Return the heights of a grid, largest y first; its places are in the unit of its heights, which is open."""
+    fields = text.split()
+    nx, ny, *ends = (number_of(field.replace(",", ".")) for field in fields[1:_HEAD])
+    if len(ends) < 6 or not (2 <= nx <= 1e9 and 2 <= ny <= 1e9) or nx != int(nx) or ny != int(ny):
+        raise ContentError(
+            "its header is damaged", "write columns and rows, and the ranges of x, y and z, below DSAA"
+        )
+    heights, notes, doubts = grid_of(fields[_HEAD:], (int(ny), int(nx)))
+    found = holds_mark(heights, (_BLANK,))
+    heights = np.where(found, np.nan, heights)[::-1]
+    west, east, south, north, low, high = ends
+    slack = _ROUNDING * max(abs(low), abs(high))
+    outside = np.count_nonzero((heights < low - slack) | (heights > high + slack))
+    if outside:
+        doubts = (
+            *doubts,
+            f"{outside} heights lie outside the range {low:g} to {high:g} that its header states",
+        )
+    if found.any():
+        notes = (*notes, f"not measured where it is {_BLANK:g}")
+    steps = abs(north - south) / (ny - 1), abs(east - west) / (nx - 1)
+    return HeightMap(as_heights(heights), "Surfer grid", steps=steps, notes=notes, doubts=doubts)

@@ -1,0 +1,49 @@
+"""The folder of a running server, and those that servers left behind which were killed."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from roughcontact.kernels.disk import private
+
+__all__ = ["SCRATCH", "server_folder"]
+
+SCRATCH = (
+    "scratch"  # of a server's folder: made when the folder is locked, for the temporary files of workers
+)
+_PREFIX = "roughcontact-page-"
+# Somebody else holds it, it cannot be made, or there are no locks in this place.
+_UNLOCKABLE = (Timeout, OSError, NotImplementedError)
+_LOCK = "lock"  # held until the server ends, however it ends
+
+
+@contextlib.contextmanager
+def server_folder() -> Iterator[Path]:
+    """Keep a folder for this user alone for as long as the block runs; what killed servers left is removed."""
+    _remove_left()
+    with tempfile.TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True) as name:
+        folder = Path(name)
+        with contextlib.ExitStack() as held:
+            with contextlib.suppress(*_UNLOCKABLE):
+                held.enter_context(_lock(folder))
+            yield folder
+
+
+def _remove_left() -> None:
+    # A server that is starting has no such folder yet, or has locked its own.
+    for scratch in Path(tempfile.gettempdir()).resolve().glob(f"{_PREFIX}*/{SCRATCH}"):
+        folder = scratch.parent
+        with contextlib.suppress(*_UNLOCKABLE):
+            if private(folder) == folder:  # neither a link nor a folder of another user
+                with _lock(folder):
+                    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _lock(folder: Path) -> FileLock:
+    return FileLock(folder / _LOCK, timeout=0)

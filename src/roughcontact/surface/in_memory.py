@@ -1,0 +1,66 @@
+"""Where heights live: what NumPy alone can work on is given to it, or refused in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
+
+from roughcontact.arrays import is_numpy, on_host
+from roughcontact.slabs.exchange import is_in_slabs
+
+__all__ = ["analysed_on_host", "on_host_only"]
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def on_host_only(function: Callable[P, R], *, or_in_slabs: bool = False) -> Callable[P, R]:
+    """Return a function of surfaces that refuses heights which NumPy could not work on where they live."""
+
+    @wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        surfaces: tuple[Any, ...] = (*args, *kwargs.values())
+        for given in surfaces:
+            if _is_elsewhere(given) and not (or_in_slabs and is_in_slabs(given.heights)):
+                raise ValueError(
+                    f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}: "
+                    "prepare the surface first, then put its heights on the device"
+                )
+        return function(*args, **kwargs)
+
+    return checked
+
+
+def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
+    """Return a function of surfaces that is given a copy of heights of another library in NumPy's memory.
+
+    For what returns numbers and NumPy's arrays. Heights in slabs are refused: no process holds all of them.
+    """
+
+    @wraps(function)
+    def there(*args: P.args, **kwargs: P.kwargs) -> R:
+        if not any(map(_is_elsewhere, (*args, *kwargs.values()))):
+            return function(*args, **kwargs)
+
+        def copied(given: Any) -> Any:
+            if not _is_elsewhere(given):
+                return given
+            if is_in_slabs(given.heights):
+                raise ValueError(
+                    f"{function.__name__} is for surfaces that one process holds: gather the heights first, "
+                    "rc.Surface(surface.heights.gathered(), surface.grid)"
+                )
+            return replace(given, heights=on_host(given.heights))
+
+        return function(*map(copied, args), **{name: copied(given) for name, given in kwargs.items()})
+
+    return there
+
+
+def _is_elsewhere(given: Any) -> bool:
+    """Return whether this is a surface whose heights are an array of another library than NumPy."""
+    heights = getattr(given, "heights", None)
+    return heights is not None and not is_numpy(heights)
