@@ -18,7 +18,7 @@ WRONG = [
     ("long_cutoff", {"preparation": {"long_cutoff": "some"}}),
     ("crop", {"preparation": {"crop": [20, 20, 0, 48]}}),
     ("downsample", {"preparation": {"downsample": 40}}),
-    ("unit", {"source": {"unit": "furlong"}}),
+    ("unit", {"source": {"unit": "second"}}),
     ("width", {"source": {"width": "500"}}),
     ("width", {"source": {"height": "500um"}}),
     ("second", {"bodies": {"materials": ["rigid", "rigid"]}}),
