@@ -11,6 +11,7 @@ ROUGH = rc.self_affine(
     rc.Grid((16, 24), (2e-6, 1e-6), (True, False)), 0.8, 1e-7, np.random.default_rng(3), amplitudes="gaussian"
 )
 STEPS = {"y": np.arange(4) * 2.0, "x": np.arange(6) * 0.5}
+U = pint.UnitRegistry()
 HEIGHTS = np.arange(24.0).reshape(4, 6)
 
 
@@ -58,7 +59,7 @@ def test_columns_and_rows_are_told_apart_by_the_names_of_dimensions():
 
 
 def test_quantities_of_pint_state_the_unit():
-    quantities = pint.UnitRegistry().Quantity(HEIGHTS, "nm")
+    quantities = U.Quantity(HEIGHTS, "nm")
     coordinates = {axis: (axis, places, {"units": "um"}) for axis, places in STEPS.items()}
     surface = rc.Surface.from_dataarray(xarray.DataArray(quantities, coordinates, ("y", "x")))
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-9, rtol=1e-15)
@@ -91,3 +92,30 @@ def test_what_the_array_leaves_open_may_be_given():
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-9, rtol=1e-15)
     np.testing.assert_allclose(surface.grid.lengths, (8e-6, 3e-6), rtol=1e-15)
     assert surface.grid.periodic == (True, True)
+
+
+@pytest.mark.parametrize("unit", [U.nm, 1 * U.nm, "nm", 1e-9])
+@pytest.mark.parametrize("size", [(8 * U.um, 3 * U.um), [8e-6, 3e-6] * U.m, ("8 um", "3 um"), (8e-6, 3e-6)])
+def test_units_and_sizes_may_carry_units(unit, size, tmp_path):
+    np.save(tmp_path / "bare.npy", HEIGHTS)
+    bare = xarray.DataArray(HEIGHTS, dims=("y", "x"))
+    for surface in (
+        rc.read(tmp_path / "bare.npy", unit=unit, size=size),
+        rc.Surface.from_dataarray(bare, unit=unit, size=size),
+    ):
+        np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-9, rtol=1e-15)
+        np.testing.assert_allclose(surface.grid.lengths, (8e-6, 3e-6), rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("stated", "message"),
+    [
+        ({"unit": U.s}, "unit must be in m, .*not in second"),
+        ({"unit": []}, "unit must be a text such as 'nm', or metres per unit"),
+        ({"size": 3 * U.N}, "size must be in m, .*not in newton"),
+    ],
+)
+def test_units_that_are_no_lengths_are_refused(stated, message, tmp_path):
+    np.save(tmp_path / "bare.npy", HEIGHTS)
+    with pytest.raises(ValueError, match=message):
+        rc.read(tmp_path / "bare.npy", **{"unit": "nm", "size": 1e-5} | stated)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from types import NoneType
+from typing import Any
 
 import numpy as np
 
@@ -17,8 +19,10 @@ from roughcontact.files.missing_marks import without_fills
 from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
+from roughcontact.units import in_si
+from roughcontact.validation import shown
 
-__all__ = ["Length", "Size", "assemble", "cell_of"]
+__all__ = ["Length", "Size", "assemble", "cell_of", "plain_lengths"]
 
 Length = float | str
 Size = Length | Iterable[Length]
@@ -151,6 +155,25 @@ def _spacing(
 
 def _lengths(spacing: tuple[float, ...], shape: tuple[int, ...]) -> str:
     return " x ".join(f"{step * n:.6g}" for step, n in zip(spacing, shape, strict=True))
+
+
+def plain_lengths(unit: Any, size: Any) -> tuple[Length | None, Size | None]:
+    """Return a unit of heights and a size as text or numbers of metres, whatever library of units they come from.
+
+    Raises
+    ------
+    ValueError
+        If they carry a unit that is no length.
+    """
+    if not isinstance(unit, str | int | float | NoneType):
+        try:
+            unit = in_si(1.0 * unit, "m", "unit")  # a unit, or a quantity
+        except TypeError as error:
+            raise ValueError(
+                f"unit must be a text such as 'nm', or metres per unit, not {shown(unit)}"
+            ) from error
+    size = in_si(size, "m", "size")
+    return unit, tuple(size) if isinstance(size, Iterable) and not isinstance(size, str) else size
 
 
 def cell_of(size: Size, shape: tuple[int, ...]) -> tuple[float, ...]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from functools import cache
-from typing import Any
+
+from roughcontact.units import registry
 
 __all__ = [
     "AREA",
@@ -135,22 +135,15 @@ def _factor(unit: str, kind: Kind, text: str) -> float:
         return _PREFIXES[prefix]
     expected = f"expected {kind.name} such as {kind.example}"
     # Asked for a unit that is right first: a broken pint is not the fault of the given one.
-    registry = _registry()
-    wanted = registry.parse_units(kind.unit).dimensionality
+    units = registry()
+    wanted = units.parse_units(kind.unit).dimensionality
     try:
         if _UNIT.fullmatch(unit) is None:
             raise ValueError(unit)
-        given = registry.Quantity(1.0, registry.parse_units(unit))
+        given = units.Quantity(1.0, units.parse_units(unit))
         right = given.check(wanted)
     except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
         raise ValueError(f"unknown unit {unit!r} in {text!r}; {expected}") from error
     if not right:
         raise ValueError(f"{text!r} is not {kind.name}; {expected}")
     return float(given.to(kind.unit).magnitude)
-
-
-@cache
-def _registry() -> Any:
-    import pint  # late: it takes longer to import than the rest of the command line
-
-    return pint.UnitRegistry()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 import os
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from roughcontact.files.assemble import Length, Size, assemble, cell_of
+from roughcontact.files.assemble import Length, Size, assemble, cell_of, plain_lengths
 from roughcontact.files.content import content, named
 from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
 from roughcontact.files.file_errors import SurfaceWarning
@@ -180,10 +180,9 @@ def _read(
     periodic: bool | tuple[bool, ...] | None,
     slabs: Slabs | None = None,
 ) -> Surface:
+    unit, size = plain_lengths(unit, size)
     if unit is not None:
         length_factor(unit)  # a wrong keyword is refused before the file is touched
-    if isinstance(size, Iterable) and not isinstance(size, str):
-        size = tuple(size)
     if size is not None:
         # Where the file decides between a map and a line, one length or two may be right.
         axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)

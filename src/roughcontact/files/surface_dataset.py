@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.files.assemble import Length, Size, assemble
+from roughcontact.files.assemble import Length, Size, assemble, plain_lengths
 from roughcontact.files.content import named
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.netcdf import StoredVariable, height_map_of
@@ -51,6 +51,7 @@ def surface_of(
         raise ValueError(
             f"an xarray.DataArray is wanted, not a {type(array).__name__}: give Surface(heights, grid)"
         )
+    unit, size = plain_lengths(unit, size)
     variables = {"heights": _stored(array)}
     variables |= {str(axis): _stored(array.coords[axis]) for axis in array.dims if axis in array.coords}
     with named(f"DataArray {str(array.name or 'heights')!r}") as label:
