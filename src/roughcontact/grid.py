@@ -64,7 +64,7 @@ class Grid:
             raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise ValueError(f"spacing must be positive and finite [m], not {steps}")
+            raise ValueError(f"spacing must be positive, finite numbers [m], not {steps}")
         # Of a line the spacing may be the area of cells of which it is a list.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
@@ -74,9 +74,10 @@ class Grid:
             )
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
-        object.__setattr__(
-            self, "periodic", tuple(bool(b) for b in _per_axis(periodic, len(sizes), "periodic"))
-        )
+        repeats = _per_axis(periodic, len(sizes), "periodic")
+        if any(b not in (True, False) for b in repeats):
+            raise ValueError(f"periodic must hold True or False, not {repeats}")
+        object.__setattr__(self, "periodic", tuple(bool(b) for b in repeats))
 
     @property
     def lengths(self) -> tuple[float, ...]:

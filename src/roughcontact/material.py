@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.validation import moderate, require_numbers, scalar
+from roughcontact.validation import moderate, require_numbers, scalar, shown
 
 __all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
 
@@ -125,7 +125,9 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
         value = reduced_modulus(modulus)
     elif isinstance(modulus, tuple):
         if len(modulus) != 2:
-            raise ValueError(f"two solids have a reduced modulus, not {len(modulus)}")
+            raise ValueError(
+                f"two solids have a reduced modulus, not {len(modulus)}: give one Solid, or a pair"
+            )
         value = reduced_modulus(*modulus)
     else:
         value = scalar(modulus, "reduced modulus")
@@ -147,7 +149,7 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     if isinstance(bodies, tuple) and len(bodies) == 2:
         return bodies
     raise ValueError(
-        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {bodies!r}"
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {shown(bodies)}"
     )
 
 

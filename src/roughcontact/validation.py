@@ -59,7 +59,7 @@ BODIES = {
     "Curve": "a Curve, as rc.loading_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
-    "Body": "a Surface or a RadialProfile",
+    "Body": "a Surface, such as rc.Surface(heights, grid), or a RadialProfile",
 }
 KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one
 

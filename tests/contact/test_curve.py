@@ -186,7 +186,7 @@ def test_dimensionless_numbers_do_not_depend_on_scale():
         ({"forces": []}, "at least one"),
         ({"forces": [1.0, 1.0]}, "increase strictly"),
         ({"forces": [1.0, 0.5]}, "0.5 follows 1"),
-        ({"forces": [1.0, np.nan]}, "increase strictly"),
+        ({"forces": [1.0, np.nan]}, "must be finite"),
         ({"forces": [-1.0, 1.0]}, "force must be positive"),
         ({"forces": [[1.0, 2.0]]}, "one row"),
         ({"depths": [-1.0]}, "first touch"),

@@ -130,7 +130,9 @@ def _read(path: Path) -> xarray.Dataset:
     except FileNotFoundError as error:
         raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
     except (OSError, ValueError) as error:
-        raise UsageError(f"{path} is not a curve.nc that the command curve wrote") from error
+        raise UsageError(
+            f"{path} is not a curve.nc; write one with: roughcontact curve ... --out DIR"
+        ) from error
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:

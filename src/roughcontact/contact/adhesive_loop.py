@@ -74,7 +74,8 @@ def adhesive_loop(
     >>> f"pull-off {loop.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R"
     'pull-off 1.63 pi w R'
     """
-    require(isinstance(adhesion, Adhesion), f"an Adhesion is wanted, not {shown(adhesion)}")
+    wanted = f"an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not {shown(adhesion)}"
+    require(isinstance(adhesion, Adhesion), wanted)
     depths = loop_depths(adhesion, depth, points)
     path = loading_path(
         surface, modulus, depths=depths, operator=operator, tolerance=tolerance, adhesion=adhesion

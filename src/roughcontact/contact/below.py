@@ -202,7 +202,8 @@ def half_space_grid(solution: Solution) -> Grid:
     grid = problem.grid
     if problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
         raise ValueError(
-            f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}"
+            "fields below the surface are those of a surface of two axes, not of a "
+            f"{problem.geometry.value}: press a map of heights"
         )
     row = sum(grid.periodic) == 1
     own = solution.displacement
@@ -231,7 +232,7 @@ def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, in
     """
     box = bounding_box(pressure != 0)
     if box is None:
-        raise ValueError("nothing is in contact: there is no stress below it")
+        raise ValueError("nothing is in contact: there is no stress below it; press harder")
     sides = [
         slice(0, n) if periodic else slice(max(0, s.start - (s.stop - s.start)), min(n, 2 * s.stop - s.start))
         for s, n, periodic in zip(box, grid.shape, grid.periodic, strict=True)

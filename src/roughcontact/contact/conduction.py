@@ -231,7 +231,8 @@ def _require_conducting(geometry: Geometry, hidden: bool, of: str) -> None:
     """Refuse a curve that does not say what its contact conducts: of a line, or without the stiffness of all cells."""
     if geometry is Geometry.LINE:
         raise ValueError(
-            "a line contact has no conductance of its own: it depends on how far away the bodies end"
+            "a line contact has no conductance of its own: it depends on how far away the bodies end; press a map of "
+            "heights"
         )
     if geometry is Geometry.FOUNDATION and of == "interface":
         raise ValueError("a Winkler foundation has a total conductance only: take of='total'")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -95,7 +95,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     >>> budget["interfacial_stiffness"].relative_error < 0.1
     True
     """
-    patches = (pressed,) if isinstance(pressed, Solution) else tuple(pressed)
+    patches = tuple(pressed) if isinstance(pressed, Iterable) else (pressed,)
     _check(patches)
     first = patches[0].problem
     surfaces = [each.problem.surface for each in patches if isinstance(each.problem.surface, Surface)]

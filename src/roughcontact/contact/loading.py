@@ -24,7 +24,7 @@ from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Solver
-from roughcontact.validation import Array, exactly_one, number, numeric
+from roughcontact.validation import Array, exactly_one, number, numeric, require
 
 if TYPE_CHECKING:
     from roughcontact.adhesion.adhesive_state import AdhesiveState
@@ -294,6 +294,7 @@ def _controls(
         raise ValueError(
             f"the list of {name}s must hold at least one number in one row, not shape {values.shape}"
         )
+    require(np.isfinite(values), f"the {name}s must be finite", values)
     if rising and not (np.diff(values) > 0).all():
         at = int(np.argmin(np.diff(values) > 0))
         raise ValueError(

@@ -13,7 +13,7 @@ from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, shown
 
 __all__ = ["memory_needed"]
 
@@ -67,7 +67,7 @@ def memory_needed(
     """
     grid = surface if isinstance(surface, Grid) else getattr(surface, "grid", None)
     if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError(f"a map or its grid of two axes is wanted, not {surface!r}")
+        raise ValueError(f"a map or its grid of two axes is wanted, not {shown(surface)}")
     heights: Any = getattr(surface, "heights", None)
     if isinstance(heights, SlabArray):
         return share_peak(heights.local.size, curve=curve)

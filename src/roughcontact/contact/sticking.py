@@ -42,10 +42,11 @@ def sticking_states(
     ValueError
         If not one of depths, forces and mean gaps is given, or something among `others` is.
     """
-    require(isinstance(adhesion, Adhesion), f"an Adhesion is wanted, not {shown(adhesion)}")
+    wanted = f"an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not {shown(adhesion)}"
+    require(isinstance(adhesion, Adhesion), wanted)
     given = [name for name, value in others.items() if value is not None]
     if given:
-        raise ValueError(f"a contact that sticks takes no {' or '.join(given)}: give depths or forces")
+        raise ValueError(f"a contact that sticks takes no {' or '.join(given)}: give depths or forces alone")
     name, values = exactly_one(**dict(zip(("depths", "forces", "mean_gaps"), loads, strict=True)))
     words = name.replace("_", " ")
     goals = np.atleast_1d(number(values, f"the list of {words}"))

@@ -73,7 +73,8 @@ def assemble(
     try:
         surface = Surface(heights, grid)
     except ValueError as error:
-        raise ContentError(str(error), "check that it is the right file and channel") from error
+        problem, _, remedy = str(error).partition("; ")
+        raise ContentError(problem, remedy or "pass unit= with the right unit") from error
     doubts = (*contradictions, *found.doubts)
     if looked_at:
         doubts += doubts_about(surface.heights, grid.spacing)

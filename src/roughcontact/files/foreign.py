@@ -150,13 +150,13 @@ def _accept(format_name: str, kind: str) -> None:
     if format_name in _TEXTS:
         raise ContentError(
             "its extension hides its format: it is a text of numbers",
-            f"rename it to .txt if it is a matrix or a profile, to .xyz if it is a list of points; {_REMEDY}",
+            f"rename it to .txt if it is a matrix or a profile, to .xyz if it is a list of points; or {_EXPORT}",
         )
     suffix = _OURS.get(format_name) or unmarked.get(format_name)
     if suffix is not None and not (format_name in unmarked and kind == suffix):
         raise ContentError(
             f"its extension hides its format: it can only be taken for {suffix}",
-            f"rename it to {suffix} if that is what it is; {_REMEDY}",
+            f"rename it to {suffix} if that is what it is; or {_EXPORT}",
         )
 
 

@@ -181,7 +181,7 @@ def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
         remedy = (
             "pass channel= with the name of one of them" if heights else "give a file with a map of heights"
         )
-        raise ContentError(f"{problem}: {describe(channels)}", remedy)
+        raise ContentError(f"{problem}: {describe(channels) or 'it has none'}", remedy)
     if isinstance(wanted, int):
         if 0 <= wanted < len(channels):
             return wanted

@@ -143,7 +143,7 @@ def make_problem(
     kind = pressed.problem.geometry
     if kind is not Geometry.SURFACE:
         raise ValueError(
-            f"partial slip is that of a surface of two axes; this contact is that of a {kind.value}"
+            f"partial slip is that of a surface of two axes, not of a {kind.value}: press a map of heights"
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
         raise ValueError("the bodies do not touch: nothing to pull at; press them first")

@@ -50,12 +50,8 @@ class FileSource:
                 with at_field("width"):
                     raise ValueError("the length of the map is given and its width is not: give both")
             return None
-        with at_field("width"):
-            width = parse_with_unit(self.width, LENGTH)
-        if self.height is None:
-            return width
-        with at_field("height"):
-            return parse_with_unit(self.height, LENGTH), width
+        width = _side(self.width, "width")
+        return width if self.height is None else (_side(self.height, "height"), width)
 
     @property
     def heights_in(self) -> str | float | None:
@@ -196,9 +192,21 @@ def as_recipe(plain: Any) -> PageRecipe:
     try:
         return _adapter().validate_python(plain)
     except ValidationError as error:
-        first = error.errors()[0]
+        wrong = error.errors()
+        # Of a source that is a file or made, the errors of the other kind say nothing.
+        others = {each["loc"][:-1] for each in wrong if each["loc"][-1] == "kind"}
+        first = next((each for each in wrong if each["loc"][:2] not in others), wrong[0])
         place = ".".join(str(part) for part in first["loc"])
-        raise ValueError(f"the page asked for what there is not: {place}: {first['msg']}") from error
+        raise ValueError(f"the request is wrong at {place}: {first['msg']}") from error
+
+
+def _side(text: str, field: str) -> float:
+    """Return a side length [m] that the user wrote in a field."""
+    with at_field(field):
+        length = parse_with_unit(text, LENGTH)
+        if length <= 0:
+            raise ValueError(f"{text!r} is not positive: write a length above zero, such as 500um")
+        return length
 
 
 @cache

@@ -199,7 +199,8 @@ def hardness_of(bodies: Bodies) -> float | None:
     if bodies.hardness is None:
         return None
     if bodies.hardness[:1].isalpha():
-        return rc.handbook(bodies.hardness).hardness
+        with at_field("hardness"):
+            return rc.handbook(bodies.hardness).hardness
     return _stiff(bodies.hardness, "hardness")
 
 
@@ -268,8 +269,10 @@ def _made(source: MadeSource) -> Surface:
 
     import roughcontact as rc
 
-    if not 2 <= source.points <= _MOST_POINTS:
-        raise ValueError(f"a surface has 2 to {_MOST_POINTS} points a side here, not {source.points}")
+    if not 3 <= source.points <= _MOST_POINTS:  # of two a side no wave is free
+        raise ValueError(f"a surface has 3 to {_MOST_POINTS} points a side here, not {source.points}")
+    if source.seed < 0:
+        raise ValueError(f"the seed must be a whole number from 0 up, not {source.seed}")
     grid = rc.Grid(
         (source.points, source.points), parse(source.size, LENGTH) / source.points, periodic=source.periodic
     )

@@ -98,10 +98,14 @@ def _number(value: Any) -> float:
 
 def _by_steps(start: float, stop: float, step: float) -> tuple[float, ...]:
     if step == 0 or (stop - start) / step < 0:
-        raise ValueError(f"steps of {step:g} do not lead from {start:g} to {stop:g}")
+        raise ValueError(
+            f"steps of {step:g} do not lead from {start:g} to {stop:g}: give a step towards the stop"
+        )
     steps = (stop - start) / step
     if steps >= _MOST:
-        raise ValueError(f"{steps:.3g} steps of {step:g} are too many")
+        raise ValueError(
+            f"{steps:.3g} steps of {step:g} are too many: give a step above {abs(stop - start) / _MOST:g}"
+        )
     count = math.floor(steps + _HIT) + 1
     return _rounded(start + step * np.arange(count))
 

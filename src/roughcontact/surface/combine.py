@@ -183,7 +183,9 @@ def _turned(upper: Surface, about: str | None) -> Surface:
 
 def _comparable(source: Grid, target: Grid) -> None:
     if source.ndim != target.ndim:
-        raise ValueError(f"the number of axes must be the same, not {source.ndim} and {target.ndim}")
+        raise ValueError(
+            f"the number of axes must be the same, not {source.ndim} and {target.ndim}: give two maps or two lines"
+        )
     if source.periodic != target.periodic:
         raise ValueError(
             f"one grid is periodic where the other is not ({source.periodic} and {target.periodic}): "
@@ -192,7 +194,7 @@ def _comparable(source: Grid, target: Grid) -> None:
     for mine, theirs, periodic in zip(source.lengths, target.lengths, source.periodic, strict=True):
         if periodic and abs(mine - theirs) > _SAME * theirs:
             raise ValueError(
-                f"periods must be equal, not {mine} m and {theirs} m: crop the surfaces or free them"
+                f"periods must be equal, not {mine:g} m and {theirs:g} m: free both (Grid(shape, spacing))"
             )
 
 

@@ -69,7 +69,7 @@ def filtered(
     if short_cutoff is None and long_cutoff is None:
         raise ValueError("give short_cutoff, long_cutoff or both [m]")
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
-        raise ValueError(f"short_cutoff {short_cutoff} m must be below long_cutoff {long_cutoff} m")
+        raise ValueError(f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m")
     grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
@@ -164,5 +164,5 @@ def require_cells(cutoff: float, surface: Surface) -> None:
     least = (2 if exact else _CELLS) * max(grid.spacing)
     if cutoff < least * (1 - 1e-9):
         raise ValueError(
-            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:g} m"
+            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:.10g} m"
         )

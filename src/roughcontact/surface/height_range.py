@@ -43,7 +43,10 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
         own = np.array(given, dtype=np.float64)
         own.flags.writeable = False
     if tuple(own.shape) != shape:
-        raise ValueError(f"heights of shape {tuple(own.shape)} do not fit the grid of shape {shape}")
+        raise ValueError(
+            f"heights of shape {tuple(own.shape)} do not fit the grid of shape {shape}: give "
+            "Grid(heights.shape, spacing)"
+        )
     _check_range(own)
     return own  # type: ignore[no-any-return]
 
@@ -69,7 +72,7 @@ def _check_range(heights: Array) -> None:
     xp = namespace(heights)
     lowest, highest = height_range(heights)
     if math.isnan(highest) or lowest > highest:
-        raise ValueError("all heights are NaN: the surface holds no measured point")
+        raise ValueError("all heights are NaN: the surface holds no measured point; give at least one height")
     if math.isinf(highest) or math.isinf(lowest):
         count = int(xp.count_nonzero(xp.isinf(heights)))
         raise ValueError(f"{count} heights are infinite; mark points without a measurement by NaN")

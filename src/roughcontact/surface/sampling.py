@@ -164,9 +164,12 @@ def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
         raise ValueError(f"factor must be one whole number from 1 up, or {grid.ndim}, not {factor}")
     for k, n, repeats in zip(factors, grid.shape, grid.periodic, strict=True):
         if 2 * k > n:
-            raise ValueError(f"a factor of {k} leaves less than two of {n} cells")
+            raise ValueError(f"a factor of {k:g} leaves less than two of {n} cells: give at most {n // 2}")
         if repeats and n % k:
-            raise ValueError(f"a factor of {k} does not divide {n} cells of a periodic axis")
+            raise ValueError(
+                f"a factor of {k:g} does not divide {n} cells of a periodic axis: give a divisor of {n}, or crop the "
+                f"surface, which frees it"
+            )
     return tuple(int(k) for k in factors)
 
 

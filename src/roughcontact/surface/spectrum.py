@@ -222,7 +222,9 @@ class StretchedSpectrum:
         if not math.isfinite(self.angle):
             raise ValueError(f"the angle of an anisotropy must be finite [rad], not {self.angle}")
         if getattr(self.spectrum, "dimension", 2) != 2:
-            raise ValueError("a line has no direction: stretch the spectrum of a surface, dimension=2")
+            raise ValueError(
+                "a line has no direction: leave out the anisotropy, or make a surface (dimension=2)"
+            )
 
     @numeric(qy="rad/m", qx="rad/m")
     def at(self, qy: Array, qx: Array) -> Array:

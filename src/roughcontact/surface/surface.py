@@ -25,7 +25,7 @@ from roughcontact.surface.spikes import despiked
 from roughcontact.surface.tip import scanned
 from roughcontact.surface.windows import tapered
 from roughcontact.units import in_si
-from roughcontact.validation import Array, require
+from roughcontact.validation import Array, require, shown
 
 __all__ = ["Surface"]
 
@@ -71,6 +71,8 @@ class Surface:
     __array_ufunc__: ClassVar[None] = None
 
     def __post_init__(self) -> None:
+        wanted = f"grid must be a Grid, such as Grid(heights.shape, 1e-6), not {shown(self.grid)}"
+        require(isinstance(self.grid, Grid), wanted)
         object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 

@@ -153,7 +153,10 @@ def wave_powers(
 
 def no_wave() -> ValueError:
     """Return the error of a spectrum that leaves a grid without a wave."""
-    return ValueError("no wave of this grid lies inside the limits of the spectrum: widen them or the grid")
+    return ValueError(
+        "no wave of this grid lies inside the limits of the spectrum: widen the limits, or take a grid "
+        "with waves between them"
+    )
 
 
 def wave_amplitudes(

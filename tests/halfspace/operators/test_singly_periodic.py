@@ -330,7 +330,11 @@ def test_a_rough_strip():
         (rc.Grid(8, 1.0, True), None, "two axes that is periodic along one"),
         (rc.Grid((8, 8), 1.0), None, "periodic along one"),
         (rc.Grid((8, 8), 1.0, True), None, "periodic along one"),
-        (rc.Grid((8, 6), 1.0, (False, True)), 8.5, "at least the longest distance on the grid, 8.544 m"),
+        (
+            rc.Grid((8, 6), 1.0, (False, True)),
+            8.5,
+            "at least the longest distance on the grid, 8.544003745 m",
+        ),
         (rc.Grid((8, 6), 1.0, (False, True)), np.inf, "finite"),
         (rc.RadialGrid.uniform(4, 1.0), None, "two axes"),
     ],

@@ -13,7 +13,7 @@ from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.material import Solid, as_modulus
-from roughcontact.validation import numeric
+from roughcontact.validation import numeric, shown
 
 __all__ = ["body_on", "half_space", "ring", "singly_periodic"]
 
@@ -133,7 +133,7 @@ def singly_periodic(
     reference = longest if reference_length is None else float(reference_length)
     if not (math.isfinite(reference) and reference >= longest * (1 - 1e-9)):
         raise ValueError(
-            f"the reference length must be finite and at least the longest distance on the grid, {longest:g} m, not "
+            f"the reference length must be finite and at least the longest distance on the grid, {longest:.10g} m, not "
             f"{reference:g}: with a shorter one a load would lift cells far away"
         )
     return InfluenceOperator(grid, Tables(SinglyPeriodicLove(grid, value, reference), grid.shape))
@@ -192,12 +192,14 @@ def body_on(
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
     # Not `isinstance`, which from Python 3.12 on misses members that `__getattr__` finds.
     if not all(hasattr(operator, name) for name in ("grid", "weights", "apply", "as_matrix", "restrict")):
-        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
+        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {shown(operator)}")
     if operator.grid != grid:
-        raise ValueError(f"the operator's grid {operator.grid} is not the surface's {grid}")
+        raise ValueError(
+            f"the operator's grid {operator.grid} is not the surface's {grid}: make the operator on that of the surface"
+        )
     own, value = capabilities(operator).modulus, as_modulus(modulus)
     if own is not None and not math.isclose(own, value, rel_tol=1e-9):
         raise ValueError(
-            f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: make both one"
+            f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: give both the same"
         )
     return operator

@@ -151,14 +151,16 @@ def line(
     plane = _plane(grid)
     if all(grid.periodic):
         if reference_length is not None:
-            raise ValueError("a periodic line has no reference length: its mean displacement is zero")
+            raise ValueError(
+                "a periodic line has no reference length: its mean displacement is zero; leave it out"
+            )
         kernel: Periodic | Strip = Periodic(plane, value)
     else:
         length = grid.lengths[0]
         reference = length if reference_length is None else float(reference_length)
         if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
             raise ValueError(
-                f"the reference length must be finite and at least that of the grid, {length:g} m, not "
+                f"the reference length must be finite and at least that of the grid, {length:.10g} m, not "
                 f"{reference:g}: with a shorter one a load would lift the far end"
             )
         kernel = Strip(plane.spacing, value, reference)

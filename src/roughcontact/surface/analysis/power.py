@@ -128,9 +128,10 @@ class PowerSpectrum:
         high = self.q_max if q_max is None else q_max
         keep = (self.wavenumber >= low * (1 - 1e-9)) & (self.wavenumber <= high * (1 + 1e-9))
         if not keep.any():
+            least, most = self.wavenumber[0], self.wavenumber[-1]
             raise ValueError(
-                f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has "
-                f"{self.wavenumber[0]:g} to {self.wavenumber[-1]:g} rad/m"
+                f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has {least:g} to {most:g} rad/m, waves "
+                f"from {2 * np.pi / least:.3g} down to {2 * np.pi / most:.3g} m"
             )
         return replace(self.selected(keep), q_min=low, q_max=high)
 

@@ -1,0 +1,350 @@
+"""What is refused of adhesion, friction and answers: the message is followed, and the numbers are there."""
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from followed import LINE, MODULUS, PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, row
+
+STEEL = rc.Solid(205e9, 0.29)
+PAIR = (STEEL, STEEL)
+FINE = heights(rc.Grid((64, 64), 1e-6))
+FAR = rc.Adhesion(1e-3, 1e-7)
+SHARP = rc.Adhesion(1e-3, law="sharp")
+FULL = PERIODIC.heights.max() - PERIODIC.heights.mean()
+RISING, HIGH = np.geomspace(1e-5, 1e-3, 6), np.geomspace(1, 10, 5)
+
+
+def stuck(surface=ROUGH, adhesion=FAR, **named):
+    return rc.press(surface, MODULUS, adhesion=adhesion, **named)
+
+
+def path(surface=ROUGH, adhesion=FAR, **named):
+    return list(rc.loading_path(surface, MODULUS, adhesion=adhesion, **named))
+
+
+def pressed(force=1e-4, **named):
+    return rc.press(ROUGH, PAIR, **({"force": force} | named))
+
+
+def slid(solution=None, bodies=PAIR, *, friction=0.3, **named):
+    return rc.slide(solution or pressed(), bodies, friction=friction, **named)
+
+
+def line(**named):
+    return rc.press(PROFILE, STEEL, force=1e2, operator=rc.line(LINE, STEEL), **named)
+
+
+def curve(surface=FINE, **named):
+    return rc.loading_curve(surface, MODULUS, **named)
+
+
+def springs():
+    return curve(PROFILE, forces=[1.0, 2.0], operator=rc.foundation(LINE, MODULUS))
+
+
+ADHESION = [
+    row(
+        lambda: rc.Adhesion(0.05, -1.0),
+        "range of the attraction [m] must be positive",
+        lambda: rc.Adhesion(0.05, 1e-9),
+    ),
+    row(
+        lambda: rc.Adhesion(0.0, 1e-9), "leave the adhesion out", lambda: rc.press(ROUGH, MODULUS, force=1e-4)
+    ),
+    row(
+        lambda: rc.Adhesion(0.05, 2e-9, law="lennard-jones"),
+        "must be one of 'exponential', 'dugdale', 'sharp'",
+        lambda: rc.Adhesion(0.05, 2e-9, law="exponential"),
+        lambda: rc.Adhesion(0.05, 2e-9, law="dugdale"),
+        lambda: rc.Adhesion(0.05, law="sharp"),
+    ),
+    row(
+        lambda: rc.Adhesion(0.05, 2e-9, law="sharp"),
+        "the sharp law has no range: leave out 2e-09",
+        lambda: rc.Adhesion(0.05, law="sharp"),
+    ),
+    row(
+        lambda: stuck(adhesion=0.05, force=1e-6),
+        "an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not 0.05",
+        lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-6),
+    ),
+    row(
+        lambda: stuck(pressure=1.0),
+        "a contact that sticks takes no pressure: give depths or forces alone",
+        lambda: stuck(depth=1e-9),
+        lambda: stuck(force=1e-9),
+    ),
+    row(
+        lambda: stuck(force=1e-9, hardness=1e9),
+        "a contact that sticks takes no hardness: give depths or forces alone",
+        lambda: stuck(force=1e-9),
+    ),
+    row(
+        lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9), force=1e-9),
+        "cells of at most 1.69e-08 m or a range of at least 1.54e-08 m, or give the adhesion allow_unresolved=True",
+        lambda: stuck(heights(rc.Grid((16, 16), 1.69e-8)), rc.Adhesion(0.05, 2e-9), force=1e-9),
+        lambda: stuck(adhesion=rc.Adhesion(0.05, 1.54e-8), force=1e-9),
+        lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-9),
+    ),
+    row(
+        lambda: stuck(mean_gap=1e-9),
+        "here the body is not periodic: give depths or forces",
+        lambda: stuck(depth=1e-9),
+        lambda: stuck(force=1e-9),
+    ),
+    row(
+        lambda: stuck(PERIODIC, mean_gap=-1e-9),
+        "is full contact or beyond it: give mean gaps above 0",
+        lambda: stuck(PERIODIC, mean_gap=0.9 * FULL),
+    ),
+    row(
+        lambda: stuck(PERIODIC, depth=2 * FULL),
+        "there a periodic surface is in full contact; give a smaller depth",
+        lambda: stuck(PERIODIC, depth=0.1 * FULL),
+    ),
+    row(
+        lambda: stuck(),
+        "give exactly one of depths, forces and mean_gaps, not none",
+        lambda: stuck(force=1e-9),
+    ),
+    row(
+        lambda: stuck(adhesion=SHARP, depth=1e-8),
+        "give at least two falling depths or forces (loading_path), the first, above zero,",
+        lambda: path(adhesion=SHARP, depths=[1e-8, 5e-9]),
+        lambda: path(adhesion=SHARP, forces=[1e-6, 5e-7]),
+        lambda: stuck(adhesion=rc.Adhesion(1e-3, 1e-7, law="exponential"), depth=1e-8),
+        lambda: stuck(adhesion=rc.Adhesion(1e-3, 1e-7, law="dugdale"), depth=1e-8),
+    ),
+    row(
+        lambda: path(forces=[-1e-9, 1e-9]),
+        "begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)",
+        lambda: path(forces=[0.0, -1e-9]),
+        lambda: rc.adhesive_loop(ROUGH, MODULUS, FAR, depth=1e-9),
+    ),
+    row(
+        lambda: path(depths=[np.nan]),
+        "the list of depths must hold finite numbers in one row",
+        lambda: path(depths=[1e-9]),
+    ),
+    row(
+        lambda: rc.adhesive_loop(ROUGH, MODULUS, FAR, depth=-1.0),
+        "the depth must be above -1e-06 m, ten ranges of the attraction apart",
+        lambda: rc.adhesive_loop(ROUGH, MODULUS, FAR, depth=-9e-7),
+    ),
+    row(
+        lambda: stuck(PROFILE, depth=1e-9, operator=rc.foundation(LINE, MODULUS)),
+        "take a half-space, a line or rings",
+        lambda: stuck(ROUGH, depth=1e-9),
+        lambda: stuck(PROFILE, depth=1e-9, operator=rc.line(LINE, MODULUS)),
+        lambda: stuck(rc.RadialProfile(np.zeros(4), rc.RadialGrid.uniform(4, 1e-6)), depth=1e-9),
+    ),
+]
+
+FRICTION = [
+    row(
+        lambda: slid(bodies=1e11, force=1e-6),
+        "a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear",
+        lambda: slid(bodies=PAIR, force=1e-6),
+        lambda: slid(rc.press(ROUGH, STEEL, force=1e-4), STEEL, force=1e-6),
+    ),
+    row(
+        lambda: slid(bodies=(STEEL, rc.Solid(70e9, 0.33)), force=1e-6),
+        "press and pull the same",
+        lambda: slid(bodies=PAIR, force=1e-6),
+    ),
+    row(
+        lambda: slid(force=1e-6, friction=-1.0),
+        "must be positive and finite, not -1.0",
+        lambda: slid(force=1e-6),
+    ),
+    row(
+        lambda: slid(),
+        "give exactly one of force and displacement",
+        lambda: slid(force=1e-6),
+        lambda: slid(displacement=1e-12),
+    ),
+    row(
+        lambda: slid(force=1.0),
+        "friction holds at most mu P = 3e-05 N, and 1 N makes the bodies slide away: pull less, or press harder",
+        lambda: slid(force=2.9e-5),
+        lambda: slid(pressed(10.0), force=1.0),
+    ),
+    row(
+        lambda: slid(force=(1e-6, 1e-6, 1e-6)),
+        "a tangential load is one finite number, or two (x, y)",
+        lambda: slid(force=1e-6),
+        lambda: slid(force=(1e-6, 1e-6)),
+    ),
+    row(
+        lambda: slid(force=(1e-6, 1e-6), along=(1, 0)),
+        "does not: leave out `along`",
+        lambda: slid(force=(1e-6, 1e-6)),
+    ),
+    row(
+        lambda: slid(pressed(None, depth=0.0), force=1e-6),
+        "the bodies do not touch: nothing to pull at; press them first",
+        lambda: slid(pressed(), force=1e-6),
+    ),
+    row(
+        lambda: slid(line(), STEEL, force=1e-6),
+        "not of a line: press a map of heights",
+        lambda: slid(force=1e-6),
+    ),
+    row(
+        lambda: rc.slide_path(pressed(), PAIR, friction=0.3, forces=[]),
+        "a path needs at least one load, in a row",
+        lambda: rc.slide_path(pressed(), PAIR, friction=0.3, forces=[1e-6]),
+    ),
+    row(
+        lambda: rc.load_cycle(1.0, steps=0),
+        "whole numbers, steps >= 1 and cycles >= 0",
+        lambda: rc.load_cycle(1.0, steps=1, cycles=0),
+    ),
+    row(
+        lambda: rc.reduced_shear_modulus(MODULUS),
+        "a Solid is wanted (young_modulus, poisson_ratio)",
+        lambda: rc.reduced_shear_modulus(STEEL),
+    ),
+]
+
+ANSWERS = [
+    row(
+        lambda: curve(forces=HIGH).fit(),
+        "take the forces that load_range finds for the surface, a finer grid, or a window of forces of your own",
+        lambda: curve(forces=rc.load_range(FINE, MODULUS).forces).fit(),
+        lambda: curve(forces=HIGH).fit((1.0, 10.0)),
+    ),
+    row(
+        lambda: curve(ROUGH).fit(),
+        "resolved points in the range of forces that is fitted, not 0: take",
+        lambda: curve(FINE).fit(),
+    ),
+    row(
+        lambda: curve(forces=RISING).fit((1.0, 0.1)),
+        "a window goes from a force to a larger one",
+        lambda: curve(forces=RISING).fit((1e-5, 1e-3)),
+    ),
+    row(
+        lambda: curve(forces=RISING).compare("gw"),
+        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0]",
+        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "gw")[0]),
+    ),
+    row(
+        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, 2 * MODULUS, "gw")[0]),
+        "make it by loading_laws from the surface that was pressed, or compare with other_surface=True",
+        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "gw")[0]),
+        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, 2 * MODULUS, "gw")[0], other_surface=True),
+    ),
+    row(
+        lambda: curve(forces=RISING).plot(quantity="weight"),
+        "quantity must be one of stiffness, contact_area, depth",
+        *(
+            lambda name=name: curve(forces=RISING).plot(quantity=name)
+            for name in ("stiffness", "contact_area", "depth")
+        ),
+    ),
+    row(
+        lambda: rc.conductance(curve(forces=RISING)),
+        "give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies",
+        lambda: rc.conductance(curve(forces=RISING), resistivities=(1.7e-8, 1.7e-8)),
+        lambda: rc.conductance(curve(forces=RISING), conductivities=(50.0, 50.0)),
+    ),
+    row(
+        lambda: rc.conductance(curve(forces=RISING), resistivities=1.7e-8),
+        "give the numbers of both bodies, such as (1.7e-8, 1.7e-8)",
+        lambda: rc.conductance(curve(forces=RISING), resistivities=(1.7e-8, 1.7e-8)),
+    ),
+    row(
+        lambda: rc.conductance(ROUGH, resistivities=(1e-8, 1e-8)),
+        "a Curve or a Solution conducts, not Surface: press the surface first",
+        lambda: rc.conductance(rc.press(ROUGH, MODULUS, force=1e-4), resistivities=(1e-8, 1e-8)),
+    ),
+    row(
+        lambda: rc.conductance(line(), resistivities=(1e-8, 1e-8)),
+        "how far away the bodies end; press a map of heights",
+        lambda: rc.conductance(rc.press(ROUGH, MODULUS, force=1e-4), resistivities=(1e-8, 1e-8)),
+    ),
+    row(
+        lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8)),
+        "a Winkler foundation has a total conductance only: take of='total'",
+        lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8), of="total"),
+    ),
+    row(
+        lambda: rc.interface_table(curve(ROUGH)),
+        "the curve has 0: take the forces that load_range finds for the surface, a finer grid",
+        lambda: rc.interface_table(curve(FINE)),
+    ),
+    row(
+        lambda: rc.interface_table(curve(PROFILE, forces=[1.0, 2.0], operator=rc.line(LINE, MODULUS))),
+        "not a line: press a map of heights",
+        lambda: rc.interface_table(curve(FINE)),
+    ),
+    row(
+        lambda: rc.error_budget(curve(forces=RISING)),
+        "give the Solution that press returned, or several of one size and load",
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, force=1e-4)),
+        lambda: rc.error_budget([rc.press(heights(seed=k), MODULUS, force=1e-4) for k in (1, 2)]),
+    ),
+    row(
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, force=1e-4), short_cutoff=1.0),
+        "give the shortest wave that the instrument records, or take a larger map",
+        lambda: rc.error_budget(rc.press(FINE, MODULUS, force=1e-4), short_cutoff=5e-6),
+    ),
+    row(
+        lambda: rc.below(line(), [1e-6], STEEL),
+        "not of a line: press a map of heights",
+        lambda: rc.below(pressed(), [1e-6], STEEL),
+    ),
+    row(
+        lambda: rc.below(pressed(), [-1e-6], STEEL),
+        "counts from the surface into the body: at least 0 and finite",
+        lambda: rc.below(pressed(), [0.0], STEEL),
+    ),
+    row(
+        lambda: rc.largest_von_mises(pressed(None, depth=0.0), STEEL),
+        "there is no stress below it; press harder",
+        lambda: rc.largest_von_mises(pressed(), STEEL),
+    ),
+    row(
+        lambda: rc.displacement_below(pressed(), [1e-6], MODULUS),
+        "displacements need an elastic Solid(young_modulus, poisson_ratio)",
+        lambda: rc.displacement_below(pressed(), [1e-6], STEEL),
+    ),
+    row(
+        lambda: rc.prescribed_displacement(
+            np.zeros((16, 16), bool), 1e-9, operator=rc.half_space(PLANE, MODULUS)
+        ),
+        "the region holds no cell: nothing can be displaced",
+        lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=rc.half_space(PLANE, MODULUS)),
+    ),
+    row(
+        lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=MODULUS),
+        "an operator is wanted, such as half_space(grid, modulus)",
+        lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=rc.half_space(PLANE, MODULUS)),
+    ),
+    row(
+        lambda: rc.prescribed_displacement(
+            np.ones((16, 16), bool), 1e-9, operator=rc.half_space(PERIODIC.grid, MODULUS)
+        ),
+        "no pressure moves their mean; leave a cell free",
+        lambda: rc.prescribed_displacement(
+            np.arange(256).reshape(16, 16) > 0, 1e-9, operator=rc.half_space(PERIODIC.grid, MODULUS)
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize("refusal", ADHESION)
+def test_surfaces_that_stick(refusal):
+    follow(refusal)
+
+
+@pytest.mark.parametrize("refusal", FRICTION)
+def test_surfaces_that_slide(refusal):
+    follow(refusal)
+
+
+@pytest.mark.parametrize("refusal", ANSWERS)
+def test_answers(refusal):
+    follow(refusal)

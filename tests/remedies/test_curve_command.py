@@ -1,0 +1,213 @@
+"""What `curve`, `conductance` and a resumed curve refuse is computed when their message is followed."""
+
+import pytest
+
+from followed import commands, follow_command
+
+CURVE = "curve rough.npz --modulus 1GPa"
+TWO = f"{CURVE} --forces 1mN,2mN"
+FAR = f"{CURVE} --work 1mJ/m^2 --range 100nm"
+LINE = "curve profile.txt --unit m --modulus 1GPa --profile line --forces 1N/m,2N/m"
+SPRINGS = "curve profile.txt --unit m --modulus 1GPa --profile winkler --forces 1mN,2mN"
+
+LOADS = f"""
+$ {CURVE} --forces ''
+! no load given; write 1mN:1N:100 or a comma list
+> {CURVE} --forces 1mN:1N:100
+> {CURVE} --forces 1mN,2mN
+
+$ {CURVE} --forces 1mN:2mN
+! '1mN:2mN' is no range; write from:to:count, such as 1mN:1N:100
+> {CURVE} --forces 1mN:2mN:3
+> {CURVE} --forces 1mN:1N:100
+
+$ {CURVE} --forces 2mN:1mN:3
+! a range is log-spaced and must rise from a positive load
+> {CURVE} --forces 1mN:2mN:3
+
+$ {CURVE} --forces 1mN:2mN:1
+! a range holds from 2 to 100000 loads, not 1
+> {CURVE} --forces 1mN:2mN:2
+
+$ {CURVE} --forces 2mN,1mN
+! the loads must increase from one to the next
+> {CURVE} --forces 1mN,2mN
+
+$ {CURVE} --forces 0N,1mN
+! every load must be positive, not 0 N
+> {CURVE} --forces 1uN,1mN
+
+$ {CURVE} --forces 1mN,2mN --depths 1nm,2nm
+! --forces and --depths exclude each other: give one of them
+> {CURVE} --forces 1mN,2mN
+> {CURVE} --depths 1nm,2nm
+
+$ {CURVE} --periodic --depths 1nm,1um
+! give a smaller depth, or a force
+> {CURVE} --periodic --depths 1nm,100nm
+> {CURVE} --periodic --forces 1mN
+
+$ curve profile.txt --unit m --modulus 1GPa --depths 1nm
+! --profile line, as a line contact, or --profile winkler, on the springs
+> curve profile.txt --unit m --modulus 1GPa --depths 1nm --profile line
+> curve profile.txt --unit m --modulus 1GPa --depths 1nm --profile winkler
+
+$ {SPRINGS} --hardness 1GPa
+! leave it out, or take line
+> {SPRINGS}
+> {LINE} --hardness 1GPa
+"""
+
+ADHESION = f"""
+$ {CURVE} --pressures 1kPa,2kPa --work 1mJ/m^2 --range 100nm
+! --pressures does not go with --work: give --forces, pressures times area, or --depths
+> {FAR} --forces 1.5uN,3uN
+> {FAR} --depths 1nm,2nm
+
+$ {TWO} --points 10
+! leave it out, or give --work
+> {TWO}
+> {FAR} --loop --depths 20nm --points 10
+
+$ {FAR} --forces 1uN,2uN --points 10
+! without it name all --depths, --forces or --mean-gaps
+> {FAR} --depths 1nm,2nm
+> {FAR} --forces 1uN,2uN
+> {FAR} --mean-gaps 100nm,99nm --periodic
+
+$ {FAR} --loop --forces 1uN,2uN
+! give one, such as --depths 20nm; or leave out --loop, and name all --depths, --forces or --mean-gaps
+> {FAR} --loop --depths 20nm
+> {FAR} --forces 1uN,2uN
+
+$ {FAR} --loop --depths 20nm --points 1
+! an approach has from 2 to 10000 depths, not 1
+> {FAR} --loop --depths 20nm --points 2
+
+$ {FAR} --depths 1nm:2nm
+! write from:to:count, such as -20nm:20nm:41
+> {FAR} --depths 1nm:2nm:3
+> {FAR} --depths -20nm:20nm:41
+
+$ {FAR} --forces -1nN,1nN
+! cannot begin under the tension -1e-09: begin with 0 or more, and let the tension follow ('roughcontact curve')
+> {FAR} --forces 0N,-1nN
+
+$ {FAR} --mean-gaps 100nm
+! here the body is not periodic: give depths or forces
+> {FAR} --depths 1nm
+> {FAR} --forces 1uN
+
+$ {FAR} --mean-gaps=-1nm,1nm --periodic
+! give mean gaps above 0
+> {FAR} --mean-gaps=2nm,1nm --periodic
+"""
+
+FLOW = f"""
+$ {TWO} --loop
+! --loop is about what flows: give a --hardness, or both bodies by --materials
+> {TWO} --loop --hardness 1GPa
+> curve rough.npz --forces 1mN,2mN --loop --materials steel,aluminium
+
+$ {CURVE} --depths 1nm,2nm --loop --hardness 1GPa
+! --loop goes by forces or pressures: the depth is what is found
+> {TWO} --loop --hardness 1GPa
+> {CURVE} --pressures 1MPa,2MPa --loop --hardness 1GPa
+"""
+
+BESIDE = f"""
+$ {TWO} --theory gravity
+! there is no 'gravity'; there are persson, finite-size, gw
+> {TWO} --theory persson
+> {TWO} --theory finite-size
+> {TWO} --theory gw
+
+$ {TWO} --theory gw,gw
+! name each theory once, such as persson,gw
+> {TWO} --theory persson,gw
+
+$ {TWO} --theory hertz
+! give the radius of curvature by --radius, such as --radius 5mm
+> {TWO} --theory hertz --radius 5mm
+
+$ {TWO} --theory ceb
+! give the hardness by --hardness, such as --hardness 2GPa or aluminium
+> {TWO} --theory ceb --hardness 2GPa
+> {TWO} --theory ceb --hardness aluminium
+
+$ {TWO} --hurst 0.8
+! --hurst is for theories: name them, such as --theory persson,gw
+> {TWO} --hurst 0.8 --theory persson,gw
+
+$ {TWO} --theory power-law --hurst 8
+! the Hurst exponent lies between -1 and 3
+> {TWO} --theory power-law --hurst 0.8
+
+$ {TWO} --table abaqus
+! --table writes files: say where by --out
+> {TWO} --table abaqus --out new
+
+$ {TWO} --table ansys --out new
+! there is no 'ansys': choose of csv, abaqus, abaqus-mm, lammps
+> {TWO} --table csv --out new
+> {TWO} --table abaqus --out new
+> {TWO} --table abaqus-mm --out new
+> {TWO} --table lammps --out new
+
+$ {TWO} --table csv,csv --out new
+! name each table once, such as abaqus,csv
+> {TWO} --table abaqus,csv --out new
+
+$ {TWO} --table csv --table-area 1mm^2 --out new
+! --table-area is for --table lammps: the other tables are per area
+> {TWO} --table lammps --table-area 1mm^2 --out new
+
+$ {TWO} --resistivity 1nohm*m,2nohm*m,3nohm*m
+! give one value for both bodies or two, such as 17nohm*m,17nohm*m, or names of materials, such as steel,aluminium
+> {TWO} --resistivity 1nohm*m
+> {TWO} --resistivity 17nohm*m,17nohm*m
+> {TWO} --resistivity steel,aluminium
+
+$ {TWO} --resistivity -1nohm*m
+! a resistivity must not be negative
+> {TWO} --resistivity 1nohm*m
+
+$ {TWO} --unit-stiffness lbf --out new
+! 'lbf' is no unit of a stiffness per area; give one such as N/um/mm^2
+> {TWO} --unit-stiffness N/um/mm^2 --out new
+
+$ {LINE} --resistivity 17nohm*m
+! it depends on how far away the bodies end; leave them out
+> {LINE}
+
+$ {SPRINGS} --resistivity 17nohm*m
+! a Winkler foundation has a total conductance only: give --of total
+> {SPRINGS} --resistivity 17nohm*m --of total
+
+$ {SPRINGS} --unit-stiffness N/um/mm^2
+! on springs loads and stiffness are per length; leave them out
+> {SPRINGS}
+
+$ {TWO} --out taken
+! taken is a file; choose another name
+> {TWO} --out other
+
+$ conductance new/curve.nc --resistivity 17nohm*m
+! no such file; write one with: roughcontact curve ... --out DIR
+> {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
+
+$ conductance rough.npz --resistivity 17nohm*m
+! is not a curve.nc; write one with: roughcontact curve ... --out DIR
+> {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
+
+$ conductance rough.npz
+! give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m
+> {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
+> conductance new/curve.nc --conductivity 50W/(m*K)
+> conductance new/curve.nc --resistivity 17nohm*m --conductivity 50W/(m*K)
+"""
+
+
+@pytest.mark.parametrize("refusal", commands(LOADS, ADHESION, FLOW, BESIDE))
+def test_curve(command, refusal):
+    follow_command(command, refusal)

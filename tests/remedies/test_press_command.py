@@ -1,0 +1,317 @@
+"""What the command `press` refuses is pressed when its message is followed."""
+
+import pytest
+
+from followed import commands, follow_command
+
+PRESS = "press rough.npz --modulus 1GPa"
+FORCE = "press rough.npz --force 1mN"
+BARE = "press bare.npy --force 1mN --modulus 1GPa"
+PROFILE = "press profile.txt --unit m --modulus 1GPa --force 1N/m"
+STICKS = f"{PRESS} --work 1mJ/m^2"
+FAR = f"{STICKS} --range 100nm"
+FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
+
+LOADS = f"""
+$ {PRESS}
+! give one load (--force or --pressure or --depth)
+> {PRESS} --force 1mN
+> {PRESS} --pressure 1MPa
+> {PRESS} --depth 10nm
+
+$ {PRESS} --force 1mN --depth 1nm
+! --force and --depth exclude each other: give one of them
+> {PRESS} --force 1mN
+> {PRESS} --depth 1nm
+
+$ {PRESS} --force 0N
+! --force: the force must be positive, not '0N'
+> {PRESS} --force 1uN
+
+$ {PRESS} --force 0,5N
+! write the decimal point as '.'; expected a force such as 10N
+> {PRESS} --force 0.5N
+> {PRESS} --force 10N
+
+$ {PRESS} --force 1kg
+! '1kg' is not a force; expected a force such as 10N
+> {PRESS} --force 10N
+
+$ {PRESS} --force much
+! 'much' does not start with a number; expected a force such as 10N
+> {PRESS} --force 10N
+
+$ {PRESS} --force 1newt
+! unknown unit 'newt' in '1newt'; expected a force such as 10N
+> {PRESS} --force 10N
+
+$ {PRESS} --force 1e300N
+! check its exponent and unit; expected a force such as 10N
+> {PRESS} --force 10N
+
+$ {PRESS} --depth -1um
+! the depth counts from first touch: give 0 or more
+> {PRESS} --depth 0um
+
+$ {PRESS} --periodic --depth 1um
+! give a smaller depth, or a force
+> {PRESS} --periodic --depth 100nm
+> {PRESS} --periodic --force 1mN
+
+$ {PRESS} --force 1mN --tolerance 1
+! the tolerance must lie between 1e-14 and 1e-2
+> {PRESS} --force 1mN --tolerance 1e-3
+
+$ {PRESS} --force 1mN --hardness 1kPa
+! gives 1.536e-06; press by less, or give a greater hardness
+> {PRESS} --force 1.5uN --hardness 1kPa
+> {FLOWS}
+"""
+
+BODIES = f"""
+$ {FORCE}
+! such as --modulus 110GPa or --materials steel,aluminium (--modulus or --materials or --young)
+> {FORCE} --modulus 110GPa
+> {FORCE} --materials steel,aluminium
+> {FORCE} --young 210GPa --poisson 0.3
+
+$ {FORCE} --modulus 0GPa
+! --modulus: the reduced modulus must be positive
+> {FORCE} --modulus 1GPa
+
+$ {FORCE} --modulus 110
+! write 110GPa if gigapascals are meant, or 110Pa if it is so
+> {FORCE} --modulus 110GPa
+> {FORCE} --modulus 110Pa
+
+$ {FORCE} --modulus 1N
+! '1N' is not a pressure; expected a pressure such as 1MPa
+> {FORCE} --modulus 1MPa
+
+$ {FORCE} --modulus 1GPa --poisson 0.3
+! --modulus is about the pair: leave out --poisson, --young2, --poisson2
+> {FORCE} --modulus 1GPa
+
+$ {FORCE} --modulus 1GPa --young 1GPa
+! --modulus and --young exclude each other
+> {FORCE} --modulus 1GPa
+> {FORCE} --young 1GPa --poisson 0.3
+
+$ {FORCE} --young 1GPa
+! --young and --poisson belong together: --poisson is missing
+> {FORCE} --young 1GPa --poisson 0.3
+
+$ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
+! belong together: --poisson2 is missing
+> {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
+
+$ {FORCE} --young 1GPa --poisson 0.7
+! lies above -1 and at most at 0.5
+> {FORCE} --young 1GPa --poisson 0.5
+
+$ {FORCE} --young 1GPa --poisson third
+! 'third' is not a number; expected a number such as 0.3
+> {FORCE} --young 1GPa --poisson 0.3
+
+$ {FORCE} --materials steel
+! such as steel,aluminium or steel,steel or steel,rigid
+> {FORCE} --materials steel,aluminium
+> {FORCE} --materials steel,steel
+> {FORCE} --materials steel,rigid
+
+$ {FORCE} --materials rigid,rigid
+! one of the two bodies must be elastic, such as steel,rigid
+> {FORCE} --materials steel,rigid
+
+$ {FORCE} --materials steel,oak
+! tungsten: for another give its numbers
+> {FORCE} --materials steel,tungsten
+> {FORCE} --young 205GPa --poisson 0.29 --young2 11GPa --poisson2 0.4
+
+$ {FORCE} --materials steel,210GPa
+! for a number of yours take --young or --modulus
+> {FORCE} --young 210GPa --poisson 0.3
+> {FORCE} --modulus 210GPa
+
+$ {PRESS} --force 1mN --hardness 2
+! write 2GPa if gigapascals are meant
+> {PRESS} --force 1mN --hardness 2GPa
+
+$ {PRESS} --force 1mN --hardness butter
+! there are steel, stainless-steel, aluminium
+> {PRESS} --force 1mN --hardness steel
+> {PRESS} --force 1mN --hardness 3MPa
+"""
+
+READING = f"""
+$ press rouhg.npz --modulus 1GPa --force 1mN
+! rouhg.npz: it cannot be opened (No such file or directory); check the path
+> {PRESS} --force 1mN
+
+$ press . --force 1mN --modulus 1GPa
+! it is a folder; name a file in it
+> {PRESS} --force 1mN
+
+$ {BARE}
+! pass --unit with the unit of the heights, such as --unit 'um' and --size with the width or height x width,
+! such as --size '500 um' or --size '4e-4 x 5e-4'
+> {BARE} --unit 'um' --size '500 um'
+> {BARE} --unit 'um' --size '4e-4 x 5e-4'
+
+$ {BARE} --unit nm
+! it states no size; pass --size with
+> {BARE} --unit nm --size '500 um'
+
+$ {BARE} --unit parsec2 --size 1mm
+! use km, m, cm, mm, um, nm, angstrom or pm, or a number of metres
+> {BARE} --unit nm --size 1mm
+> {BARE} --unit 1e-9 --size 1mm
+
+$ {BARE} --unit nm --size '1mm x 2'
+! write '1 x 2mm' or '1mm x 2mm'
+> {BARE} --unit nm --size '1 x 2mm'
+> {BARE} --unit nm --size '1mm x 2mm'
+
+$ {BARE} --unit nm --size 1x2x3mm
+! holds 3 lengths; write '1mm' or '1mm x 2mm'
+> {BARE} --unit nm --size '1mm'
+> {BARE} --unit nm --size '1mm x 2mm'
+
+$ {BARE} --unit nm --size 0mm
+! --size: a side length must be positive
+> {BARE} --unit nm --size 1mm
+
+$ {PRESS} --force 1mN --channel colour
+! only 'heights' (24 x 32, no unit); pass --channel with one of these names
+> {PRESS} --force 1mN --channel heights
+
+$ {PRESS} --force 1mN --level plan
+! 'plan' is not one of 'plane', 'mean', 'none'
+> {PRESS} --force 1mN --level plane
+> {PRESS} --force 1mN --level mean
+> {PRESS} --force 1mN --level none
+
+$ press profile.txt --unit m --modulus 1GPa --depth 10nm
+! --profile line, as a line contact, or --profile winkler, on the springs
+> press profile.txt --unit m --modulus 1GPa --depth 10nm --profile line
+> press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
+
+$ press profile.txt --unit m --modulus 1GPa --force 1N --profile line
+! expected a force per length such as 10N/mm
+> press profile.txt --unit m --modulus 1GPa --force 10N/mm --profile line
+
+$ {PRESS} --force 1N/m --profile line
+! holds a map of 24 x 32 heights: leave out --profile
+> {PRESS} --force 1N
+
+$ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --hardness 1GPa
+! leave it out, or take line
+> press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
+> press profile.txt --unit m --modulus 1GPa --depth 10nm --profile line --hardness 1GPa
+
+$ {PROFILE} --profile line --errors
+! --errors are those of a map of heights, not of a profile: leave it out
+> {PROFILE} --profile line
+"""
+
+ADHESION = f"""
+$ {PRESS} --pressure 1kPa --work 1mJ/m^2 --range 100nm
+! give --force, pressure times area, or --depth
+> {FAR} --force 1.5uN
+> {FAR} --depth 1nm
+
+$ {STICKS} --force 1uN
+! such as --range 2nm
+> {FAR} --force 1uN
+
+$ {PRESS} --force 1mN --range 100nm
+! give the work of adhesion, such as --work 50mJ/m^2
+> {PRESS} --force 1mN --range 100nm --work 50mJ/m^2
+
+$ {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm
+! take cells of at most 1.69e-08 m or a range of at least 2.18e-08 m, or give --allow-unresolved
+> {PRESS} --force 1nN --work 50mJ/m^2 --range 2nm --size '405.6nm x 540.8nm'
+> {PRESS} --force 1uN --work 50mJ/m^2 --range 2.18e-08m
+> {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm --allow-unresolved
+
+$ {STICKS} --force 1mN --law sharp --range 2nm
+! the sharp law has no range: leave out --range
+> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --depths 20nm,10nm
+
+$ {STICKS} --force 1mN --law sharp
+! give at least two falling depths or forces ('roughcontact curve'), the first, above zero,
+> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --depths 20nm,10nm
+> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --forces 2uN,1uN
+> {FAR} --force 1uN --law exponential
+> {FAR} --force 1uN --law dugdale
+
+$ {FAR} --force -1nN
+! give 'curve --forces 0N,-1nN'
+> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --forces 0N,-1nN
+
+$ {FAR} --force 1uN --hardness 1GPa
+! leave it out, or leave out --work
+> {FAR} --force 1uN
+> {PRESS} --force 1uN --hardness 1GPa
+"""
+
+FLOW = f"""
+$ {PRESS} --force 1mN --after 2mN
+! --after is about what flows: give a --hardness, or both bodies by --materials
+> {FLOWS} --after 2mN
+> {FORCE} --materials steel,aluminium --after 2mN
+
+$ {FLOWS} --after 0.5mN
+! leave it out, or exchange the two
+> {FLOWS}
+> {PRESS} --force 0.5mN --hardness 1GPa --after 1mN
+
+$ {FLOWS} --after 2mN --errors
+! leave it out with --after
+> {FLOWS} --after 2mN
+
+$ {PRESS} --force 1mN --flow raised
+! --flow is about what flows: give a --hardness
+> {FLOWS} --flow raised
+
+$ {FLOWS} --flow raised --errors
+! leave it out with --flow raised
+> {FLOWS} --flow raised
+
+$ {PRESS} --flow raised --depth 10nm --hardness 1GPa
+! where the surface rises as it flows: give forces or pressures
+> {FLOWS} --flow raised
+> {PRESS} --pressure 1MPa --hardness 1GPa --flow raised
+"""
+
+WRITING = f"""
+$ {PRESS} --force 1mN --format svg
+! --format is that of pictures: say where by --out
+> {PRESS} --force 1mN --format svg --out new
+
+$ {PRESS} --force 1mN --theory persson
+! --theory draws a picture: say where by --out
+> {PRESS} --force 1mN --theory persson --out new
+
+$ {PROFILE} --profile line --theory persson --out new
+! not of a profile: leave it out
+> {PROFILE} --profile line --out new
+
+$ {PRESS} --force 1mN --out taken
+! taken is a file; choose another name
+> {PRESS} --force 1mN --out other
+
+$ {PRESS} --force 1mN --out taken/inside
+! taken is a file; choose another name
+> {PRESS} --force 1mN --out other/inside
+
+$ {PRESS} --force 1mN --short-cutoff 10um
+! belongs to --errors; to filter a map take 'surface prepare'
+> {PRESS} --force 1mN --short-cutoff 10um --errors
+> surface prepare rough.npz smooth.npz --short-cutoff 10um
+"""
+
+
+@pytest.mark.parametrize("refusal", commands(LOADS, BODIES, READING, ADHESION, FLOW, WRITING))
+def test_press(command, refusal):
+    follow_command(command, refusal)

@@ -1,0 +1,152 @@
+"""What `surface` refuses is made, prepared or measured when its message is followed."""
+
+import pytest
+
+from followed import commands, follow_command
+
+MAKE = "surface make new.npz --rms 1um --size 1mm --hurst 0.8 --points 32"
+BARE = "surface make new.npz --rms 1um --size 1mm"
+PREPARE = "surface prepare rough.npz new.npz"
+
+MADE = f"""
+$ {BARE} --hurst 8 --points 32
+! hurst must lie between -1 and 3, not 8.0
+> {BARE} --hurst 0.8 --points 32
+
+$ {BARE} --hurst 0.8 --points 6.4
+! write 512 or 512x256 (rows x columns)
+> {BARE} --hurst 0.8 --points 512
+> {BARE} --hurst 0.8 --points 512x256
+
+$ {MAKE} --seed x
+! 'x' is no seed; write a whole number such as 1
+> {MAKE} --seed 1
+
+$ {MAKE} --rms-band 1mm
+! write the longest and the shortest wave, 1mm:10um
+> {MAKE.replace("32", "512")} --rms-band 1mm:10um
+
+$ {MAKE} --rms-band 100um:1mm
+! must begin with the longest
+> {MAKE} --rms-band 1mm:100um
+
+$ surface make new.docx --hurst 0.8 --rms 1um --size 1mm --points 32
+! a Surface is written as one of .npz, .nc, .x3p, .txt, .npy, .vti
+> surface make new.npz --hurst 0.8 --rms 1um --size 1mm --points 32
+> surface make new.nc --hurst 0.8 --rms 1um --size 1mm --points 32
+> surface make new.x3p --hurst 0.8 --rms 1um --size 1mm --points 32
+> surface make new.txt --hurst 0.8 --rms 1um --size 1mm --points 32
+> surface make new.npy --hurst 0.8 --rms 1um --size 1mm --points 32
+> surface make new.vti --hurst 0.8 --rms 1um --size 1mm --points 32
+"""
+
+PREPARED = f"""
+$ surface prepare rough.npz rough.npz --level plane
+! rough.npz is the measured file itself: name another file to write
+> surface prepare rough.npz new.npz --level plane
+
+$ {PREPARE} --crop 0:5
+! write rows,columns such as 0:512,100:612
+> {PREPARE} --crop 0:5,0:8
+
+$ {PREPARE} --crop a:b
+! write rows,columns such as 0:512,100:612, or 0:512 of a profile
+> {PREPARE} --crop 0:5,0:8
+> surface prepare profile.txt new.npz --unit m --crop 0:32
+
+$ {PREPARE} --mask round
+! write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um
+> {PREPARE} --mask box=0:99,10:50
+> {PREPARE} --mask ellipse=0:99,10:50
+> {PREPARE} --mask above=3um
+> {PREPARE} --mask below=-3um
+
+$ {PREPARE} --form cone
+! write a degree from 0 to 12, sphere or cylinder
+> {PREPARE} --form 0
+> {PREPARE} --form 12
+> {PREPARE} --form sphere
+> {PREPARE} --form cylinder
+
+$ {PREPARE} --tip 2
+! a radius of 2 m is no tip; write it with its unit, such as 2um
+> {PREPARE} --tip 2um
+
+$ {PREPARE} --tip-shape sphere
+! --tip-shape belongs to --tip: give its radius as well
+> {PREPARE} --tip-shape sphere --tip 2um
+
+$ {PREPARE} --short-cutoff 10
+! leaves nothing of a map of 48 µm; give its unit, such as 10um
+> {PREPARE} --short-cutoff 10um
+
+$ {PREPARE} --short-cutoff 1nm
+! too short for cells of 2e-06 m: give at least 8e-06 m
+> {PREPARE} --short-cutoff 8e-06m
+
+$ {PREPARE} --short-cutoff 20um --long-cutoff 10um
+! short_cutoff 2e-05 m must be below long_cutoff 1e-05 m
+> {PREPARE} --short-cutoff 10um --long-cutoff 20um
+
+$ {PREPARE} --average 0
+! K must be a whole number from 1 up
+> {PREPARE} --average 1
+
+$ {PREPARE} --downsample 20
+! a factor of 20 leaves less than two of 24 cells: give at most 12
+> {PREPARE} --downsample 12
+
+$ {PREPARE} --alias
+! --alias belongs to --downsample: give its K as well
+> {PREPARE} --alias --downsample 2
+
+$ {PREPARE} --share 0.5
+! --share belongs to --window tukey
+> {PREPARE} --share 0.5 --window tukey
+
+$ {PREPARE} --window tukey --share 2
+! lies between 0 and 1, not at 2
+> {PREPARE} --window tukey --share 1
+"""
+
+MEASURED = """
+$ surface info missing.npz
+! check the path and the permissions
+> surface info rough.npz
+
+$ surface info bare.npy
+! pass --unit with the unit of the heights, such as --unit 'um' and --size
+> surface info bare.npy --unit 'um' --size '500 um'
+
+$ surface info profile.txt
+! it states no unit of its heights; pass --unit with the unit of the heights, such as --unit 'um'
+> surface info profile.txt --unit 'um'
+
+$ surface spectrum holed.npz
+! add --fill, or crop them away by 'roughcontact surface prepare'
+> surface spectrum holed.npz --fill
+> surface prepare holed.npz new.npz --crop 4:16,0:16 && surface spectrum new.npz
+
+$ surface spectrum rough.npz --shortest 1mm --longest 1um
+! --longest 1um must be longer than --shortest 1mm
+> surface spectrum rough.npz --shortest 1um --longest 1mm
+
+$ surface spectrum rough.npz --shortest 1nm --longest 2nm
+! the spectrum has 130900 to 1.55573e+06 rad/m, waves from 4.8e-05 down to 4.04e-06 m
+> surface spectrum rough.npz --longest 4.8e-05m --shortest 4.04e-06m
+
+$ thesis fig1
+! choose one of fig4, fig5
+> thesis list
+> thesis fig4
+
+$ thesis fig4 --scale huge
+! write small or thesis
+> thesis fig4 --scale small
+> thesis fig4 --scale thesis
+"""
+
+
+@pytest.mark.parametrize("refusal", commands(MADE, PREPARED, MEASURED))
+def test_surface(command, refusal):
+    follow_command(command, refusal)
