@@ -40,7 +40,7 @@ def in_si(value: Any, unit: str | None, what: str) -> Any:
     if type(value) in PLAIN:
         return value
     if isinstance(value, list | tuple):
-        return _parts_in_si(value, unit, what)
+        return value if PLAIN.issuperset(map(type, value)) else _parts_in_si(value, unit, what)
     carried = _unit_of(value)
     if carried is not None:
         return _converted(value, carried, unit, what)

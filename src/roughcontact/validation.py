@@ -95,6 +95,8 @@ def scalar(value: Any, what: str) -> float:
     ValueError
         If it is not one number: an array, a text, a material, nothing. The command line reads units, this does not.
     """
+    if type(value) is float:
+        return value
     x = _floats(value, what, "one number")
     require(np.ndim(x) == 0, f"{what} must be one number in SI units, not an array of shape {np.shape(x)}")
     return float(x)
@@ -263,6 +265,7 @@ def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, 
     if unknown:
         raise TypeError(f"{function.__qualname__} has no parameter {', '.join(sorted(unknown))}")
     kinds = {name: str(parameter.annotation) for name, parameter in parameters.items()}
+    bodies = {name: kind for name, kind in kinds.items() if kind in BODIES}
     wanted = {
         name: kind for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) in ARRAYS | NUMBERS | WHOLE
     }
@@ -272,7 +275,7 @@ def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, 
         given = dict(zip(names, args, strict=False)) | kwargs
         shapes, converted = {}, {}
         for name, value in given.items():
-            if not _is_a(kinds.get(name), value):
+            if name in bodies and not _is_a(bodies[name], value):
                 raise ValueError(f"{name} must be {BODIES[kinds[name]]}, not {shown(value)}")
             if type(value) not in PLAIN and (name in units or name in wanted):
                 unit = units.get(name)
@@ -281,7 +284,8 @@ def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, 
                     value = converted[name] = plain
             if name in wanted and not (value is None and wanted[name].endswith(OPTIONAL)):
                 shapes[name] = _shape(value, name, wanted[name].removesuffix(OPTIONAL))
-        fitting(shapes)
+        if any(shapes.values()):
+            fitting(shapes)
         if converted:
             placed: Any = (converted.get(name, value) for name, value in zip(names, args, strict=False))
             named: Any = {name: converted.get(name, value) for name, value in kwargs.items()}
@@ -327,13 +331,15 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
         raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
 
 
-def _is_a(kind: str | None, value: Any) -> bool:
-    """Return whether a value is of the class, or of one of the classes, of an annotation; true of any other."""
-    return kind not in BODIES or any(one.__name__ in KINDS.get(kind, (kind,)) for one in type(value).__mro__)
+def _is_a(kind: str, value: Any) -> bool:
+    """Return whether a value is of the class, or of one of the classes, of an annotation."""
+    return any(one.__name__ in KINDS.get(kind, (kind,)) for one in type(value).__mro__)
 
 
 def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
     """Return the shape of a value, which must be numbers."""
+    if type(value) is float and kind not in WHOLE and value == value:
+        return ()
     x = number(value, name) if kind in ARRAYS else np.asarray(scalar(value, name))
     if kind in WHOLE:
         require(np.isfinite(x) and x % 1 == 0, f"{name} must be a whole number, not {value}")

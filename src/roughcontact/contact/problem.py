@@ -22,7 +22,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.units import in_si
+from roughcontact.units import PLAIN, in_si
 from roughcontact.validation import Array, Mask, scalar
 
 __all__ = [
@@ -107,7 +107,8 @@ class ContactProblem:
 
     def __post_init__(self) -> None:
         for name, unit in _UNITS.items():
-            object.__setattr__(self, name, in_si(getattr(self, name), unit, name))
+            if type(value := getattr(self, name)) not in PLAIN:
+                object.__setattr__(self, name, in_si(value, unit, name))
         if tuple(self.separation.shape) != self.grid.shape:
             raise ValueError(
                 f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
