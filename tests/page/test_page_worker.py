@@ -40,7 +40,11 @@ def test_an_order_that_is_answered_is_done():
     ("job", "recipe", "words"),
     [
         ("dig", None, "no job 'dig'"),
-        ("look", {"source": {"kind": "made"}}, "the request is wrong at source.MadeSource.hurst: Field required"),
+        (
+            "look",
+            {"source": {"kind": "made"}},
+            "the request is wrong at source.MadeSource.hurst: Field required",
+        ),
         ("look", {"source": {**MADE, "points": 10**6}}, "3 to 4096 points"),
         ("look", {"source": {"kind": "file", "file": "/etc/passwd"}}, "no such file"),
         ("press", {"source": MADE, "load": {"control": "force", "text": "much"}}, "much"),
