@@ -225,6 +225,11 @@ PREPARED = [
         lambda: PERIODIC.cropped(slice(0, 15), slice(0, 15)).averaged(3),
     ),
     row(
+        lambda: ROUGH.rotated(90),
+        "quarter turns, not degrees: give 1 for 90 degrees, not 90",
+        lambda: ROUGH.rotated(1),
+    ),
+    row(
         lambda: PROFILE.rotated(),
         "only a surface of two axes can be turned; flip a line",
         lambda: ROUGH.rotated(),

@@ -78,7 +78,7 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     surface : Surface
         On a grid of two axes.
     quarters : int
-        Number of quarter turns; negative ones turn clockwise.
+        Number of quarter turns, from -4 to 4; negative ones turn clockwise.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     Raises
     ------
     ValueError
-        If the surface is a line, or `quarters` is not a whole number.
+        If the surface is a line, or `quarters` is not a whole number from -4 to 4, such as an angle in degrees.
 
     Examples
     --------
@@ -98,6 +98,10 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     Grid(shape=(3, 1), spacing=(1e-06, 2e-06), periodic=(False, False))
     """
     require(surface.grid.ndim == 2, "only a surface of two axes can be turned; flip a line")
+    require(
+        abs(quarters) <= 4,
+        f"quarters counts quarter turns, not degrees: give 1 for 90 degrees, not {quarters}",
+    )
     grid = _exchanged(surface.grid) if quarters % 2 else surface.grid
     line = f"rotated by {90 * (quarters % 4)} degrees counter-clockwise"
     return surface.with_heights(np.rot90(surface.heights, quarters), line, grid)
