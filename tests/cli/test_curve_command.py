@@ -429,9 +429,23 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    assert "stopped: 2 of 4 loads are kept; for the others: --forces 4e-06,8e-06" in answer.stderr
+    said = (
+        "stopped: 2 of 4 loads are computed; compute the others with --forces 4e-06,8e-06, and another --out"
+    )
+    assert said in answer.stderr
+    assert said in json.loads((tmp_path / "out" / "curve.json").read_text())["notes"][-1]
     kept = rc.read_curve(tmp_path / "out" / "curve.nc")
     np.testing.assert_allclose(kept.force, [1e-6, 2e-6])
+
+
+def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, tmp_path, monkeypatch):
+    def interrupted(solution):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rc.Solution, "resolved", property(interrupted))  # after the load, before it is kept
+    answer = invoke("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN", "--out", tmp_path / "out")
+    assert answer.exit_code == 130
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, surface, tmp_path):

@@ -153,7 +153,7 @@ def test_keyence(put, header, separator, decimal, encoding):
 
 
 def test_keyence_holes_are_told(put):
-    with pytest.warns(SurfaceWarning, match="256 fields are empty, and are read as missing points"):
+    with pytest.warns(SurfaceWarning, match="fields read as missing points: 256 empty"):
         is_right(rc.read(put("a.csv", keyence(ENGLISH, values=HOLED))), HOLED)
 
 

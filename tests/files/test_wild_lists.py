@@ -245,7 +245,7 @@ def test_marks_in_profiles(put, line, stated, printed):
 
 
 def test_empty_heights_of_a_profile_are_told(put):
-    with pytest.warns(SurfaceWarning, match="59 fields are empty, and are read as missing points"):
+    with pytest.warns(SurfaceWarning, match="fields read as missing points: 59 empty"):
         is_right(read_line(put("a.txt", "x [um],z [um]\n" + profile(GAPS, hole=""))), GAPS)
 
 

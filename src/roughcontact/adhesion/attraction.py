@@ -64,6 +64,9 @@ class Adhesion:
         if self.law == "sharp":
             require(self.range == 0, f"the sharp law has no range: leave out {shown(self.range)}")
         else:
+            require(
+                self.range != 0, f"the law {shown(self.law)} needs range=, the range of the attraction [m]"
+            )
             object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
         if self.law not in get_args(Law):
             names = ", ".join(map(repr, get_args(Law)))

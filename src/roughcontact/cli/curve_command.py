@@ -215,14 +215,18 @@ def curve(
             left = loads[len(computed) :]
             if left.size:
                 rest = ",".join(f"{load:.12g}" for load in left)
-                note(
-                    f"stopped: {len(computed)} of {loads.size} loads are kept; for the others: --{name} {rest}"
+                folder_of_its_own = (
+                    "" if folder is None else ", and another --out than this one, which it replaces"
+                )
+                notes += (
+                    f"stopped: {len(computed)} of {loads.size} loads are computed; compute the others with "
+                    f"--{name} {rest}{folder_of_its_own}",
                 )
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
                 note("no errors: no load is resolved")
             if plastic.loop and loop is None:
-                note("stopped: the loop is not closed, only what was computed of first loading is kept")
+                notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
             joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if out is not None:
@@ -308,8 +312,9 @@ def _load(
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         try:
             for solution in islice(path, count):
+                resolved = solution.resolved and solution.status.converged  # which takes as long as the load
                 notes[:], turn[:] = [solution.notes], [solution]
-                if solution.resolved and solution.status.converged:
+                if resolved:
                     ends[1 if ends else 0 :] = [solution]
                 yield solution
         except KeyboardInterrupt:

@@ -31,6 +31,7 @@ def serve(
     """Open a page on this machine: drop a file, move the load, see the contact; every number also as a command."""
     with reported(file):
         try:
+            from roughcontact.files.read import channels
             from roughcontact.page.serve import serve as run
         except ImportError as error:
             if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):
@@ -40,6 +41,8 @@ def serve(
             ) from error
         if file is not None and not file.is_file():
             raise UsageError(f"{file}: there is no such file")
+        if file is not None:
+            channels(file)  # what cannot be read is refused before the page opens
         if not 0 <= port < 2**16:
             raise UsageError(f"--port: ports go from 1 to 65535, not {port}")
 

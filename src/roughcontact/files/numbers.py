@@ -98,8 +98,8 @@ class Marks:
         notes: list[str] = []
         doubts: list[str] = []
         for text, count in self.counts.items():
-            what = f"{count} fields are empty" if text == EMPTY else f"{count} fields hold {text!r}"
-            (notes if len(text) > 1 else doubts).append(f"{what}, and are read as missing points")
+            what = "empty" if text == EMPTY else f"that hold {text!r}"
+            (notes if len(text) > 1 else doubts).append(f"fields read as missing points: {count} {what}")
         return tuple(notes), tuple(doubts)
 
 
