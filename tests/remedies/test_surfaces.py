@@ -4,32 +4,21 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from followed import PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, holed, row
-
-VALUES = ROUGH.heights
-INFINITE = np.where(0.99 * VALUES.max() < VALUES, np.inf, VALUES)
-LARGE = heights(rc.Grid((65, 65), 1e-6))
-ROWS = slice(0, 4)
-ODD = heights(rc.Grid((16, 16), 1.23456789012e-6))
-NODES = rc.Grid((17, 17), 1e-6)
-
-
-def rng():
-    return np.random.default_rng(1)
-
-
-def made(grid=PLANE, hurst=0.8, rms=1e-7, **named):
-    return rc.self_affine(grid, hurst, rms, **({"rng": rng()} | named))
-
-
-def midpoints(grid=NODES, hurst=0.8, **named):
-    return rc.midpoint_surface(grid, hurst, rng(), **({"rms": 1e-7} | named))
-
-
-def each(call, *values):
-    """Return the call with each of the values that a message lists."""
-    return [lambda value=value: call(value) for value in values]
-
+from followed import (
+    INFINITE,
+    ODD,
+    PERIODIC,
+    PLANE,
+    PROFILE,
+    ROUGH,
+    ROWS,
+    VALUES,
+    each,
+    follow,
+    heights,
+    holed,
+    row,
+)
 
 HEIGHTS = [
     row(
