@@ -32,6 +32,8 @@ __all__ = [
 def namespace(array: Any) -> Any:
     """Return the functions for an array by the names of the array API standard: NumPy, CuPy, PyTorch, ..."""
     if isinstance(array, np.ndarray):
+        if type(array) is not np.ndarray and hasattr(array, "unit"):  # of astropy, which NumPy would drop
+            raise ValueError(f"a field is read as plain SI numbers, not in {array.unit}: give its numbers")
         return np
     return array_api_compat.array_namespace(array)
 
@@ -56,7 +58,8 @@ def require_numpy(field: object, method: str) -> None:
 
 def require_floating(field: Any) -> None:
     """Raise a ValueError for an array of another library than NumPy, which converts itself, of whole numbers."""
-    if is_numpy(field) or namespace(field).isdtype(field.dtype, ("real floating", "complex floating")):
+    xp = namespace(field)
+    if xp is np or xp.isdtype(field.dtype, ("real floating", "complex floating")):
         return
     raise ValueError(f"a field must hold floating numbers, not {field.dtype}: convert it to float64")
 

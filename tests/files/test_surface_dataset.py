@@ -78,7 +78,7 @@ def test_quantities_of_pint_state_the_unit():
             "coordinates along x are not even",
         ),
         (HEIGHTS, "an xarray.DataArray is wanted, not a ndarray"),
-        (array().expand_dims("time"), "3-dimensional"),
+        (array().expand_dims(time=2), "3-dimensional"),
     ],
 )
 def test_what_is_left_open_is_asked_for(given, message):

@@ -110,9 +110,9 @@ class InfluenceOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
+        require_floating(pressure)
         if not self._periodic:
             return self._sum.apply(pressure)
-        require_floating(pressure)
         # The mean apart: where it moves nothing, its rounding moves nothing either.
         xp, plane = namespace(pressure), {"axis": (-2, -1), "keepdims": True}
         mean = xp.mean(pressure, **plane)
