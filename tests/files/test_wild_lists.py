@@ -376,3 +376,22 @@ def test_two_units_in_a_word_are_asked_about(put, kind, read):
     with pytest.raises(rc.ReadError, match=r"no size that is understood \(.* mm um.*pass size="):
         read(path, unit="um")
     read(path, unit="um", size=f"{len(WAVES) / 2} um" if kind == "txt" else "18 um")
+
+
+@pytest.mark.parametrize(
+    "header", ["", "Zygo XYZ Data File - Format 1\n1 9 0 1 0 Thu\n0 0 36 32\n0 0 0 0 0\n#\n"]
+)
+def test_points_of_zygo(put, header):
+    lines = [
+        f"{x} {y} {'No Data' if np.isnan(HOLED[y, x]) else f'{HOLED[y, x]:.3f}'}\n"
+        for y in range(NY)
+        for x in range(NX)
+    ]
+    path = put("a.xyz", header + "".join(lines) + "#\n")
+    is_right(rc.read(path, unit="um", size=("16 um", "18 um")), HOLED)
+
+
+def test_words_with_commas_and_points_are_no_decimals(put):
+    path = put("a.csv", "Measured date,2020/01/06\nXY calibration,0.5,um\n1,2,3\n4,5,6\n")
+    with pytest.raises(rc.ReadError, match="column 1: 'XY' is not a number"):
+        rc.read(path, unit="um", size="18 um")

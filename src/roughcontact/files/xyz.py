@@ -16,6 +16,8 @@ from roughcontact.files.text_header import header_of
 
 __all__ = ["read_xyz"]
 
+_ZYGO = "Zygo XYZ Data File"  # its header, numbers among them, ends with a line of #
+
 
 def read_xyz(data: bytes) -> HeightMap:
     """Return the points on their grid; a place without a point is NaN, the first row has the smallest y.
@@ -23,7 +25,10 @@ def read_xyz(data: bytes) -> HeightMap:
     A header such as ``# x [um]  y [um]  z [um]`` states the units. Without it all three columns are in the unit of the
     heights, unless the places are numbered 0, 1, 2, ...: then the size is open. Its names give the order of columns.
     """
-    table = parse_table(decode(data), points=True)
+    text = decode(data)
+    if text.startswith(_ZYGO):
+        text = text.partition("\n#\n")[2]
+    table = parse_table(text, points=True)
     order, doubts = _three_columns(table)
     header = header_of(table.comments, (0, 0))
     grid = grid_of_points(table.values[:, order])
