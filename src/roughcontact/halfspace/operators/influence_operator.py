@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol, get_args
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import less, namespace, require_floating
+from roughcontact.arrays import less, namespace, require_floating, require_no_unit
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
@@ -110,9 +110,10 @@ class InfluenceOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        require_floating(pressure)
+        require_no_unit(pressure)
         if not self._periodic:
             return self._sum.apply(pressure)
+        require_floating(pressure)
         # The mean apart: where it moves nothing, its rounding moves nothing either.
         xp, plane = namespace(pressure), {"axis": (-2, -1), "keepdims": True}
         mean = xp.mean(pressure, **plane)
