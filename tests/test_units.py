@@ -116,3 +116,70 @@ def test_plain_values_pass_untouched():
         assert in_si(value, "m", "x") is value
     # Most arguments are of these types, and nothing else is asked of them.
     assert {type(value) for value in values[:7]} <= PLAIN
+
+
+MASK = np.arange(24).reshape(4, 6) == 7
+MASKED = np.ma.array(HEIGHTS, mask=MASK)
+
+
+def test_what_a_mask_covers_is_missing():
+    heights = rc.Surface(U.Quantity(MASKED, "nm"), GRID).heights
+    np.testing.assert_allclose(heights, np.where(MASK, np.nan, HEIGHTS * 1e-9), rtol=1e-15)
+    body = rc.Surface(HEIGHTS * 1e-9, GRID)
+    with pytest.raises(ValueError, match="nan"):
+        rc.loading_curve(body, 1e9, forces=np.ma.array([1e-4, 2e-4], mask=[False, True]))
+
+
+def test_what_a_mask_of_astropy_covers_is_missing():
+    units = pytest.importorskip("astropy.units")
+    masked = pytest.importorskip("astropy.utils.masked").Masked
+    for values in (masked(HEIGHTS * units.nm, mask=MASK), masked(HEIGHTS * 1e-9, mask=MASK)):
+        heights = rc.Surface(values, GRID).heights
+        np.testing.assert_allclose(heights, np.where(MASK, np.nan, HEIGHTS * 1e-9), rtol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["units", "unit", "Units", "UNIT"])
+def test_attributes_that_name_a_unit(name):
+    pandas = pytest.importorskip("pandas")
+    array, frame = xarray.DataArray(HEIGHTS, attrs={name: "nm"}), pandas.DataFrame(HEIGHTS)
+    frame.attrs[name] = "nm"
+    for values in (array, frame):
+        np.testing.assert_allclose(rc.Surface(values, GRID).heights, HEIGHTS * 1e-9, rtol=1e-15)
+
+
+@pytest.mark.parametrize("force", [np.timedelta64(1, "s"), np.datetime64("2020-01-01"), "1"])
+def test_times_and_texts_are_no_numbers(force):
+    body = rc.Surface(HEIGHTS * 1e-9, GRID)
+    with pytest.raises(ValueError, match="force must be one number in SI units"):
+        rc.press(body, 1e9, force=force)
+    with pytest.raises(ValueError, match="forces must be a number or an array of numbers"):
+        rc.loading_curve(body, 1e9, forces=[force, force])
+
+
+def test_factors_of_bodies_are_pure_numbers():
+    body = rc.Surface(HEIGHTS * 1e-9, GRID)
+    np.testing.assert_allclose((body * U.Quantity(50, "percent")).heights, HEIGHTS * 0.5e-9, rtol=1e-15)
+    with pytest.raises(ValueError, match="factor is read as plain numbers, not in meter: give 2"):
+        body * (2 * U.m)
+    profile = rc.mdr.indenter.paraboloid(1e-3)
+    with pytest.raises(ValueError, match="factor is read as plain numbers, not in meter: give 2"):
+        profile * (2 * U.m)
+
+
+def test_spectra_and_hardness_laws_are_called_with_units():
+    spectrum = rc.SelfAffineSpectrum(0.8, rolloff=1e-5)
+    assert spectrum(np.array([2.0]) / U.um) == pytest.approx(spectrum(np.array([2e6])), rel=1e-12)
+    law = rc.NixGao(1e9, 1e-6)
+    assert law(2 * U.um) == pytest.approx(law(2e-6), rel=1e-12)
+    with pytest.raises(ValueError, match="wavenumber must be in rad/m"):
+        spectrum(np.array([2.0]) * U.um)
+    with pytest.raises(ValueError, match="radius must be in m"):
+        law(2 * U.s)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_operators_take_plain_fields(periodic):
+    units = pytest.importorskip("astropy.units")
+    grid = rc.Grid((8, 8), 1e-6, periodic)
+    with pytest.raises(ValueError, match="a field is read as plain SI numbers, not in MPa"):
+        rc.half_space(grid, 1e9).apply(np.ones((8, 8)) * units.MPa)

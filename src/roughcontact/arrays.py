@@ -23,6 +23,7 @@ __all__ = [
     "on_host",
     "over",
     "require_floating",
+    "require_no_unit",
     "require_numpy",
     "times",
     "wants_gradient",
@@ -32,6 +33,7 @@ __all__ = [
 def namespace(array: Any) -> Any:
     """Return the functions for an array by the names of the array API standard: NumPy, CuPy, PyTorch, ..."""
     if isinstance(array, np.ndarray):
+        require_no_unit(array)
         return np
     return array_api_compat.array_namespace(array)
 
@@ -52,6 +54,12 @@ def require_numpy(field: object, method: str) -> None:
     """Raise a TypeError for an array of another library, whose sum by `method` would come back as one of NumPy."""
     if not isinstance(field, np.ndarray):
         raise TypeError(f"{method} is for NumPy's arrays; 'fft' is for those of {type(field)} too")
+
+
+def require_no_unit(field: Any) -> None:
+    """Raise a ValueError for an array of astropy, whose unit NumPy's functions would drop."""
+    if type(field) is not np.ndarray and isinstance(field, np.ndarray) and hasattr(field, "unit"):
+        raise ValueError(f"a field is read as plain SI numbers, not in {field.unit}: give its numbers")
 
 
 def require_floating(field: Any) -> None:

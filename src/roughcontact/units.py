@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["PLAIN", "in_si", "registry"]
+__all__ = ["PLAIN", "as_text", "in_si", "registry"]
 
 # The types of almost all arguments, which carry no unit: they pay one look into this set.
 PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float64, np.int64, slice})
@@ -44,9 +44,22 @@ def in_si(value: Any, unit: str | None, what: str) -> Any:
     carried = _unit_of(value)
     if carried is not None:
         return _converted(value, carried, unit, what)
+    if isinstance(value, np.ndarray):
+        return _unmasked(value)
     if hasattr(value, "attrs") and type(getattr(value, "data", None)) not in PLAIN:
         return in_si(value.data, unit, what)  # an array of xarray around one of pint
     return value
+
+
+def as_text(value: Any) -> Any:
+    """Return a value that carries a unit as text, ``"1 mm"``, an array as a list of texts, other values as they are."""
+    carried = None if type(value) in PLAIN else _unit_of(value)
+    if carried is None:
+        return value
+    unit = carried.decode("utf-8", "replace") if isinstance(carried, bytes) else str(carried)
+    numbers = np.asarray(_numbers_of(value), dtype=np.float64)
+    texts = [f"{number!r} {unit}" for number in numbers.reshape(-1).tolist()]
+    return texts if numbers.ndim else texts[0]
 
 
 @cache
@@ -75,7 +88,25 @@ def _unit_of(value: Any) -> Any:
         if carried is not None and not callable(carried):
             return carried
     attributes: Any = getattr(value, "attrs", None)
-    return attributes.get("units") if hasattr(attributes, "get") else None
+    if not hasattr(attributes, "items"):
+        return None
+    return next(
+        (text for name, text in attributes.items() if str(name).casefold() in ("units", "unit")), None
+    )
+
+
+def _numbers_of(value: Any) -> Any:
+    """Return a value without its unit; NaN where a mask covers it."""
+    numbers = next((getattr(value, name) for name in ("magnitude", "value") if hasattr(value, name)), value)
+    return _unmasked(numbers) if isinstance(numbers, np.ndarray) else numbers
+
+
+def _unmasked(values: Any) -> Any:
+    """Return real numbers with NaN where NumPy's or astropy's mask covers them, other values as they are."""
+    mask = getattr(values, "mask", None)
+    if mask is None or values.dtype.kind not in "fiu":
+        return values
+    return np.where(mask, np.nan, np.asarray(values, dtype=np.float64))
 
 
 def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
@@ -87,7 +118,7 @@ def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
     elif hasattr(value, "si"):
         value = value.si
         words = str(value.unit)
-    numbers = next((getattr(value, name) for name in ("magnitude", "value") if hasattr(value, name)), value)
+    numbers = _numbers_of(value)
     try:
         given = registry().Quantity(
             float(numbers) if np.ndim(numbers) == 0 else np.asarray(numbers), "" if words == "1" else words

@@ -350,9 +350,10 @@ def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
 def _floats(value: Any, what: str, wanted: str) -> Array:
     """Return `value` as float64, or say that `what` must be what is `wanted`."""
     value = in_si(value, None, what)
-    given = np.asarray(value) if value is None or isinstance(value, str | bytes) else value
     try:
-        if isinstance(given, np.ndarray) and given.dtype.kind not in "biuf":
+        given = np.asarray(value)
+        # Text and times would become numbers, and so would None.
+        if value is None or given.dtype.kind not in "biufO":
             raise TypeError(f"numbers of kind {given.dtype}")
         plain: Array = np.asarray(given, dtype=np.float64)[()]
     except (TypeError, ValueError, OverflowError) as error:

@@ -256,3 +256,20 @@ def test_coordinates_without_a_unit_are_told_or_asked_about(tmp_path):
     ).to_netcdf(tmp_path / "b.nc", engine="scipy")
     with pytest.raises(rc.ReadError, match="it states no size; pass size="):
         rc.read(tmp_path / "b.nc")
+
+
+def test_a_map_at_one_time(tmp_path):
+    path = marked(tmp_path / "a.nc", HEIGHTS)
+    with xarray.open_dataset(path, engine="scipy") as whole:
+        whole.rename(heights="topography").expand_dims("time").to_netcdf(tmp_path / "b.nc", engine="scipy")
+        whole.expand_dims(time=2).to_netcdf(tmp_path / "c.nc", engine="scipy")
+    np.testing.assert_allclose(rc.read(tmp_path / "b.nc").heights, HEIGHTS * 1e-6, rtol=1e-12)
+    with pytest.raises(rc.ReadError, match="2 x 3 x 4"):
+        rc.read(tmp_path / "c.nc")
+
+
+def test_depths_are_turned_and_told(tmp_path):
+    with pytest.warns(SurfaceWarning, match="its values count downwards: they are read with the other sign"):
+        surface = rc.read(marked(tmp_path / "a.nc", HEIGHTS, positive="down"))
+    np.testing.assert_allclose(surface.heights, -HEIGHTS * 1e-6, rtol=1e-12)
+    assert rc.read(marked(tmp_path / "b.nc", HEIGHTS, positive="up")).heights.max() > 0

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.numpy_files import read_npy_header
 from roughcontact.files.read import channels
 
@@ -217,3 +218,21 @@ def test_samples_without_number_take_no_memory():
     text = "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000, 1000000), }\n"
     data = b"\x93NUMPY\1\0" + len(text).to_bytes(2, "little") + text.encode()
     assert read_npy_header(io.BytesIO(data)).points == 10**18
+
+
+def test_a_mask_beside_numbers_is_told(tmp_path):
+    heights = np.random.default_rng(2).random((6, 8))
+    mask = np.zeros(heights.shape, dtype=bool)
+    mask[2, 3:5] = True
+    np.savez(tmp_path / "a.npz", data=np.where(mask, 9.0, heights), mask=mask)
+    with pytest.warns(SurfaceWarning, match="its key 'mask' marks 2 points, which are read as missing"):
+        surface = rc.read(tmp_path / "a.npz", unit="um", size="8 um")
+    np.testing.assert_array_equal(np.isnan(surface.heights), mask)
+
+
+def test_a_profile_in_two_arrays_leads_to_its_channel(tmp_path):
+    np.savez(tmp_path / "a.npz", x=np.arange(20.0), z=np.sin(np.arange(20.0)))
+    with pytest.raises(rc.ReadError, match="pass channel= with the name of the heights"):
+        rc.read_line(tmp_path / "a.npz", unit="um", size="10 um")
+    line = rc.read_line(tmp_path / "a.npz", unit="um", size="10 um", channel="z")
+    assert line.grid.spacing == pytest.approx((5e-7,), rel=1e-12)

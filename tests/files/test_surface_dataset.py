@@ -78,7 +78,7 @@ def test_quantities_of_pint_state_the_unit():
             "coordinates along x are not even",
         ),
         (HEIGHTS, "an xarray.DataArray is wanted, not a ndarray"),
-        (array().expand_dims("time"), "3-dimensional"),
+        (array().expand_dims(time=2), "3-dimensional"),
     ],
 )
 def test_what_is_left_open_is_asked_for(given, message):
@@ -119,3 +119,9 @@ def test_units_that_are_no_lengths_are_refused(stated, message, tmp_path):
     np.save(tmp_path / "bare.npy", HEIGHTS)
     with pytest.raises(ValueError, match=message):
         rc.read(tmp_path / "bare.npy", **{"unit": "nm", "size": 1e-5} | stated)
+
+
+@pytest.mark.parametrize("unit", [np.timedelta64(1, "s"), [1e-6, 2e-6]])
+def test_a_unit_that_is_no_number_is_refused(unit):
+    with pytest.raises(ValueError, match="unit must be one number in SI units"):
+        rc.Surface.from_dataarray(array(), unit=np.array(unit))

@@ -1,5 +1,6 @@
 """Grids of maps and exports of instruments, known by their first lines."""
 
+import numpy as np
 import pytest
 
 import roughcontact as rc
@@ -223,3 +224,19 @@ def test_wyko(put, flag, nanometres):
 def test_wyko_that_is_damaged(put, old, new, message):
     with pytest.raises(rc.ReadError, match=message):
         rc.read(put("a.asc", wyko(0).replace(old, new)))
+
+
+@pytest.mark.parametrize("numbered", ["rows", "columns"])
+@pytest.mark.parametrize("count", [4, 5, 8])
+def test_numbers_of_a_small_table_are_no_heights(put, numbered, count):
+    slope = 0.2 * np.arange(count * count).reshape(count, count) + 0.15
+    values = np.c_[np.arange(count), slope] if numbered == "rows" else np.r_[np.arange(count)[None], slope]
+    path = put("a.csv", table(values))
+    with pytest.warns(SurfaceWarning, match="holds places, no heights, and is left out"):
+        surface = rc.read(path, unit="um", size="10 um")
+    np.testing.assert_allclose(surface.heights, slope * 1e-6, rtol=1e-9)
+
+
+def test_whole_numbers_beside_a_count_are_heights(put):
+    surface = rc.read(put("a.csv", "0,1,2,3\n1,2,3,4\n2,3,4,5\n"), unit="um", size="10 um")
+    assert surface.grid.shape == (3, 4)

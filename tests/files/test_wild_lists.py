@@ -278,3 +278,120 @@ def test_the_name_of_a_lone_column_is_told(put):
 @pytest.mark.parametrize("header", ["# dx: 0.5 um\n# unit: um\n", "width: 600 um\nunit: um\n"])
 def test_a_lone_column_under_a_size(put, header):
     is_right(read_line(put("a.csv", header + "".join(f"{z:.3f}\n" for z in WAVES))), WAVES)
+
+
+@pytest.mark.parametrize(
+    ("header", "order"),
+    [
+        ("y,x,z", (1, 0, 2)),
+        ("z [um],x [um],y [um]", (2, 0, 1)),
+        ("# Height/um\tY/um\tX/um", (2, 1, 0)),
+        ("# y [um] x [um] z [um]", (1, 0, 2)),
+        ("row,column,height", (1, 0, 2)),
+        (",y,x,z", (1, 0, 2)),
+        ("x and y are measured, z too", (0, 1, 2)),
+    ],
+)
+def test_names_of_columns_give_their_order(put, header, order):
+    numbered = header.startswith(",")
+    lines = [[point[k] for k in order] for point in POINTS]
+    text = "".join(",".join([str(n)] * numbered + line) + "\n" for n, line in enumerate(lines))
+    path = put("a.xyz", f"{header}\n{text}")
+    if numbered:
+        with pytest.warns(SurfaceWarning, match="numbers the points"):
+            is_right(rc.read(path, unit="um"))
+    else:
+        is_right(rc.read(path, unit="um"))
+
+
+def test_each_column_keeps_its_unit_in_another_order(put):
+    text = "".join(f"{float(y) / 1e3:g},{x},{float(z) * 1e3:.0f}\n" for x, y, z in POINTS)
+    is_right(rc.read(put("a.xyz", f"y [mm],x [um],z [nm]\n{text}")))
+
+
+def test_a_table_of_numbered_points_leads_to_a_list(put):
+    path = put("a.csv", ",x,y,z\n" + points(",", numbered=True))
+    with pytest.raises(rc.ReadError, match=r"1152 rows of 4 columns look like a list of coordinates, .*name"):
+        rc.read(path, unit="um", size="18 um")
+    with pytest.warns(SurfaceWarning, match="numbers the points"):
+        is_right(rc.read(path.rename(path.with_suffix(".xyz")), unit="um"))
+
+
+def in_container(tmp_path, kind, values):
+    """Write an array into a file that states nothing about it."""
+    path = tmp_path / f"a{kind}"
+    if kind == ".npz":
+        np.savez(path, data=values)
+    elif kind == ".npy":
+        np.save(path, values)
+    elif kind == ".tif":
+        pytest.importorskip("tifffile").imwrite(path, values)
+    elif kind == ".mat":
+        pytest.importorskip("SurfaceTopography")
+        pytest.importorskip("scipy.io").savemat(path, {"data": values})
+    else:
+        xarray = pytest.importorskip("xarray")
+        xarray.Dataset({"data": (("a", "b"), values)}).to_netcdf(path, engine="scipy")
+    return path
+
+
+@pytest.mark.filterwarnings("ignore:Could not import mpi4py")
+@pytest.mark.parametrize("kind", [".npz", ".npy", ".tif", ".mat", ".nc"])
+@pytest.mark.parametrize(
+    ("values", "told"),
+    [
+        (ARRAY, "1152 rows of 3 are points"),
+        (np.c_[np.arange(len(ARRAY)), ARRAY], "1152 rows of 3 are points"),
+        (np.c_[np.arange(NY), HILLS], r"first column \(0, 1, 2, ..., 31\) holds places, no heights"),
+        (np.r_[np.arange(NX)[None] * 0.5, HILLS], "first row .* holds places, no heights"),
+    ],
+)
+def test_no_container_turns_places_into_heights(tmp_path, kind, values, told):
+    path = in_container(tmp_path, kind, values)
+    with pytest.warns(SurfaceWarning, match=told):
+        is_right(rc.read(path, unit="um", size="18 um"))
+
+
+def test_numbers_named_heights_are_heights(tmp_path):
+    pytest.importorskip("xarray").Dataset(
+        {"heights": (("a", "b"), np.random.default_rng(1).random((20, 3)))}
+    ).to_netcdf(tmp_path / "a.nc", engine="scipy")
+    assert rc.read(tmp_path / "a.nc", unit="um", size="18 um").grid.shape == (20, 3)
+
+
+def test_heights_before_places_of_a_profile(put):
+    text = "".join(f"{z:.4f},{k * 0.5:g}\n" for k, z in enumerate(WAVES))
+    is_right(read_line(put("a.csv", "Height [um],Position [um]\n" + text)), WAVES)
+
+
+def test_a_unit_of_axes_by_name(put):
+    text = "".join(f"{k * 5e-4:.4f}\t{z}\n" for k, z in enumerate(WAVES))
+    is_right(read_line(put("a.txt", "# X-Axis: mm\n# Z-Axis: um\n" + text), unit="um"), WAVES)
+
+
+@pytest.mark.parametrize(("kind", "read"), [("txt", read_line), ("xyz", rc.read)])
+def test_two_units_in_a_word_are_asked_about(put, kind, read):
+    content = profile() if kind == "txt" else points()
+    path = put(f"a.{kind}", "# Units: mm um\n" + content)
+    with pytest.raises(rc.ReadError, match=r"no size that is understood \(.* mm um.*pass size="):
+        read(path, unit="um")
+    read(path, unit="um", size=f"{len(WAVES) / 2} um" if kind == "txt" else "18 um")
+
+
+@pytest.mark.parametrize(
+    "header", ["", "Zygo XYZ Data File - Format 1\n1 9 0 1 0 Thu\n0 0 36 32\n0 0 0 0 0\n#\n"]
+)
+def test_points_of_zygo(put, header):
+    lines = [
+        f"{x} {y} {'No Data' if np.isnan(HOLED[y, x]) else f'{HOLED[y, x]:.3f}'}\n"
+        for y in range(NY)
+        for x in range(NX)
+    ]
+    path = put("a.xyz", header + "".join(lines) + "#\n")
+    is_right(rc.read(path, unit="um", size=("16 um", "18 um")), HOLED)
+
+
+def test_words_with_commas_and_points_are_no_decimals(put):
+    path = put("a.csv", "Measured date,2020/01/06\nXY calibration,0.5,um\n1,2,3\n4,5,6\n")
+    with pytest.raises(rc.ReadError, match="column 1: 'XY' is not a number"):
+        rc.read(path, unit="um", size="18 um")

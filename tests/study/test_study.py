@@ -2,7 +2,9 @@ import pickle
 import tomllib
 
 import numpy as np
+import pint
 import pytest
+import xarray
 
 import roughcontact as rc
 from roughcontact.study.ranges import Range
@@ -247,3 +249,29 @@ def test_deep_nesting_of_values_is_refused():
         value = [value]
     with pytest.raises(StudyError, match="nested too deeply"):
         Study(**(GIVEN | {"parameters": {"hurst": value}}))
+
+
+U = pint.UnitRegistry()
+
+
+@pytest.mark.parametrize(
+    "sizes",
+    [
+        [1 * U.mm, 2 * U.mm],
+        [1, 2] * U.mm,
+        xarray.DataArray([1.0, 2.0], attrs={"units": "mm"}),
+        {"start": 1 * U.mm, "stop": xarray.DataArray(2.0, attrs={"units": "mm"}), "count": 2},
+        Range(start=1 * U.mm, stop=2 * U.mm, count=2),
+    ],
+)
+def test_values_with_a_unit_are_written_as_text(sizes):
+    study = Study(**GIVEN, table={"size": sizes})
+    assert [task.parameters.size for task in study.tasks()] == [1e-3, 2e-3]
+    assert [task.key for task in Study.model_validate(tomllib.loads(study.to_toml())).tasks()] == [
+        task.key for task in study.tasks()
+    ]
+
+
+def test_another_dimension_in_a_study_is_refused():
+    with pytest.raises(StudyError, match=r"size: '1\.0 second' is not a length"):
+        Study(name="a", case=NAME, parameters={"hurst": 0.8, "size": 1 * U.s})

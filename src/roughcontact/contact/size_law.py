@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from roughcontact.arrays import beside, is_array, is_numpy, namespace
+from roughcontact.units import in_si
 from roughcontact.validation import Array, number, positive_scalar, require_numbers, scalar
 
 __all__ = ["Hardness", "NixGao", "SizeLaw", "as_hardness"]
@@ -68,7 +69,7 @@ class NixGao:
         array, of the same shape
             [Pa]
         """
-        return np.asarray(self.hardness * np.sqrt(1 + self.radius / np.asarray(radius)))
+        return np.asarray(self.hardness * np.sqrt(1 + self.radius / np.asarray(in_si(radius, "m", "radius"))))
 
 
 def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | None]:

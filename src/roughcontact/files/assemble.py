@@ -20,7 +20,7 @@ from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
-from roughcontact.validation import shown
+from roughcontact.validation import scalar, shown
 
 __all__ = ["Length", "Size", "assemble", "cell_of", "plain_lengths"]
 
@@ -167,7 +167,7 @@ def plain_lengths(unit: Any, size: Any) -> tuple[Length | None, Size | None]:
     """
     if not isinstance(unit, str | int | float | NoneType):
         try:
-            unit = in_si(1.0 * unit, "m", "unit")  # a unit, or a quantity
+            unit = scalar(in_si(1.0 * unit, "m", "unit"), "unit")  # a unit, or a quantity
         except TypeError as error:
             raise ValueError(
                 f"unit must be a text such as 'nm', or metres per unit, not {shown(unit)}"

@@ -7,9 +7,38 @@ from collections.abc import Sequence
 
 from roughcontact.files.length_units import is_length
 
-__all__ = ["VALIDITY", "column_units"]
+__all__ = ["VALIDITY", "column_order", "column_units"]
 
 VALIDITY = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)  # of a column that says which heights were measured
+
+
+# Names of columns, to be compared in lower case. What i and j count is not agreed upon.
+_PLACES = r"x|col(umn)?|lon(gitude)?|easting", r"y|row|lat(itude)?|northing"
+_PLACE = r"x|(lateral|horizontal )?(position|distance|place)|lateral"
+
+
+def column_order(lines: Sequence[str], columns: int) -> tuple[int, ...]:
+    """Return the columns in the order x, y, z of points, or place and height of a profile, as a line names them.
+
+    Without such names they stand in this order.
+    """
+    given = tuple(range(columns))
+    for line in reversed(lines):
+        names = [re.split(r"[_/\[(.]", name)[0].strip().casefold() for name in _parts_of(line, columns)]
+        words = _PLACES if columns > 2 else (_PLACE,)
+        places = [[k for k in range(len(names)) if re.fullmatch(word, names[k])] for word in words]
+        if all(len(each) == 1 for each in places):
+            first = tuple(each[0] for each in places)
+            return (*first, *(k for k in given if k not in first))
+    return given
+
+
+def _parts_of(line: str, columns: int) -> list[str]:
+    """Return the names of columns in a line, or nothing where it holds fewer or more."""
+    for parts in (re.split(r"[,;\t]", line), re.sub(r"[\[(][^\])]*[\])]", " ", line).split()):
+        if len(parts) == columns:
+            return [part.strip(" \"'") for part in parts]
+    return []
 
 
 def column_units(lines: Sequence[str], columns: int) -> tuple[str | None, ...]:

@@ -25,6 +25,8 @@ _MARK = re.compile(
 _APART = re.compile(r"[^,\s]\s+[^,\s]")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 _POINT = re.compile(r"\d\.|\.\d")
+_PRINTED = re.compile(r"[-+\d.,]+([eE][-+]?\d+)?")
+_NO_DATA = re.compile(r"\bno data\b", re.IGNORECASE)  # two words between blanks
 _NEEDS_POINTS = "write decimal points, and no commas between thousands"
 
 
@@ -35,7 +37,7 @@ def fields_of(line: str, like: str | None = None) -> list[str]:
     """
     separator = separator_of(line if like is None else like)
     if separator is None:
-        return line.replace('"', "").split()
+        return _NO_DATA.sub("nodata", line).replace('"', "").split()
     if '"' in line:
         return [
             field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True))
@@ -89,7 +91,7 @@ def put_points(rows: list[list[str]], where: Sequence[str]) -> None:
     certain = False
     for row, place in zip(rows, where, strict=True):
         for field in row:
-            if _POINT.search(field) and not is_mark(field):
+            if _POINT.search(field) and _PRINTED.fullmatch(field):
                 raise ContentError(f"{place} holds decimal commas and points", _NEEDS_POINTS)
             certain = certain or ("," in field and _THOUSANDS.fullmatch(field) is None)
     if not certain:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.block_ends import left_behind_blocks
 from roughcontact.files.choice import AS_TEXT, choose, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
@@ -75,7 +76,9 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
         found = _map(reader, index, channels[index])
         if isinstance(factor := _factor(reader, stream, index), str):
             found = replace(found, unclear=factor)
-        return replace(found, doubts=(*doubts, *_left_over(reader, stream)))
+        if reader.format() in _MATRICES:
+            found = heights_alone(found)
+        return replace(found, doubts=(*doubts, *found.doubts, *_left_over(reader, stream)))
 
 
 def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:

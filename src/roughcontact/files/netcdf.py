@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from io import BytesIO
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5, require_memory_for
 from roughcontact.files.heightmap import (
@@ -107,10 +108,12 @@ def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
 
     It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
     rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
-    from the attribute ``length`` of the coordinates, or from coordinates with even steps.
+    from the attribute ``length`` of the coordinates, or from coordinates with even steps. A third dimension of one
+    entry, such as the time, is left out. Values that count downwards are depths.
     """
     with opened(data) as (variables, attributes):
-        return height_map_of(variables, attributes, channel, "NetCDF")
+        found = height_map_of(variables, attributes, channel, "NetCDF")
+        return found if found.channel == "heights" else heights_alone(found)
 
 
 def height_map_of(
@@ -120,6 +123,7 @@ def height_map_of(
     format: str,
 ) -> HeightMap:
     """Return what variables, such as those of an open file, state about a map or a profile of heights."""
+    variables = {name: _of_one(variable) for name, variable in variables.items()}
     found = _channels(variables)
     if channel is None and "heights" in variables:
         channel = "heights"
@@ -136,22 +140,24 @@ def height_map_of(
     silent = [axis for axis in axes if axis in variables and not variables[axis].word("unit", "units")]
     borrowed = spacing is not None and "spacing" not in variables and silent
     doubt = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
+    down = chosen.word("positive") == "down"  # CF's word for depths
+    depths = "it states that its values count downwards: they are read with the other sign"
     return HeightMap(
-        heights,
+        -heights if down else heights,
         format,
         channel=name,
         unit=unit,
         spacing=spacing,
         periodic=_periodic(variables, axes),
         history=_history(attributes),
-        doubts=(doubt,) if borrowed else (),
+        doubts=(*((doubt,) if borrowed else ()), *((depths,) if down else ())),
     )
 
 
 def list_netcdf(data: bytes) -> tuple[Channel, ...]:
     """Return the variables that can be maps or profiles."""
     with opened(data) as (variables, _):
-        return _channels(variables)
+        return _channels({name: _of_one(variable) for name, variable in variables.items()})
 
 
 @contextmanager
@@ -185,6 +191,16 @@ def _classic(file: Any) -> dict[str, StoredVariable]:
     }
 
 
+def _of_one(variable: StoredVariable) -> StoredVariable:
+    """Return a map that is stored at one time, or one of another dimension, without that dimension."""
+    kept = [k for k, n in enumerate(variable.shape) if n != 1]
+    if len(variable.shape) <= 2 or len(kept) != 2:
+        return variable
+    shape = tuple(variable.shape[k] for k in kept)
+    dimensions = tuple(variable.dimensions[k] for k in kept)
+    return replace(variable, dimensions=dimensions, shape=shape, load=lambda: variable.load().reshape(shape))
+
+
 def _modern(opened: Any) -> dict[str, StoredVariable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
@@ -215,7 +231,7 @@ def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
     maps = {
         name: v
         for name, v in variables.items()
-        if (len(v.shape) == 2 or name == "heights") and v.dtype.kind in "fiu" and name != "mask"
+        if (len(v.shape) >= 2 or name == "heights") and v.dtype.kind in "fiu" and name != "mask"
     }
     return tuple(
         Channel(
@@ -223,7 +239,8 @@ def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
             v.shape[::-1] if v.dimensions == ("x", "y") else v.shape,
             v.word("unit", "units"),
             None,
-            names_a_height(name) or (len(maps) == 1 and not names_something_else(name)),
+            len(v.shape) <= 2
+            and (names_a_height(name) or (len(maps) == 1 and not names_something_else(name))),
         )
         for name, v in maps.items()
     )

@@ -12,13 +12,11 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
-from roughcontact.files.point_grid import grid_of_points
-from roughcontact.files.table_axes import axes_of
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array
 
 __all__ = [
     "list_npz",
@@ -27,13 +25,11 @@ __all__ = [
     "read_npy",
     "read_npy_header",
     "read_npz",
-    "require_no_list",
     "whole_npy_header",
 ]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
-_MEANINGS = ("spacing", "size", "unit", "periodic", "history")
-_LISTED = 8  # rows from which two or three columns are places and heights
+_MEANINGS = ("spacing", "size", "unit", "periodic", "history", "mask")
 _MAGIC = b"\x93NUMPY"
 _LONGEST = 10_000  # bytes of a header, as in NumPy
 # NumPy evaluates the header as Python; numbers need no more than these, and nothing that can warn. Python 2 wrote 3L.
@@ -102,47 +98,9 @@ def read_npy_header(stream: IO[bytes]) -> NpyHeader:
 def read_npy(data: bytes) -> HeightMap:
     """Return the one array of a ``.npy`` file; it states neither unit nor size.
 
-    Points, shape (n, 3) or (3, n), are put on their grid; places in the first row and column are no heights.
+    Points and places beside heights are no heights, see ``heights_alone``.
     """
-    values = as_heights(_array(data))
-    require_no_list(values.shape)
-    points = values if values.shape[1:] == (3,) else values.T
-    if points.ndim == 2 and points.shape[1] == 3 and len(points) >= _LISTED:
-        return _of_points(points)
-    axes = axes_of(values)
-    if axes is None:
-        return HeightMap(values, "npy")
-    return HeightMap(axes.heights, "npy", doubts=(axes.doubt,))
-
-
-def require_no_list(shape: tuple[int, ...]) -> None:
-    """Refuse what is a list of places and heights, two columns or rows of many numbers.
-
-    Raises
-    ------
-    ContentError
-        If it is.
-    """
-    if len(shape) == 2 and min(shape) == 2 and max(shape) >= _LISTED:
-        which = "column, array[:, 1]" if shape[1] == 2 else "row, array[1]"
-        raise ContentError(
-            f"its {' x '.join(map(str, shape))} numbers look like places and heights, not a map",
-            f"save the {which}, alone for read_line, or a map so narrow as .npz under the key 'heights'",
-        )
-
-
-def _of_points(points: Array) -> HeightMap:
-    try:
-        grid = grid_of_points(points)
-    except ContentError as error:
-        raise ContentError(
-            f"its {len(points)} rows of 3 look like points x, y, z, not a map ({error.problem})",
-            "save the heights as a matrix, rows by columns, or a map so narrow as .npz under the key 'heights'",
-        ) from None
-    ny, nx = grid.heights.shape
-    doubt = f"its {len(points)} rows of 3 are points x, y, z, and are put on their grid of {ny} x {nx}"
-    unclear = f"steps of {grid.steps[1]:g} along x and {grid.steps[0]:g} along y, without a unit"
-    return HeightMap(grid.heights, "npy of points", unclear=unclear, doubts=(doubt, *grid.doubts))
+    return heights_alone(HeightMap(as_heights(_array(data)), "npy"))
 
 
 def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
@@ -150,7 +108,8 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
 
     The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
     name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m], ``periodic`` (one truth value, or
-    one an axis) and ``history`` (lines of text) say what it means, where they are present.
+    one an axis), ``history`` (lines of text) and ``mask`` (true where not measured, as NumPy has it) say what it
+    means, where they are present. Under another key than ``heights`` numbers may be points, or hold places.
     """
     arrays = _arrays(data)
     names = _channels(arrays)
@@ -158,16 +117,20 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
         channel = "heights"
     chosen = names[pick(names, channel)].name
     heights = as_heights(arrays[chosen])
-    unit = arrays.get("unit")
-    return HeightMap(
-        heights,
+    unit, mask = arrays.get("unit"), arrays.get("mask", np.array(False))
+    covered = mask.astype(bool) if mask.shape == heights.shape else np.zeros((), dtype=bool)
+    masked = f"its key 'mask' marks {np.count_nonzero(covered)} points, which are read as missing"
+    found = HeightMap(
+        np.where(covered, np.nan, heights),
         "npz",
         channel=chosen,
         unit=None if unit is None else _unit(unit),
         spacing=_spacing(arrays, heights.shape),
         periodic=_periodic(arrays, heights.ndim),
         history=_history(arrays),
+        doubts=(masked,) if covered.any() else (),
     )
+    return found if chosen == "heights" else heights_alone(found)
 
 
 def list_npz(data: bytes) -> tuple[Channel, ...]:

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from roughcontact.files.column_units import VALIDITY, column_units
+from roughcontact.files.column_units import VALIDITY, column_order, column_units
 from roughcontact.files.fields import EMPTY, fields_of, is_mark, is_number, put_points
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
@@ -46,26 +46,28 @@ def read_profile(data: bytes) -> HeightMap:
     columns = len(rows[0])
     header = header_of(words, (0, 0))
     marks = Marks()
-    values = np.array([marks.numbers(row) for row in rows])
+    order = list(column_order(words, columns)) if columns == 2 else list(range(columns))
+    values = np.array([marks.numbers(row) for row in rows])[:, order]
     notes, of_marks = marks.told()
     heights, stated, near = without_marks(values[:, min(columns - 1, 1)], header.missing)
     notes, doubts = (*notes, *stated), (*unended(text), *doubts, *of_marks, *header.doubts, *near)
     if columns == 3:
         heights = np.where(values[:, 2] == 0, np.nan, heights)
-    lateral, unit = (None, None, *column_units(words, min(columns, 2)))[-2:]
+    units = column_units(words, min(columns, 2))
+    lateral, unit = (None, None, *(units[k] for k in order[:2]))[-2:]
     lateral = lateral or header.lateral
     spacing, steps, unclear = None, None, header.unclear
     if columns == 1:
         length = header.dx if header.width is None else header.width / len(rows)
         spacing = None if length is None else (length,)
     else:
-        step, of_places = _step(values[:, 0], [row[0] for row in rows])
+        step, of_places = _step(values[:, 0], [row[order[0]] for row in rows])
         notes = (*notes, *of_places)
         if is_length(lateral):
             spacing = (step * length_factor(lateral or ""),)
             doubts += _announced(words, spacing[0] * (len(values) - 1))
         else:
-            unclear = _unclear(lateral, unit, values[:, 0])
+            unclear = _unclear(lateral, unit or header.unit_unknown, values[:, 0])
             steps = (step,) if unclear is None else None
     return HeightMap(
         as_heights(heights),

@@ -12,11 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.assemble import assemble
+from roughcontact.files.bare_table import points_in, require_no_list
 from roughcontact.files.content import content, named, ordinary_file
 from roughcontact.files.dispatch import height_map
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights, require_map
-from roughcontact.files.numpy_files import NpyHeader, require_no_list, whole_npy_header
+from roughcontact.files.numpy_files import NpyHeader, whole_npy_header
 from roughcontact.files.table_axes import axes_of
 from roughcontact.grid import Grid
 from roughcontact.slabs.agreement import by_each, by_first
@@ -93,9 +94,7 @@ def _mapped(stream: Any, header: NpyHeader) -> npt.NDArray[Any]:
 def _require_heights_alone(values: npt.NDArray[Any]) -> None:
     """Refuse points and axes, which are recognised where one process reads the file."""
     require_no_list(values.shape)
-    if values.ndim == 2 and (
-        (min(values.shape) == 3 and max(values.shape) > 8) or axes_of(values) is not None
-    ):
+    if values.ndim == 2 and (points_in(values) is not None or axes_of(values) is not None):
         raise ContentError(
             "it holds points x, y, z, or places in its first row or column, beside heights",
             "read it by one process, or save the heights alone",

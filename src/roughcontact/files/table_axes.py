@@ -68,14 +68,16 @@ def axes_of(values: Array) -> Axes | None:
         return None
     body, x, y = values[1:, 1:], values[0, 1:], values[1:, 0]
     fewest = _NAMED if np.isnan(values[0, 0]) else _BOTH  # a corner without a number, as data frames have
-    if _are_places(x, fewest, _ROUNDED) and _are_places(y, fewest, _ROUNDED):
-        return Axes(body, x, y) if _is_uneven(body) or _is_uneven(body.T) else None
-    if _are_places(values[0], _ALONE) and _is_uneven(values[1:]):
+    both = _are_places(x, fewest, _ROUNDED) and _are_places(y, fewest, _ROUNDED)
+    if both and (_is_uneven(body) or _is_uneven(body.T)):
+        return Axes(body, x, y)
+    if _are_places(values[0], _ALONE) and _are_heights(values[1:], values[0]):
         return Axes(values[1:], values[0], None)
-    if _are_places(values[:, 0], _ALONE) and _is_uneven(values.T[1:]):
+    if _are_places(values[:, 0], _ALONE) and _are_heights(values.T[1:], values[:, 0]):
         return Axes(values[:, 1:], None, values[:, 0])
     if (
-        min(x.size, y.size) >= _RISING
+        not both
+        and min(x.size, y.size) >= _RISING
         and _is_sorted(x)
         and _is_sorted(y)
         and not (_is_sorted(body[0]) or _is_sorted(body[:, 0]))
@@ -100,6 +102,13 @@ def even_step(places: Array) -> float:
 def _are_places(places: Array, fewest: int, most: float = _EVEN) -> bool:
     enough = min(fewest, _COUNTED) if counts(places) else fewest
     return len(places) >= enough and _off(places) <= (most if len(places) >= _BOTH else _EXACT)
+
+
+def _are_heights(rows: Array, places: Array) -> bool:
+    """Whether rows beside places are no slope, or hold fractions beside places that count."""
+    with np.errstate(all="ignore"):  # of infinite ones
+        fractions = counts(places) and bool((rows % 1 > 0).any())
+    return fractions or _is_uneven(rows)
 
 
 def _is_uneven(rows: Array) -> bool:

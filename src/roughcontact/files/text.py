@@ -10,7 +10,7 @@ from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.missing_marks import without_marks
 from roughcontact.files.numbers import Table, decode, parse_table, stated_rows
-from roughcontact.files.table_axes import Axes, axes_of
+from roughcontact.files.table_axes import Axes, axes_of, counts
 from roughcontact.files.text_dialects import dialect_of
 from roughcontact.files.text_header import TextHeader, header_of
 from roughcontact.surface.surface import Surface
@@ -63,11 +63,13 @@ def read_text(data: bytes) -> HeightMap:
 
 def _require_no_points(table: Table) -> None:
     ny, nx = table.values.shape
+    if nx == 4 and counts(table.values[:, 0]):
+        nx = 3  # and their numbers
     if nx not in (2, 3) or not (ny >= _COORDINATES or table.statements):
         return
     if not header_of(table.comments, (ny, nx)).states_a_size:
         raise ContentError(
-            f"its {ny} rows of {nx} columns look like a list of coordinates, not a map",
+            f"its {ny} rows of {table.values.shape[1]} columns look like a list of coordinates, not a map",
             "read a profile by read_line" if nx == 2 else "name a list of points x, y, z .xyz",
         )
 

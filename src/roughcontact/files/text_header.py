@@ -26,7 +26,7 @@ _LABELS = {
     "columns": r"x pixels|x ?res|nx|n ?cols|columns|number of columns|points per line",
     "unit": r"(value|height|data|z) ?units?|unit (z|data)|(z ?)?einheit(en)?( der werte)?|werteeinheit(en)?"
     r"|unités|unità valore|unidades de valor|jednotky hodnot|единицы измерения|値の単位|값 단위",
-    "lateral": r"(lateral|x|xy) ?units?|unit (x|xy)|(laterale|x) ?einheit",
+    "lateral": r"(lateral|x|xy) ?units?|unit (x|xy)|(laterale|x) ?einheit|x axis",
     "lateral y": r"y ?units?|unit y|y ?einheit",
     "any": r"units?",
     "missing": r"(no ?data|missing|invalid|bad|undefined|null|void|fill|mask|blank)( data| pixel| point)? ?values?"
@@ -92,6 +92,11 @@ class TextHeader:
     def states_a_size(self) -> bool:
         """Whether it is that of a map."""
         return any(each is not None for each in (self.width, self.height, self.dx, self.dy, self.columns))
+
+    @property
+    def unit_unknown(self) -> str | None:
+        """The unit of heights where it is no length known here, which says nothing of places either."""
+        return None if is_length(self.unit) else self.unit
 
     def spacing(self, shape: tuple[int, int]) -> tuple[float, float] | None:
         """Return the cell (dy, dx) of a map of a shape (ny, nx) [m]; with one side of a cell alone it is a square.

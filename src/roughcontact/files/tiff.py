@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ContentError
@@ -63,14 +64,16 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
         missing, notes = _not_measured(page, heights)
         turn = int(page.tags.valueof("Orientation", default=1))
         values = np.where(missing, np.nan, as_heights(heights))
-        return line_if_one_row(
-            HeightMap(
-                _TURNED[turn](values),
-                "TIFF",
-                channel=channels[index].name,
-                unclear="a resolution, which is that of a print" if 282 in page.tags else None,
-                notes=(*notes, *((f"turned upright from orientation {turn}",) if turn != 1 else ())),
-                doubts=(*doubts, *_doubts(page)),
+        return heights_alone(
+            line_if_one_row(
+                HeightMap(
+                    _TURNED[turn](values),
+                    "TIFF",
+                    channel=channels[index].name,
+                    unclear="a resolution, which is that of a print" if 282 in page.tags else None,
+                    notes=(*notes, *((f"turned upright from orientation {turn}",) if turn != 1 else ())),
+                    doubts=(*doubts, *_doubts(page)),
+                )
             )
         )
 

@@ -4,35 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from roughcontact.files.column_units import column_units
+from roughcontact.files.column_units import column_order, column_units
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.missing_marks import without_marks
-from roughcontact.files.numbers import decode, parse_table
+from roughcontact.files.numbers import Table, decode, parse_table
 from roughcontact.files.point_grid import PointGrid, grid_of_points
 from roughcontact.files.table_axes import counts
 from roughcontact.files.text_header import header_of
-from roughcontact.validation import Array
 
 __all__ = ["read_xyz"]
+
+_ZYGO = "Zygo XYZ Data File"  # its header, numbers among them, ends with a line of #
 
 
 def read_xyz(data: bytes) -> HeightMap:
     """Return the points on their grid; a place without a point is NaN, the first row has the smallest y.
 
     A header such as ``# x [um]  y [um]  z [um]`` states the units. Without it all three columns are in the unit of the
-    heights, unless the places are numbered 0, 1, 2, ...: then the size is open.
+    heights, unless the places are numbered 0, 1, 2, ...: then the size is open. Its names give the order of columns.
     """
-    table = parse_table(decode(data), points=True)
-    points, doubts = _three_columns(table.values)
+    text = decode(data)
+    if text.startswith(_ZYGO):
+        text = text.partition("\n#\n")[2]
+    table = parse_table(text, points=True)
+    order, doubts = _three_columns(table)
     header = header_of(table.comments, (0, 0))
-    grid = grid_of_points(points)
+    grid = grid_of_points(table.values[:, order])
     heights, stated, near = without_marks(grid.heights, header.missing)
-    *lateral, unit = column_units(table.comments, 3)
+    units = column_units(table.comments, table.values.shape[1])
+    *lateral, unit = (units[k] for k in order) if any(units) else column_units(table.comments, 3)
     if not any(lateral):
         lateral = [header.lateral, header.lateral]
-    spacing, steps, unclear = _cells(grid, lateral, unit)
+    spacing, steps, unclear = _cells(grid, lateral, unit or header.unit_unknown)
     return HeightMap(
         as_heights(heights),
         "xyz",
@@ -45,13 +50,15 @@ def read_xyz(data: bytes) -> HeightMap:
     )
 
 
-def _three_columns(values: Array) -> tuple[Array, tuple[str, ...]]:
-    """Return the points without a column that numbers them, and a doubt where there was one."""
-    if values.shape[1] == 4 and counts(values[:, 0]):
-        return values[:, 1:], ("its first column numbers the points, and is left out",)
-    if values.shape[1] != 3:
-        raise ContentError(f"its rows hold {values.shape[1]} numbers", "give three columns x, y, z")
-    return values, ()
+def _three_columns(table: Table) -> tuple[list[int], tuple[str, ...]]:
+    """Return where x, y and z stand, a column that numbers the points left out, and a doubt where there was one."""
+    columns = table.values.shape[1]
+    order = list(column_order(table.comments, columns))
+    if columns == 4 and counts(table.values[:, 0]):
+        return [k for k in order if k], ("its first column numbers the points, and is left out",)
+    if columns != 3:
+        raise ContentError(f"its rows hold {columns} numbers", "give three columns x, y, z")
+    return order, ()
 
 
 def _cells(

@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from roughcontact.units import in_si
 from roughcontact.validation import Array, number, require, scalar, shown
 
 __all__ = ["Profile", "Term", "checked_profile", "checked_radii"]
@@ -126,6 +127,7 @@ class Profile:
 
     def __mul__(self, factor: float) -> Profile:
         """Return the body stretched along its axis."""
+        factor = in_si(factor, None, "factor")
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
         require(math.isfinite(factor), f"a body can be stretched by a finite factor, not by {factor}")

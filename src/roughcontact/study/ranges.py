@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from roughcontact.study.checked import Checked
+from roughcontact.units import as_text
 
 __all__ = ["Range"]
 
@@ -17,6 +18,9 @@ __all__ = ["Range"]
 _DIGITS = 12
 _MOST = 1_000_000
 _HIT = 1e-9  # of a step: one that hits the end but for rounding hits it
+
+
+_Number = Annotated[float | str, BeforeValidator(as_text)]
 
 
 class Range(Checked):
@@ -43,10 +47,10 @@ class Range(Checked):
     (1.0, 10.0, 100.0)
     """
 
-    start: float | str
-    stop: float | str
+    start: _Number
+    stop: _Number
     count: int | None = Field(default=None, ge=2, le=_MOST)
-    step: float | str | None = None
+    step: _Number | None = None
     spacing: Literal["linear", "log"] = "linear"
 
     @model_validator(mode="after")

@@ -29,6 +29,7 @@ from roughcontact.study.ranges import Range
 from roughcontact.study.study_errors import StudyError, explained, meant
 from roughcontact.study.task import Task, canonical, key_of
 from roughcontact.study.toml import toml_of
+from roughcontact.units import as_text
 
 __all__ = ["Study"]
 
@@ -66,7 +67,8 @@ def _case_name(case: Any) -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """Return arrays and numbers of NumPy, at any depth, as lists and numbers of Python."""
+    """Return arrays and numbers of NumPy, at any depth, as lists and numbers of Python, with a unit as text."""
+    value = as_text(value)
     if isinstance(value, Mapping):
         return {name: _plain(each) for name, each in value.items()}
     if isinstance(value, (list, tuple)):

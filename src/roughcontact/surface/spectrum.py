@@ -11,6 +11,7 @@ import numpy as np
 from roughcontact.grid import Grid
 from roughcontact.surface.moments import Moments, grid_moments
 from roughcontact.surface.wave_grid import Support
+from roughcontact.units import in_si
 from roughcontact.validation import Array, moderate, numeric, require_numbers
 
 __all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
@@ -93,7 +94,7 @@ class SelfAffineSpectrum:
 
     def __call__(self, wavenumber: Array) -> Array:
         """Return C(q), m^4 on a surface and m^3 on a line, at the `wavenumber` q [rad/m]; zero at q = 0."""
-        q = np.asarray(wavenumber, dtype=np.float64)
+        q = np.asarray(in_si(wavenumber, "rad/m", "wavenumber"), dtype=np.float64)
         bent = np.maximum(q, self.q_rolloff)
         with np.errstate(divide="ignore"):
             shape = np.where(q > 0, self.scale * bent ** (-2 * self.hurst - self.dimension), 0.0)

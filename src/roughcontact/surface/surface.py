@@ -86,6 +86,7 @@ class Surface:
 
     def __mul__(self, factor: float) -> Surface:
         """Return the surface with its heights times a number."""
+        factor = in_si(factor, None, "factor")
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
         require(math.isfinite(factor), f"heights can be multiplied by a finite number, not by {factor}")

@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol, get_args
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import less, namespace, require_floating
+from roughcontact.arrays import less, namespace, require_floating, require_no_unit
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
@@ -110,6 +110,7 @@ class InfluenceOperator:
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
+        require_no_unit(pressure)
         if not self._periodic:
             return self._sum.apply(pressure)
         require_floating(pressure)

@@ -1,0 +1,84 @@
+"""A table of numbers that a container states nothing about: heights, places beside them, or a list of points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from roughcontact.files.file_errors import ContentError
+from roughcontact.files.heightmap import HeightMap
+from roughcontact.files.point_grid import grid_of_points
+from roughcontact.files.table_axes import axes_of, counts
+from roughcontact.validation import Array
+
+__all__ = ["heights_alone", "points_in", "require_no_list"]
+
+_LISTED = 8  # rows from which two or three columns are places and heights
+_NARROW = "a map so narrow as .npz under the key 'heights'"
+
+
+def heights_alone(found: HeightMap) -> HeightMap:
+    """Return bare numbers without what is no height.
+
+    Points, shape (n, 3) or (3, n), are put on their grid; places in the first row and column are left out. Where the
+    file states the size of a cell, or holds a profile, the numbers are heights.
+
+    Raises
+    ------
+    ContentError
+        If they are a list of places and heights, or of scattered points.
+    """
+    values = found.heights
+    if values.ndim != 2 or found.spacing is not None:
+        return found
+    require_no_list(values.shape)
+    if (points := points_in(values)) is not None:
+        return _on_grid(found, points)
+    axes = axes_of(values)
+    return found if axes is None else replace(found, heights=axes.heights, doubts=(*found.doubts, axes.doubt))
+
+
+def points_in(values: Array) -> Array | None:
+    """Return a list of points x, y, z, shape (n, 3), without a column that numbers them; None for a map."""
+    for rows in (values, values.T):
+        if len(rows) >= _LISTED:
+            if rows.shape[1] == 3:
+                return rows
+            if rows.shape[1] == 4 and counts(rows[:, 0]):
+                return rows[:, 1:]
+    return None
+
+
+def require_no_list(shape: Sequence[int]) -> None:
+    """Refuse what is a list of places and heights, two columns or rows of many numbers.
+
+    Raises
+    ------
+    ContentError
+        If it is.
+    """
+    if len(shape) == 2 and min(shape) == 2 and max(shape) >= _LISTED:
+        which = "column, array[:, 1]" if shape[1] == 2 else "row, array[1]"
+        raise ContentError(
+            f"its {' x '.join(map(str, shape))} numbers look like places and heights, not a map",
+            f"save the {which}, alone for read_line, or {_NARROW}",
+        )
+
+
+def _on_grid(found: HeightMap, points: Array) -> HeightMap:
+    try:
+        grid = grid_of_points(points)
+    except ContentError as error:
+        raise ContentError(
+            f"its {len(points)} rows of 3 look like points x, y, z, not a map ({error.problem})",
+            f"save the heights as a matrix, rows by columns, or {_NARROW}",
+        ) from None
+    ny, nx = grid.heights.shape
+    doubt = f"its {len(points)} rows of 3 are points x, y, z, and are put on their grid of {ny} x {nx}"
+    return replace(
+        found,
+        heights=grid.heights,
+        format=f"{found.format} of points",
+        unclear=f"steps of {grid.steps[1]:g} along x and {grid.steps[0]:g} along y, without a unit",
+        doubts=(*found.doubts, doubt, *grid.doubts),
+    )
