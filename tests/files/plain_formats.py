@@ -2,6 +2,7 @@
 
 import hashlib
 import io
+import json
 import struct
 import zipfile
 import zlib
@@ -175,3 +176,23 @@ def _surfer(heights, dy, dx):
     low, high = np.nanmin(heights) * 1e9, np.nanmax(heights) * 1e9
     ends = f"0 {(nx - 1) * dx * 1e9}\n0 {(ny - 1) * dy * 1e9}\n{low} {high}\n"
     return (f"DSAA\n{nx} {ny}\n{ends}" + text(heights[::-1] * 1e9, bad="1.70141e+38")).encode()
+
+
+@writes("container.zip")
+def _container(heights, dy, dx):
+    """As contact.engineering packs it: an index, and a measurement as it was uploaded."""
+    ny, nx = heights.shape
+    measurement = {
+        "name": "map",
+        "datafile": {"original": "map.npy"},
+        "unit": "um",
+        "size": (nx * dx * 1e6, ny * dy * 1e6),
+    }
+    stream, array = io.BytesIO(), io.BytesIO()
+    np.save(array, heights * 1e6)
+    with zipfile.ZipFile(stream, "w") as archive:
+        archive.writestr(
+            "index.json", json.dumps({"surfaces": [{"name": "part", "topographies": [measurement]}]})
+        )
+        archive.writestr("map.npy", array.getvalue())
+    return stream.getvalue()

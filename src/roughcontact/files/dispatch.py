@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
+from roughcontact.files.container import list_container, read_container
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.foreign import list_foreign, read_foreign
 from roughcontact.files.grd import read_grd
@@ -49,6 +50,11 @@ def _alone(read: Callable[[bytes], HeightMap]) -> _Reader:
     return _Reader(chosen, channels)
 
 
+def _member(data: bytes, kind: str) -> HeightMap:
+    """Return what a file in a container holds, by its extension."""
+    return _reader(kind).read(data, None)
+
+
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
 _PROFILE = _alone(read_profile)  # of a text that holds no map
 # By the ending of a file; whatever has none here goes to the readers of others.
@@ -64,6 +70,7 @@ READERS = {
     ".gsf": _alone(read_gsf),
     ".gwy": _Reader(read_gwy, list_gwy),
     **dict.fromkeys((".tif", ".tiff"), _Reader(read_tiff, list_tiff)),
+    ".zip": _Reader(partial(read_container, reader=_member), partial(list_container, reader=_member)),
     ".npz": _Reader(read_npz, list_npz),
     **dict.fromkeys((".nc", ".nc4", ".cdf"), _Reader(read_netcdf, list_netcdf)),
 }
@@ -100,7 +107,7 @@ def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
     """Return what the file says about its line of heights, by the reader of its extension."""
     if kind not in READERS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
-        holding = (each for each in READERS if each not in (".grd", ".xyz"))
+        holding = (each for each in READERS if each not in (".grd", ".xyz", ".zip"))
         raise ContentError(
             problem, f"name a text .txt, or export it as one of {', '.join(holding)}; read a map by read"
         )

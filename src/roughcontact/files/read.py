@@ -34,8 +34,8 @@ def read(
     """Return the surface in a file: heights [m], rows from the top of the picture, NaN where not measured.
 
     ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.grd``, ``.xyz``, ``.x3p``, ``.nc``, ``.sur``,
-    ``.sdf``, ``.tmd``, ``.gsf`` and ``.gwy`` are read strictly; ``.tif`` and every other format need SurfaceTopography,
-    ``pip install roughcontact[formats]``. A file that holds a profile is refused: see `read_line`.
+    ``.sdf``, ``.tmd``, ``.gsf``, ``.gwy`` and ``.zip`` (of contact.engineering) are read strictly; ``.tif`` and every
+    other format need SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a profile is refused: see `read_line`.
 
     Parameters
     ----------

@@ -1,0 +1,140 @@
+"""Containers of contact.engineering: a ZIP archive of the measurements of a surface and what is known about them."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from roughcontact.files.choice import marked
+from roughcontact.files.file_bounds import require_memory
+from roughcontact.files.file_errors import ContentError
+from roughcontact.files.heightmap import Channel, HeightMap, pick
+from roughcontact.files.foreign import lacking
+from roughcontact.files.length_units import is_length, length_factor
+
+__all__ = ["list_container", "read_container"]
+
+_PREPARED = "squeezed-netcdf"  # by contact.engineering: scaled, filled and levelled as its user chose
+_DAMAGED = (
+    zipfile.BadZipFile,
+    zlib.error,
+    ValueError,
+    KeyError,
+    TypeError,
+    EOFError,
+    NotImplementedError,
+    RuntimeError,
+)
+
+Reader = Callable[[bytes, str], HeightMap]
+
+
+@dataclass(frozen=True, slots=True)
+class _Measurement:
+    """One measurement: its name, the file in the archive, whether it was prepared, and what the index states."""
+
+    name: str
+    file: str
+    prepared: bool
+    stated: dict[str, Any]
+
+
+def read_container(data: bytes, channel: str | int | None, *, reader: Reader) -> HeightMap:
+    """Return one measurement; the `reader` reads a file of the archive by its extension."""
+    with _opened(data) as (archive, measurements):
+        channels = _channels(archive, measurements, reader)
+        chosen = measurements[pick(channels, channel)]
+        return replace(_read(archive, chosen, reader), channel=channels[measurements.index(chosen)].name)
+
+
+def list_container(data: bytes, *, reader: Reader) -> tuple[Channel, ...]:
+    """Return the measurements as channels."""
+    with _opened(data) as (archive, measurements):
+        return _channels(archive, measurements, reader)
+
+
+def _channels(
+    archive: zipfile.ZipFile, measurements: list[_Measurement], reader: Reader
+) -> tuple[Channel, ...]:
+    found = [replace(_read(archive, one, reader).as_channel(), name=one.name) for one in measurements]
+    # Each measurement is one of heights, whatever its name.
+    named = marked(found)
+    return tuple(replace(channel, is_height=len(channel.shape) == 2) for channel in named)
+
+
+def _read(archive: zipfile.ZipFile, measurement: _Measurement, reader: Reader) -> HeightMap:
+    """Return the heights of a measurement; the index states what its file leaves open."""
+    info = archive.getinfo(measurement.file)
+    require_memory(info.file_size)
+    found = reader(archive.read(info), PurePosixPath(measurement.file).suffix.casefold())
+    stated, notes = measurement.stated, (*found.notes, f"from {measurement.file} in the container")
+    if measurement.prepared:
+        mode = stated.get("detrend_mode", "unknown")
+        return replace(found, notes=(*notes, f"as contact.engineering prepared it (detrend mode: {mode})"))
+    unit = stated.get("unit")
+    if found.unit is None and isinstance(unit, str):
+        found = replace(found, unit=unit)
+    if found.spacing is None and "size" in stated and is_length(unit):
+        sides = np.atleast_1d(np.asarray(stated["size"], dtype=np.float64))[::-1] * length_factor(unit or "")
+        found = replace(found, spacing=tuple((sides / found.heights.shape).tolist()))
+    scale = float(stated.get("height_scale", 1.0))
+    if scale != 1.0:
+        notes = (*notes, f"heights times {scale:g}, as the container states")
+        found = replace(found, heights=found.heights * scale)
+    return replace(found, periodic=bool(stated.get("is_periodic", found.periodic)), notes=notes)
+
+
+@contextmanager
+def _opened(data: bytes) -> Iterator[tuple[zipfile.ZipFile, list[_Measurement]]]:
+    """Give the archive and its measurements; damage becomes a ContentError."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            yield archive, list(_measurements(_index(archive)))
+    except ContentError:
+        raise
+    except _DAMAGED as error:
+        raise ContentError(
+            f"it is damaged ({error})", "download it from contact.engineering again"
+        ) from error
+
+
+def _index(archive: zipfile.ZipFile) -> Any:
+    names = set(archive.namelist())
+    if "index.json" in names:
+        return json.loads(archive.read("index.json"))
+    if "meta.yml" not in names:
+        raise ContentError(
+            "it is a ZIP archive without index.json or meta.yml, no container of contact.engineering",
+            "unpack it, and read the files in it",
+        )
+    try:
+        import yaml
+    except ImportError as error:
+        raise lacking("yaml", error) from error
+    loader: Any = type("Loader", (yaml.SafeLoader,), {})
+    # Older containers hold tuples of Python.
+    loader.add_constructor("tag:yaml.org,2002:python/tuple", loader.construct_sequence)
+    try:
+        return yaml.load(archive.read("meta.yml"), Loader=loader)
+    except yaml.YAMLError as error:
+        raise ValueError(str(error).splitlines()[0]) from error
+
+
+def _measurements(index: Any) -> Iterator[_Measurement]:
+    for surface in index["surfaces"]:
+        for stated in surface["topographies"]:
+            files = stated["datafile"]
+            prepared = files.get(_PREPARED)
+            file = prepared or files["original"]
+            yield _Measurement(
+                str(stated.get("name") or PurePosixPath(file).name), file, prepared is not None, stated
+            )
