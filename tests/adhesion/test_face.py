@@ -136,6 +136,17 @@ def test_a_state_becomes_a_dataset_and_a_record():
     assert all(values.attrs["long_name"] for values in dataset.values())
 
 
+def test_cells_apart_by_no_more_than_the_range_are_attracted():
+    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    reach = sticky(2.0).range
+    within = ~state.contact & (state.gap <= reach)
+    # There are cells of each kind, among them some between one range and two.
+    assert state.contact.any()
+    assert within.any()
+    assert ((state.gap > reach) & (state.gap <= 2 * reach)).any()
+    np.testing.assert_array_equal(state.attracted, within)
+
+
 def test_the_surface_of_a_state_is_read_back(tmp_path):
     small = rc.Surface(PLANE.heights * 1e-8, rc.Grid((16, 16), 1e-8, periodic=True))
     law = rc.Adhesion(work=10e-3, range=4e-9)
