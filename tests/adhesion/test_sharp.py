@@ -9,7 +9,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.adhesion.detachment import StuckContact, mean_compliance
 from roughcontact.contact.problem import separation_of
-from sticking import rough
+from sticking import rough, sticky
 
 SHARP = rc.Adhesion(1.0, law="sharp")
 
@@ -165,6 +165,13 @@ def test_a_rough_surface_lets_go_at_the_same_depths_whatever_the_steps(periodic)
         if state.contact.any():
             tension = math.sqrt(2 * 0.01 / mean_compliance(surface.grid, 1.0))
             assert state.pressure.min() >= -tension * (1 + 1e-9)
+
+
+def test_only_on_a_plane_the_criterion_depends_on_the_direction():
+    for state in rc.loading_path(ball(20), 1.0, depths=[1.0, 0.5], adhesion=SHARP):
+        assert not state.directional
+    smooth = rc.press(rough(16, periodic=True, slope=0.2, seed=0), 1.0, depth=0.3, adhesion=sticky(2.0))
+    assert not smooth.directional
 
 
 @pytest.mark.parametrize("depths", [[1.0], [0.5, 1.0], [0.0, -1.0]])

@@ -37,10 +37,31 @@ def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
     largest = max(loop.jumps, key=lambda jump: jump.lost)
     assert written(largest.lost, "J") in [text.get_text() for text in axes.texts]
     # Between jumps lines are whole: no piece leads from before one to after it.
+    depths = np.concatenate(
+        [loop.depth, [each for jump in loop.jumps for each in (jump.depth, jump.depth_after)]]
+    )
+    forces = np.concatenate(
+        [loop.force, [each for jump in loop.jumps for each in (jump.force_before, jump.force_after)]]
+    )
+    known = np.stack([depths * NM, forces * UN], 1)
+    drawn = np.concatenate([line.get_xydata() for line in axes.lines if line.get_linestyle() == "-"][1:])
+    np.testing.assert_allclose(np.abs(drawn[:, None] - known).sum(axis=2).min(axis=1), 0, atol=1e-12)
     pieces = [line.get_xydata()[:, 1] / UN for line in axes.lines if line.get_linestyle() == "-"][1:]
     for jump in (each for each in loop.jumps if abs(each.force_after - each.force_before) > 1e-7):
         assert not any(jump.force_before in piece and jump.force_after in piece for piece in pieces)
     assert "pull-off" in axes.get_title()
+
+
+def test_the_contact_area_breaks_at_jumps(loop):
+    axes = rc.plot.jump_area(loop, Figure().subplots())
+    assert axes.get_xlabel() == "depth [nm]"
+    names = {line.get_label(): line.get_xydata() for line in axes.lines}
+    for name, way in (("approach", True), ("retreat", False)):
+        drawn = names[name]
+        expected = np.stack([loop.depth * NM, 100 * loop.contact_area / loop.nominal_area], 1)
+        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[loop.approach == way])
+        breaks = {at for at in loop.jumped if loop.approach[at] == way}
+        assert np.isnan(drawn).any(axis=1).sum() == len(breaks) > 0
 
 
 def test_what_a_force_pulls_off_has_no_point(loop):

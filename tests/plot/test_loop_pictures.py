@@ -28,6 +28,13 @@ def line():
     )
 
 
+def per_unit(label):
+    """Return how many of the units of an axis are in one of SI."""
+    unit = label[label.index("[") + 1 : label.index("]")]
+    factors = {"n": 1e9, "µ": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "G": 1e-9}
+    return 1.0 if unit in ("m", "N", "Pa", "N/m") else factors[unit[0]]
+
+
 @pytest.fixture(params=[plane, rings, line], scope="module")
 def loop(request):
     return request.param()
@@ -40,11 +47,16 @@ def test_force_against_depth_begins_and_ends_where_nothing_bears(loop):
     assert back[-1, 1] == again[0, 1] == 0
     assert back[-1, 0] == again[0, 0] > 0
     assert first[-1, 0] / back[-1, 0] == pytest.approx(loop.loading.depth[-1] / loop.residual_depth)
+    scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
+    assert scales[0] != scales[1]  # so that one cannot stand for the other
+    np.testing.assert_allclose(first[1:], np.stack([loop.loading.depth, loop.loading.force], 1) * scales)
     assert len(first) == len(back) == len(again) == len(loop.loading) + 1
 
 
 def test_the_stiffness_per_area_of_every_branch(loop):
     axes = loop.plot(Figure().subplots(), quantity="stiffness")
+    pressures = axes.lines[0].get_xdata() / per_unit(axes.get_xlabel())
+    np.testing.assert_allclose(pressures, loop.loading.nominal_pressure)
     turned, first, back, _ = (drawn.get_ydata() for drawn in axes.lines)
     assert (turned >= first * (1 - 1e-12)).all()
     assert turned[-1] == pytest.approx(back[0], rel=1e-6)
