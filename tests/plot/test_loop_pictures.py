@@ -69,6 +69,9 @@ def test_the_bearing_curve_is_cut_off(loop):
     before, after = (drawn.get_xydata() for drawn in axes.lines)
     assert before[-1, 0] == after[-1, 0] == 100
     assert after[0, 1] < before[0, 1]
+    share, heights = bearing_of(loop.surface)
+    above_mean = heights[[0, -1]] - np.average(heights, weights=np.diff(share, prepend=0.0))
+    np.testing.assert_allclose(before[[0, -1], 1], above_mean * per_unit(axes.get_ylabel()))
     assert (np.diff(after[:, 1]) <= 0).all()
 
 
@@ -84,6 +87,17 @@ def test_whole_figures_are_drawn(loop):
     for figure in (rc.plot.loop_figure(loop), rc.plot.flattened_figure(loop.surface, loop.flow)):
         figure.canvas.draw()
         assert len(figure.axes) >= 2
+
+
+@pytest.mark.parametrize("make", [rings, line])
+def test_lines_and_rings_are_drawn_before_and_after(make):
+    loop = make()
+    axes = rc.plot.flattened_figure(loop.surface, loop.flow).axes[0]
+    scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
+    assert scales[0] != scales[1]
+    for drawn, body in zip(axes.lines, (loop.surface, loop.flow.flatten(loop.surface)), strict=True):
+        expected = np.stack([body.grid.coordinates[0], body.heights], 1) * scales
+        np.testing.assert_allclose(drawn.get_xydata(), expected)
 
 
 def test_another_quantity_is_refused(loop):
