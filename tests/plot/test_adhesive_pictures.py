@@ -119,6 +119,21 @@ def test_a_contact_is_outlined_where_it_is():
     assert drawn == edges
 
 
+def test_a_profile_is_pressed_above_and_pulled_below_zero():
+    state = rc.press(BALL, 1e9, depth=5e-9, adhesion=STRONG)
+    axes = rc.plot.tension_profile(state, Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r [nm]", "pressure, tension negative [MPa]")
+    assert state.pressure.min() < 0 < state.pressure.max()
+    pressed, pulled = (stairs.get_data() for stairs in axes.patches)
+    np.testing.assert_allclose(pressed.values, np.maximum(state.pressure, 0) / 1e6)
+    np.testing.assert_allclose(pulled.values, np.minimum(state.pressure, 0) / 1e6)
+    np.testing.assert_allclose(pressed.edges, RINGS.edges * NM)
+    [bars] = [each for each in axes.collections if isinstance(each, LineCollection)]
+    touched = np.flatnonzero(state.contact)
+    ends = np.array([segment[:, 0] for segment in bars.get_segments()])
+    np.testing.assert_allclose(ends, np.stack([RINGS.edges[touched], RINGS.edges[touched + 1]], 1) * NM)
+
+
 def test_missing_cells_are_left_out():
     surface = rough(16, periodic=False, slope=0.2, seed=1)
     heights = surface.heights.copy()
