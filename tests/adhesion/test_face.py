@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -134,6 +135,27 @@ def test_a_state_becomes_a_dataset_and_a_record():
     assert dataset.sizes["jump"] == len(state.jumps) == len(record["jump_depth"])
     assert "tension" in dataset["pressure"].attrs["long_name"]
     assert all(values.attrs["long_name"] for values in dataset.values())
+
+
+def test_cells_apart_by_no_more_than_the_range_are_attracted():
+    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    reach = sticky(2.0).range
+    within = ~state.contact & (state.gap <= reach)
+    # There are cells of each kind, among them some between one range and two.
+    assert state.contact.any()
+    assert within.any()
+    assert ((state.gap > reach) & (state.gap <= 2 * reach)).any()
+    np.testing.assert_array_equal(state.attracted, within)
+
+
+def test_cells_in_contact_without_a_reaction_are_weakly_active():
+    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    assert not state.weakly_active.any()
+    held = tuple(np.argwhere(state.contact)[0])
+    pressure = state.pressure.copy()
+    pressure[held] = -sticky(2.0).strength  # all that the attraction has: the wall adds nothing
+    weak = replace(state, pressure=pressure).weakly_active
+    assert np.argwhere(weak).tolist() == [list(held)]
 
 
 def test_the_surface_of_a_state_is_read_back(tmp_path):

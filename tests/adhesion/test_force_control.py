@@ -77,8 +77,9 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
     ball, adhesion = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings), rc.Adhesion(work=10e-3, range=8e-9)
 
     def last_jump():
-        *_, off = rc.loading_path(ball, 1e8, forces=[0.0, -1e-6], adhesion=adhesion)
-        return off.jumps[-1]
+        curve = rc.loading_curve(ball, 1e8, forces=[0.0, -1e-6], adhesion=adhesion)
+        assert curve.ambiguous is curve.jumps[-1].ambiguous
+        return curve.jumps[-1]
 
     assert math.isinf(last_jump().lost)
     assert not last_jump().ambiguous

@@ -51,6 +51,28 @@ def test_some_of_these_surfaces_jump():
     assert any(not jump.approach for jump in jumps)
 
 
+def test_a_jump_by_less_than_the_range_is_recorded_with_what_it_loses():
+    rings = rc.RadialGrid.uniform(30, radius=6e-7)
+    ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    adhesion = rc.Adhesion(work=10e-3, range=2.5e-9, allow_unresolved=True)
+    loop = rc.adhesive_loop(ball, 1e8, adhesion, depth=10e-9, points=4)
+    edge = next(jump for jump in loop.jumps if not jump.approach)
+    beside = edge.depth + 4 * edge.bracket * np.array([1, -1])
+    _, before, after = path(ball, adhesion, [10e-9, *beside], modulus=1e8)
+    moved = np.abs(after.displacement - before.displacement).max()
+    assert 0.02 * adhesion.range < moved < 0.5 * adhesion.range
+    # A branch that went on would have changed the force by its slope times the step.
+    step, drop = beside[0] - beside[1], abs(after.force - before.force)
+    assert drop > 100 * before.stiffness * step
+    assert before.jumps == ()
+    [jump] = after.jumps
+    assert not jump.approach
+    # The force on the way is between that before and that after.
+    balance = before.energy - after.energy - before.force * step
+    assert jump.lost == pytest.approx(balance, abs=drop * step)
+    assert drop * step < 0.1 * jump.lost
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_slow_solver_that_cannot_leave_a_basin_finds_the_same_states(seed):
     surface, adhesion = rough(12, periodic=False, slope=0.3, seed=seed), sticky(1.5)

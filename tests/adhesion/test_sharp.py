@@ -1,14 +1,15 @@
 """The sharp law: Johnson, Kendall and Roberts, Kendall, and what is refused."""
 
 import math
+from copy import copy
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.adhesion.detachment import mean_compliance
+from roughcontact.adhesion.detachment import StuckContact, mean_compliance
 from roughcontact.contact.problem import separation_of
-from sticking import rough
+from sticking import rough, sticky
 
 SHARP = rc.Adhesion(1.0, law="sharp")
 
@@ -77,6 +78,39 @@ def test_energy_and_work_balance():
     assert missed < 0.03 * lost
 
 
+@pytest.mark.parametrize("by_force", [False, True])
+def test_what_an_event_loses_is_what_the_energy_falls_by(by_force):
+    """The elastic energy, the work of adhesion of the cells that hold and, under a force, the energy of its weight."""
+    surface = rough(16, periodic=False, slope=0.2, seed=0)
+    separation, work = separation_of(surface), np.full(surface.grid.shape, 1e-4)
+    deep = 0.4 * float(separation.mean())
+    stuck = StuckContact(
+        rc.half_space(surface.grid, 1.0),
+        separation,
+        rc.press(surface, 1.0, depth=deep).contact,
+        work,
+        mean_compliance(surface.grid, 1.0),
+    )
+
+    def energy(held, depth, force):
+        pressure, contact = held.pressure(depth)
+        elastic = 0.5 * float((pressure * np.where(contact, depth - separation, 0.0)).sum())
+        return elastic - float(work[contact].sum()) - (force * depth if by_force else 0.0)
+
+    start = stuck.force(deep) if by_force else deep
+    seen, before = 0, copy(stuck)
+    for event in stuck.drawn_back(start, -1e3, by_force):
+        if math.isinf(event.lost):
+            break
+        fall = energy(before, event.depth, event.force_before) - energy(
+            stuck, event.depth_after, event.force_before
+        )
+        # Rounding of energies that are thousands of times what is lost.
+        assert event.lost == pytest.approx(fall, rel=1e-6, abs=1e-12)
+        seen, before = seen + 1, copy(stuck)
+    assert seen > 5
+
+
 @pytest.mark.parametrize("cells", [24, 40])
 def test_kendalls_disc_comes_off_as_one(cells):
     disc = rc.shapes.flat_disc(rc.Grid((cells + 2, cells + 2), 2 / cells), radius=1.0)
@@ -131,6 +165,13 @@ def test_a_rough_surface_lets_go_at_the_same_depths_whatever_the_steps(periodic)
         if state.contact.any():
             tension = math.sqrt(2 * 0.01 / mean_compliance(surface.grid, 1.0))
             assert state.pressure.min() >= -tension * (1 + 1e-9)
+
+
+def test_only_on_a_plane_the_criterion_depends_on_the_direction():
+    for state in rc.loading_path(ball(20), 1.0, depths=[1.0, 0.5], adhesion=SHARP):
+        assert not state.directional
+    smooth = rc.press(rough(16, periodic=True, slope=0.2, seed=0), 1.0, depth=0.3, adhesion=sticky(2.0))
+    assert not smooth.directional
 
 
 @pytest.mark.parametrize("depths", [[1.0], [0.5, 1.0], [0.0, -1.0]])

@@ -10,6 +10,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.adhesion.attraction import Law
 from roughcontact.cli.adhesion_options import LawChoice
+from roughcontact.contact.adhesive_branches import AdhesiveLoop
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")
@@ -81,6 +82,15 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     lines = (tmp_path / "out" / "jumps.csv").read_text().splitlines()
     assert len([line for line in lines if not line.startswith("#")]) == 1 + len(curve.jumps)
     assert (tmp_path / "out" / "curve.png").stat().st_size > 1000
+
+
+def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
+    words = ("curve", rough, *FEW, *MODULUS, *STICKS)
+    answer = invoke(*words)
+    assert answer.exit_code == 0
+    assert "is ambiguous" not in answer.stderr
+    monkeypatch.setattr(AdhesiveLoop, "ambiguous", True)
+    assert "Note: a jump is ambiguous" in invoke(*words).stderr
 
 
 def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, rough):

@@ -84,6 +84,19 @@ def test_forces_that_the_grid_does_not_resolve_are_told_before_the_work(invoke, 
         assert "leave out --forces, and forces that suit the map are found" in answer.stderr
 
 
+def test_fewer_resolved_forces_than_a_power_law_takes_are_told(invoke, tmp_path, monkeypatch):
+    surface = rc.self_affine(rc.Grid((128, 128), 1e-6), 0.8, 1e-7, np.random.default_rng(3))
+    rc.write(surface, tmp_path / "map.npz")
+    found = rc.load_range(surface, 110e9)
+    small, between = 1e-3 * found.lowest, math.sqrt(found.lowest * found.highest)
+    words = ("curve", tmp_path / "map.npz", "--modulus", "110GPa", "--level", "none", "--forces")
+    monkeypatch.setattr(rc, "loading_path", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
+    for resolved, told in ((2, True), (3, False)):
+        forces = (small, 2 * small, *(between * 1.1**k for k in range(resolved)))
+        message = f"{resolved} of the {len(forces)} forces can be resolved by this grid (2 too small"
+        assert (message in invoke(*words, ",".join(map(str, forces))).stderr) is told
+
+
 def test_forces_that_are_resolved_are_not_talked_about(invoke, tmp_path):
     surface = rc.self_affine(rc.Grid((128, 128), 1e-6), 0.8, 1e-7, np.random.default_rng(3))
     rc.write(surface, tmp_path / "map.npz")

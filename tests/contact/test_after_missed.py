@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.notes import BEYOND
 
 MODULUS, HARDNESS = 2.0, 0.1
 FORCES = (0.002, 0.005, 0.01, 0.02)
@@ -97,3 +98,17 @@ def test_every_branch_of_a_loop_says_what_is_true_of_it(flow):
     assert not turn.converged
     assert not turn.unloading.resolved.any()
     assert rc.loading_loop(plane(), MODULUS, forces=FORCES, **given).converged
+
+
+def test_a_pressure_beyond_the_hardness_on_unloading_is_said():
+    """What flowed under a load that was missed is not known well enough for the surface to be elastic below it."""
+    unloaded = (MISSED, 0.99 * MISSED)
+    for missed, beyond in ((MISSED, True), (None, False)):
+        (_, state), _ = found(unloaded, missed=missed, hardness=HARDNESS)
+        assert bool(state.pressure.max() > (1 + BEYOND) * HARDNESS) is beyond
+        notes = [
+            note for note in state.notes if "beyond it: on these cells unloading is not quite elastic" in note
+        ]
+        assert len(notes) == beyond
+        if beyond:
+            assert f"is {state.pressure.max() / HARDNESS - 1:.1e} of the hardness" in notes[0]

@@ -337,6 +337,19 @@ def test_deep_into_full_contact_by_depths():
     assert all(one.status.converged or one.force == 0 for one in found)
 
 
+def test_a_flattened_surface_goes_no_deeper_than_full_contact():
+    """At a loose tolerance some cells overlap that have not flowed, so that it ends above the depth of the turn."""
+    surface = plane(True, (12, 16), seed=2)
+    deep = 1.7 * surface.heights.max()
+    given = {"hardness": 0.25 * MODULUS, "tolerance": 1e-3, "solver": rc.PolonskyKeer()}
+    top, again = rc.loading_path(surface, MODULUS, depths=[deep, deep], **given)
+    full = again.problem.mean_separation
+    assert full < deep * (1 - 1e-8)
+    assert top.depth == deep
+    assert again.depth == full
+    assert again.mean_gap >= -1e-15 * deep
+
+
 def test_the_flow_of_two_bodies_is_that_of_the_softer():
     soft, hard = plane(True, seed=1), plane(True, seed=2)
     both = rc.combined(soft, hard, turned_about=None)

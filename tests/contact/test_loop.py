@@ -100,6 +100,13 @@ def test_a_rise_is_lifted_by_the_force():
     assert raised.residual_depth == pytest.approx(plain.residual_depth - raised.flow.rise, rel=1e-7)
 
 
+def test_it_has_converged_if_every_load_has(loop):
+    assert loop.converged
+    missed = made(solver=rc.PolonskyKeer(max_steps=3))
+    assert not all(status.converged for status in missed.loading.status)
+    assert not missed.converged
+
+
 def test_a_rise_whose_work_the_loads_do_not_tell_leaves_the_energy_open():
     """Two loads far up: half of the force times the rise is more than a hundredth of the energy."""
     loop = made("raised", forces=0.5 * HARDNESS * plane().grid.area * np.array([0.5, 1.0]))

@@ -155,6 +155,33 @@ def test_a_load_that_the_grid_does_not_resolve_has_a_remedy(ask):
     assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["advice"] == ""
 
 
+def test_reduced_maps_keep_the_highest_pressure_and_the_lowest_gap(ask, file):
+    said = ask(press, load={"control": "force", "text": "0.3 N"}, pixels=16)
+    maps = {header["map"]: np.frombuffer(data, "<f4") for header, data in said if header["type"] == "map"}
+    solution = rc.press(
+        rc.read(file.path).levelled("plane"),
+        rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"])),
+        force=0.3,
+    )
+    for name, extreme in (("pressure", np.max), ("gap", np.min)):
+        blocks = getattr(solution, name).reshape(16, 6, 16, 6)
+        np.testing.assert_array_equal(maps[name].reshape(16, 16), extreme(blocks, axis=(1, 3)).astype("<f4"))
+
+
+def test_sliders_go_from_a_light_load_to_a_heavy_one(ask, file):
+    surface = rc.read(file.path).levelled("plane")
+    modulus = rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"]))
+    [span] = of(ask(press), "span")
+    # From a thousandth of the rms height to ten of them: the highest point of a surface stands no higher.
+    np.testing.assert_allclose(span["depth"], np.array([1e-3, 10, 1]) * surface.rms, rtol=1e-12)
+    assert span["depth"][1] < 100 * surface.rms
+    np.testing.assert_allclose(span["force"], np.array(span["pressure"]) * surface.grid.area, rtol=1e-12)
+    most = span["pressure"][1]
+    assert span["pressure"] == pytest.approx([most / 2e6, most, most / 200], rel=1e-12)
+    # At the upper end the pressure is of the order of the modulus times the slope: nearly all is in contact.
+    assert rc.press(surface, modulus, pressure=most).contact_fraction > 0.9
+
+
 @pytest.mark.parametrize("axis", ["row", "column"])
 def test_a_cut_is_a_line_of_the_solution(ask, file, axis):
     load = {"control": "force", "text": "0.3 N"}

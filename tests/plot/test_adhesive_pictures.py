@@ -12,40 +12,67 @@ from sticking import rough, sticky
 
 RINGS = rc.RadialGrid.uniform(30, radius=6e-7)
 BALL = rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS)
-STRONG = rc.Adhesion(work=10e-3, range=2.5e-9, allow_unresolved=True)
+STRONG = rc.Adhesion(work=0.1, range=2.5e-9, allow_unresolved=True)
+NM, UN = 1e9, 1e6  # depths are drawn in nanometres, forces in micronewtons
 
 
 @pytest.fixture(scope="module")
 def loop():
-    return rc.adhesive_loop(BALL, 1e8, STRONG, depth=10e-9, points=8)
+    return rc.adhesive_loop(BALL, 1e9, STRONG, depth=10e-9, points=8)
 
 
 def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
     axes = loop.plot(Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [nm]", "force [µN]")
     names = {line.get_label(): line for line in axes.lines}
     for name, way in (("approach", True), ("retreat", False)):
         drawn = names[name].get_xydata()
-        np.testing.assert_allclose(drawn[:, 0], loop.depth[loop.approach == way] * 1e9)
-        np.testing.assert_allclose(drawn[:, 1], loop.force[loop.approach == way] * 1e9)
+        np.testing.assert_allclose(drawn[:, 0], loop.depth[loop.approach == way] * NM)
+        np.testing.assert_allclose(drawn[:, 1], loop.force[loop.approach == way] * UN)
     dashed = [line.get_xydata() for line in axes.lines if line.get_linestyle() == "--"]
     assert len(dashed) == len(loop.jumps) > 1
     for ends, jump in zip(dashed, loop.jumps, strict=True):
-        np.testing.assert_allclose(ends[:, 1], np.array([jump.force_before, jump.force_after]) * 1e9)
+        np.testing.assert_allclose(ends[:, 0], np.array([jump.depth, jump.depth_after]) * NM)
+        np.testing.assert_allclose(ends[:, 1], np.array([jump.force_before, jump.force_after]) * UN)
     largest = max(loop.jumps, key=lambda jump: jump.lost)
     assert written(largest.lost, "J") in [text.get_text() for text in axes.texts]
     # Between jumps lines are whole: no piece leads from before one to after it.
-    pieces = [line.get_xydata()[:, 1] / 1e9 for line in axes.lines if line.get_linestyle() == "-"][1:]
-    for jump in (each for each in loop.jumps if abs(each.force_after - each.force_before) > 1e-8):
+    depths = np.concatenate(
+        [loop.depth, [each for jump in loop.jumps for each in (jump.depth, jump.depth_after)]]
+    )
+    forces = np.concatenate(
+        [loop.force, [each for jump in loop.jumps for each in (jump.force_before, jump.force_after)]]
+    )
+    known = np.stack([depths * NM, forces * UN], 1)
+    drawn = np.concatenate([line.get_xydata() for line in axes.lines if line.get_linestyle() == "-"][1:])
+    np.testing.assert_allclose(np.abs(drawn[:, None] - known).sum(axis=2).min(axis=1), 0, atol=1e-12)
+    pieces = [line.get_xydata()[:, 1] / UN for line in axes.lines if line.get_linestyle() == "-"][1:]
+    for jump in (each for each in loop.jumps if abs(each.force_after - each.force_before) > 1e-7):
         assert not any(jump.force_before in piece and jump.force_after in piece for piece in pieces)
     assert "pull-off" in axes.get_title()
 
 
+def test_the_contact_area_breaks_at_jumps(loop):
+    axes = rc.plot.jump_area(loop, Figure().subplots())
+    assert axes.get_xlabel() == "depth [nm]"
+    names = {line.get_label(): line.get_xydata() for line in axes.lines}
+    for name, way in (("approach", True), ("retreat", False)):
+        drawn = names[name]
+        expected = np.stack([loop.depth * NM, 100 * loop.contact_area / loop.nominal_area], 1)
+        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[loop.approach == way])
+        breaks = {at for at in loop.jumped if loop.approach[at] == way}
+        assert np.isnan(drawn).any(axis=1).sum() == len(breaks) > 0
+
+
 def test_what_a_force_pulls_off_has_no_point(loop):
-    path = rc.loading_curve(BALL, 1e8, forces=[0.0, 4e-7, -1e-6], adhesion=STRONG)
+    path = rc.loading_curve(BALL, 1e9, forces=[0.0, 4e-6, -1e-5], adhesion=STRONG)
     axes = path.plot(Figure().subplots())
     assert "then pulled off" in axes.get_title()
     assert "pulled off" in [text.get_text() for text in axes.texts]
     assert all(np.isfinite(line.get_xydata()).all() for line in axes.lines)
+    [off] = [jump for jump in path.jumps if np.isinf(jump.lost)]
+    *_, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == "--")
+    np.testing.assert_allclose(last[0], (off.depth * NM, off.force_before * UN))
     rc.plot.jump_figure(path).canvas.draw()
 
 
@@ -67,6 +94,46 @@ def test_a_map_has_zero_in_the_middle_and_outlines_the_contact(state):
     assert len(outline.get_segments()) == edges > 0
 
 
+def test_a_contact_is_outlined_where_it_is():
+    """On cells and a map that are not square, and a contact that is off the diagonal."""
+    grid = rc.Grid((12, 20), (3e-8, 2e-8))
+    y, x = (along - along[at] for along, at in zip(grid.coordinates, (3, 13), strict=True))
+    ball = rc.Surface(-(y[:, None] ** 2 + (x / 2) ** 2) / 2e-5, grid)
+    state = rc.press(ball, 1e8, depth=1e-9, adhesion=rc.Adhesion(0.01, 4e-9, allow_unresolved=True))
+    axes = rc.plot.tension_map(state, Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [nm]", "y [nm]")
+    [outline] = [each for each in axes.collections if isinstance(each, LineCollection)]
+    drawn = {tuple(sorted((round(a), round(b)) for a, b in ends)) for ends in outline.get_segments()}
+    edges = set()
+    for row, column in np.argwhere(state.contact):
+        top, left = 30 * int(row), 20 * int(column)
+        bottom, right = top + 30, left + 20
+        for end in (
+            ((left, top), (right, top)),
+            ((left, bottom), (right, bottom)),
+            ((left, top), (left, bottom)),
+            ((right, top), (right, bottom)),
+        ):
+            edges ^= {end}  # an edge between two cells in contact is none of the outline
+    assert 4 < state.contact.sum() < grid.size
+    assert drawn == edges
+
+
+def test_a_profile_is_pressed_above_and_pulled_below_zero():
+    state = rc.press(BALL, 1e9, depth=5e-9, adhesion=STRONG)
+    axes = rc.plot.tension_profile(state, Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r [nm]", "pressure, tension negative [MPa]")
+    assert state.pressure.min() < 0 < state.pressure.max()
+    pressed, pulled = (stairs.get_data() for stairs in axes.patches)
+    np.testing.assert_allclose(pressed.values, np.maximum(state.pressure, 0) / 1e6)
+    np.testing.assert_allclose(pulled.values, np.minimum(state.pressure, 0) / 1e6)
+    np.testing.assert_allclose(pressed.edges, RINGS.edges * NM)
+    [bars] = [each for each in axes.collections if isinstance(each, LineCollection)]
+    touched = np.flatnonzero(state.contact)
+    ends = np.array([segment[:, 0] for segment in bars.get_segments()])
+    np.testing.assert_allclose(ends, np.stack([RINGS.edges[touched], RINGS.edges[touched + 1]], 1) * NM)
+
+
 def test_missing_cells_are_left_out():
     surface = rough(16, periodic=False, slope=0.2, seed=1)
     heights = surface.heights.copy()
@@ -77,7 +144,7 @@ def test_missing_cells_are_left_out():
 
 
 def test_whole_figures_are_drawn(loop, state):
-    on_rings = rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG)
+    on_rings = rc.press(BALL, 1e9, depth=0.0, adhesion=STRONG)
     for figure in (rc.plot.jump_figure(loop), rc.plot.state_figure(state), rc.plot.state_figure(on_rings)):
         figure.canvas.draw()
     assert "stability" in rc.plot.state_figure(state).axes[0].get_title()

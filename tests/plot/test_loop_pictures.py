@@ -28,6 +28,13 @@ def line():
     )
 
 
+def per_unit(label):
+    """Return how many of the units of an axis are in one of SI."""
+    unit = label[label.index("[") + 1 : label.index("]")]
+    factors = {"n": 1e9, "µ": 1e6, "m": 1e3, "k": 1e-3, "M": 1e-6, "G": 1e-9}
+    return 1.0 if unit in ("m", "N", "Pa", "N/m") else factors[unit[0]]
+
+
 @pytest.fixture(params=[plane, rings, line], scope="module")
 def loop(request):
     return request.param()
@@ -40,11 +47,16 @@ def test_force_against_depth_begins_and_ends_where_nothing_bears(loop):
     assert back[-1, 1] == again[0, 1] == 0
     assert back[-1, 0] == again[0, 0] > 0
     assert first[-1, 0] / back[-1, 0] == pytest.approx(loop.loading.depth[-1] / loop.residual_depth)
+    scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
+    assert scales[0] != scales[1]  # so that one cannot stand for the other
+    np.testing.assert_allclose(first[1:], np.stack([loop.loading.depth, loop.loading.force], 1) * scales)
     assert len(first) == len(back) == len(again) == len(loop.loading) + 1
 
 
 def test_the_stiffness_per_area_of_every_branch(loop):
     axes = loop.plot(Figure().subplots(), quantity="stiffness")
+    pressures = axes.lines[0].get_xdata() / per_unit(axes.get_xlabel())
+    np.testing.assert_allclose(pressures, loop.loading.nominal_pressure)
     turned, first, back, _ = (drawn.get_ydata() for drawn in axes.lines)
     assert (turned >= first * (1 - 1e-12)).all()
     assert turned[-1] == pytest.approx(back[0], rel=1e-6)
@@ -57,6 +69,9 @@ def test_the_bearing_curve_is_cut_off(loop):
     before, after = (drawn.get_xydata() for drawn in axes.lines)
     assert before[-1, 0] == after[-1, 0] == 100
     assert after[0, 1] < before[0, 1]
+    share, heights = bearing_of(loop.surface)
+    above_mean = heights[[0, -1]] - np.average(heights, weights=np.diff(share, prepend=0.0))
+    np.testing.assert_allclose(before[[0, -1], 1], above_mean * per_unit(axes.get_ylabel()))
     assert (np.diff(after[:, 1]) <= 0).all()
 
 
@@ -72,6 +87,17 @@ def test_whole_figures_are_drawn(loop):
     for figure in (rc.plot.loop_figure(loop), rc.plot.flattened_figure(loop.surface, loop.flow)):
         figure.canvas.draw()
         assert len(figure.axes) >= 2
+
+
+@pytest.mark.parametrize("make", [rings, line])
+def test_lines_and_rings_are_drawn_before_and_after(make):
+    loop = make()
+    axes = rc.plot.flattened_figure(loop.surface, loop.flow).axes[0]
+    scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
+    assert scales[0] != scales[1]
+    for drawn, body in zip(axes.lines, (loop.surface, loop.flow.flatten(loop.surface)), strict=True):
+        expected = np.stack([body.grid.coordinates[0], body.heights], 1) * scales
+        np.testing.assert_allclose(drawn.get_xydata(), expected)
 
 
 def test_another_quantity_is_refused(loop):

@@ -93,6 +93,9 @@ def test_marks_and_cells_are_drawn_where_they_are(draw, window):
     rows, columns = np.nonzero(~np.ma.getmaskarray(np.ma.masked_invalid(axes.images[-1].get_array())))
     first = (0, 0) if window is None else (80, 256)
     assert [*zip(rows + first[0], columns + first[1], strict=True)] == cells
+    if draw is pressure_map:  # marks have the colours of their cells
+        drawn = np.asarray(axes.images[-1].get_array())[rows, columns]
+        np.testing.assert_allclose(np.sort(marks.get_array()), np.sort(drawn), rtol=1e-14)
 
 
 def test_a_frame_lies_on_the_edges_of_its_cells():

@@ -37,6 +37,16 @@ def test_it_shows_the_stress_in_its_place(solution):
     assert axes.get_ylabel() == "depth [µm]"
 
 
+def test_columns_lie_where_they_are_on_cells_that_are_not_square():
+    grid = rc.Grid((40, 31), (1e-6, 2e-6))
+    y, x = (c - length / 2 for c, length in zip(grid.coordinates, grid.lengths, strict=True))
+    ball = rc.Surface(-(y[:, None] ** 2 + x**2) / 2e-3, grid)
+    solution = rc.press(ball, 1e11, force=0.05)
+    left, right, *_ = image_of(von_mises_section(solution, 0.3, Figure().subplots())).get_extent()
+    loaded = np.flatnonzero(solution.contact.any(axis=0))
+    assert (left + right) / 2 == pytest.approx((loaded[0] + loaded[-1] + 1) / 2 * 2.0, abs=2.0)  # um
+
+
 def test_it_marks_the_largest_and_the_cells_in_contact(solution):
     axes = Figure().subplots()
     von_mises_section(solution, 0.3, axes)

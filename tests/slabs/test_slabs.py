@@ -1,15 +1,19 @@
 """One surface in slabs: the same answers as in one process, on any number of them."""
 
 import math
+import threading
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact.cli import run_memory
+from roughcontact.contact.memory_model import share_peak
 from roughcontact.contact.spots import find_spots
 from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
+from roughcontact.contact.touch import ERROR, require_memory_for_load
 from roughcontact.kernels import buffers
+from roughcontact.memory import SMALL
 from roughcontact.slabs import exchange, levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
 from roughcontact.slabs.slab_array import SlabArray
@@ -431,3 +435,23 @@ def test_what_does_not_fit_is_refused_on_all_processes(processes, monkeypatch):
     assert (
         f"this load on 256 x 256 cells, held by {processes} processes of which {processes} share" in told[0]
     )
+
+
+@pytest.mark.parametrize("machines", ["abc", "aba"])
+def test_memory_is_that_of_the_processes_that_share_a_machine(machines, monkeypatch):
+    """Each process takes two thirds of a machine: one fits, two do not, and then none begins."""
+    surface, names, told = rough((256, 256)), {}, []
+    share = max(share_peak(math.ceil(256 / 3) * 256, curve=False), SMALL * ERROR)
+    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 1.5 * share / ERROR)
+    monkeypatch.setattr("platform.node", lambda: names[threading.get_ident()])
+
+    def work(communicator):
+        names[threading.get_ident()] = machines[communicator.rank]
+        try:
+            require_memory_for_load(in_slabs(surface, communicator), 1e9, rc.Force(1.0))
+        except ValueError as error:
+            told.append(str(error))
+
+    together(3, work)
+    assert len(told) == (3 if machines == "aba" else 0)
+    assert all("held by 3 processes of which 2 share this machine" in words for words in told)

@@ -220,3 +220,21 @@ def test_where_lines_have_no_coarser_cells_a_guess_is_no_pressure():
     body = rc.line(rc.Grid((64,), 1.0), 1.0)
     found, depth = nested_start(body, separation, Depth(0.5), rc.ActiveSet())
     assert (found.shape, found.any(), depth) == ((64,), False, 0.0)
+
+
+def test_on_coarse_cells_a_depth_is_as_far_from_full_contact():
+    """Blocks of cells stand higher: at the depth that is given they would be in full contact, or beyond it."""
+    grid = rc.Grid((64, 96), 1.0, periodic=True)
+    surface = rc.self_affine(grid, hurst=0.5, rms=0.3, rng=np.random.default_rng(1))
+    mean, parts, coarse = float(surface.heights.max() - surface.heights.mean()), [], []
+
+    class Watched:
+        def run(self, operator, separation, terms, initial):
+            parts.append(terms.depth / separation.mean())
+            coarse.append(0.999 * mean / separation.mean())
+            return rc.ActiveSet().run(operator, separation, terms, initial)
+
+    rc.press(surface, 1.0, depth=0.999 * mean, solver=Watched())
+    assert len(parts) > 1
+    assert parts == pytest.approx([0.999] * len(parts), rel=1e-12)
+    assert max(coarse) > 1
