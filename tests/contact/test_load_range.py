@@ -225,6 +225,15 @@ def test_as_many_loads_as_are_wanted(count):
     assert (np.diff(forces) > 0).all()
 
 
+@pytest.mark.parametrize(("cells", "count"), [(64, 7), (64, 12), (128, 7)])
+def test_few_loads_over_a_wide_range_are_no_narrow_range(cells, count):
+    grid = rc.Grid((cells, cells), 1e-6)
+    surface = rc.self_affine(grid, 0.8, 1e-7, np.random.default_rng(0), short_cutoff=8e-6)
+    found = rc.load_range(surface, 1e9, count=count)
+    assert found.highest > 10 * found.lowest
+    assert not any("less than a power law takes" in note for note in found.notes)
+
+
 def test_refusals():
     surface = rough(16)
     with pytest.raises(ValueError, match="flat surface"):

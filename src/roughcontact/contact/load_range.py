@@ -32,7 +32,6 @@ __all__ = ["LoadRange", "load_range"]
 FORCES = 24
 FORCES_BELOW = 4  # of these below the range, within a decade
 DIGITS = 3  # of the forces: fewer than those in which machines agree on the stiffness by far
-LEAST_RESOLVED = 10  # loads
 STEEP = 0.6  # rms slope: asperities then bear about 0.4 of it times E*, half of what ends elasticity here
 ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
 
@@ -209,8 +208,7 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
             f"Spots have fewer than {SPOT_CELLS} cells {where}: contact area and pressure are those of the grid there, "
             "the stiffness hardly; for them take a finer map."
         )
-    resolved = int(np.count_nonzero((forces >= low) & (forces <= high)))
-    if low < high and resolved >= LEAST_RESOLVED and high >= DECADE * low:
+    if low < high and high >= DECADE * low:
         return
     few = CELLS * cell_stiffness(search.problem.operator)
     if few >= FULL_CONTACT_SHARE * full_contact_stiffness(search.problem):

@@ -17,8 +17,8 @@ import numpy as np
 from roughcontact.files.choice import marked
 from roughcontact.files.file_bounds import require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.heightmap import Channel, HeightMap, pick
 from roughcontact.files.foreign import lacking
+from roughcontact.files.heightmap import Channel, HeightMap, pick
 from roughcontact.files.length_units import is_length, length_factor
 
 __all__ = ["list_container", "read_container"]

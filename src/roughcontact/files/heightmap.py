@@ -180,7 +180,9 @@ def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
         problem = "several channels may be heights" if heights else "no channel is a map of heights"
         remedy = "give a file with a map of heights"
         if channels:
-            remedy = f"pass channel= with the name of {'one of them' if heights else f'the heights, or {remedy}'}"
+            remedy = (
+                f"pass channel= with the name of {'one of them' if heights else f'the heights, or {remedy}'}"
+            )
         raise ContentError(f"{problem}: {describe(channels) or 'it has none'}", remedy)
     if isinstance(wanted, int):
         if 0 <= wanted < len(channels):

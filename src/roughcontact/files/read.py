@@ -35,7 +35,8 @@ def read(
 
     ``.npy``, ``.npz``, ``.txt``, ``.csv``, ``.tsv``, ``.asc``, ``.grd``, ``.xyz``, ``.x3p``, ``.nc``, ``.sur``,
     ``.sdf``, ``.tmd``, ``.gsf``, ``.gwy`` and ``.zip`` (of contact.engineering) are read strictly; ``.tif`` and every
-    other format need SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a profile is refused: see `read_line`.
+    other format need SurfaceTopography, ``pip install roughcontact[formats]``. A file that holds a profile is refused:
+    see `read_line`.
 
     Parameters
     ----------
