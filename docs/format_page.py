@@ -49,8 +49,9 @@ def _own() -> list[tuple[str, str]]:
     """Return the endings of each reader of ours, and what its module says."""
     endings: dict[str, list[str]] = {}
     for ending, reader in READERS.items():
-        # A reader of a single map stands within the function that chooses it.
-        read = getclosurevars(reader.read).nonlocals.get("read", reader.read)
+        # A reader of a single map stands within the function that chooses it, one of an archive within a partial.
+        function = getattr(reader.read, "func", reader.read)
+        read = getclosurevars(function).nonlocals.get("read", function)
         endings.setdefault(getmodule(read).__doc__, []).append(ending)
     return [(_code(found), _sentence(about)) for about, found in endings.items()]
 
