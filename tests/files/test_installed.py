@@ -49,7 +49,7 @@ def test_without_what_it_requires_the_command_installs_the_whole(monkeypatch):
     def requires(name):
         raise PackageNotFoundError(name)
 
-    monkeypatch.setattr("roughcontact.files.installed.requires", requires)
+    monkeypatch.setattr("importlib.metadata.requires", requires)
     monkeypatch.setitem(sys.modules, "h5py", None)
     assert broken_package(caught("import h5py")).endswith('install "roughcontact"')
 

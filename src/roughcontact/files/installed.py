@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import sys
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, requires
 
 from roughcontact.files.own_errors import PACKAGE, raised_in
 
@@ -48,6 +47,8 @@ def broken_package(error: BaseException) -> str | None:
 
 def _command(module: str, options: str = "") -> str:
     """Return the command that installs the package of a module, or all that is lacking where we do not require it."""
+    from importlib.metadata import PackageNotFoundError, requires  # late: it brings the parser of e-mails
+
     try:
         required = requires(PACKAGE) or []
     except PackageNotFoundError:  # run from its source

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from types import SimpleNamespace
 from typing import Any
-from xml.sax.saxutils import escape
 
 import numpy as np
 import numpy.typing as npt
@@ -316,4 +315,6 @@ def _written(surface: Surface, digest: str) -> str:
 
 def _plain(text: str) -> str:
     """Return a text for XML, without the control characters that it must not hold."""
+    from xml.sax.saxutils import escape  # late: it brings the library of web addresses
+
     return escape("".join(c if c.isprintable() else " " for c in text))
