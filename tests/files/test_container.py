@@ -92,6 +92,30 @@ def test_one_measurement_needs_no_channel(put):
     np.testing.assert_allclose(surface.heights, HEIGHTS * 1e-6, rtol=1e-15)
 
 
+def npz(values):
+    stream = io.BytesIO()
+    np.savez(stream, heights=values, unit="um", spacing=(5e-7, 5e-7), periodic=(True, False))
+    return stream.getvalue()
+
+
+def test_what_the_index_leaves_open_is_what_the_file_states(put):
+    silent = {"name": "map", "datafile": {"original": "c.npz"}}
+    surface = rc.read(put("part.zip", container([silent], {"c.npz": npz(HEIGHTS)})))
+    assert surface.grid.periodic == (True, False)
+    free = silent | {"is_periodic": False}
+    assert rc.read(put("free.zip", container([free], {"c.npz": npz(HEIGHTS)}))).grid.periodic == (
+        False,
+        False,
+    )
+
+
+def test_only_the_chosen_file_is_read(put):
+    path = put("part.zip", container([PREPARED, UPLOADED], {"a.nc": b"no NetCDF", "b.npy": npy(HEIGHTS)}))
+    assert rc.read(path, channel="right").grid.shape == HEIGHTS.shape
+    with pytest.raises(rc.ReadError, match="not a NetCDF file"):
+        rc.read(path, channel="left")
+
+
 def test_the_library_writes_a_container_that_is_read(put, tmp_path):
     pytest.importorskip("SurfaceTopography")
     from SurfaceTopography import Topography

@@ -17,7 +17,7 @@ import numpy as np
 from roughcontact.files.choice import marked
 from roughcontact.files.file_bounds import require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.foreign import lacking
+from roughcontact.files.foreign import without_reader
 from roughcontact.files.heightmap import Channel, HeightMap, pick
 from roughcontact.files.length_units import is_length, length_factor
 
@@ -51,9 +51,12 @@ class _Measurement:
 def read_container(data: bytes, channel: str | int | None, *, reader: Reader) -> HeightMap:
     """Return one measurement; the `reader` reads a file of the archive by its extension."""
     with _opened(data) as (archive, measurements):
-        channels = _channels(archive, measurements, reader)
-        chosen = measurements[pick(channels, channel)]
-        return replace(_read(archive, chosen, reader), channel=channels[measurements.index(chosen)].name)
+        names = marked([Channel(one.name, (), None, None, True) for one in measurements])
+        try:
+            place = pick([replace(name, is_height=True) for name in names], channel)
+        except ContentError:  # which of them are maps, their files say
+            place = pick(_channels(archive, measurements, reader), channel)
+        return replace(_read(archive, measurements[place], reader), channel=names[place].name)
 
 
 def list_container(data: bytes, *, reader: Reader) -> tuple[Channel, ...]:
@@ -90,7 +93,7 @@ def _read(archive: zipfile.ZipFile, measurement: _Measurement, reader: Reader) -
     if scale != 1.0:
         notes = (*notes, f"heights times {scale:g}, as the container states")
         found = replace(found, heights=found.heights * scale)
-    return replace(found, periodic=bool(stated.get("is_periodic", found.periodic)), notes=notes)
+    return replace(found, periodic=stated.get("is_periodic", found.periodic), notes=notes)
 
 
 @contextmanager
@@ -119,7 +122,7 @@ def _index(archive: zipfile.ZipFile) -> Any:
     try:
         import yaml
     except ImportError as error:
-        raise lacking("yaml", error) from error
+        raise without_reader("yaml", error) from error
     loader: Any = type("Loader", (yaml.SafeLoader,), {})
     # Older containers hold tuples of Python.
     loader.add_constructor("tag:yaml.org,2002:python/tuple", loader.construct_sequence)

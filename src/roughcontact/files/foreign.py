@@ -26,7 +26,7 @@ from roughcontact.files.matlab import require_whole
 from roughcontact.files.nanoscope import height_factors
 from roughcontact.validation import Array
 
-__all__ = ["NOT_FOREIGN", "lacking", "list_foreign", "read_foreign", "unlogged"]
+__all__ = ["NOT_FOREIGN", "list_foreign", "read_foreign", "unlogged", "without_reader"]
 
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
@@ -98,7 +98,7 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     try:
         from SurfaceTopography.IO import open_topography
     except ImportError as error:
-        raise lacking("SurfaceTopography", error) from error
+        raise without_reader("SurfaceTopography", error) from error
     # Bytes in memory leave no open file behind when a reader gives up half-way.
     stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
     try:
@@ -121,7 +121,7 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
         raise ContentError(f"it cannot be read ({_brief(error)})", hint + _REMEDY) from error
 
 
-def lacking(package: str, error: Exception, otherwise: str = "") -> ContentError:
+def without_reader(package: str, error: Exception, otherwise: str = "") -> ContentError:
     """Return the error about a package that cannot be imported, with the command that installs it."""
     wanted = package if package == "imagecodecs" else "'roughcontact[formats]'"
     return ContentError(

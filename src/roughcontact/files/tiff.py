@@ -16,7 +16,7 @@ from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.foreign import lacking, list_foreign, read_foreign, unlogged
+from roughcontact.files.foreign import list_foreign, read_foreign, unlogged, without_reader
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, line_if_one_row
 
 __all__ = ["list_tiff", "read_tiff"]
@@ -92,7 +92,7 @@ def _pages(data: bytes) -> Iterator[list[Any] | None]:
     try:
         import tifffile
     except ImportError as error:
-        raise lacking("tifffile", error) from error
+        raise without_reader("tifffile", error) from error
     with unlogged():
         try:
             with np.errstate(all="ignore"), tifffile.TiffFile(BoundedStream(data, "surface.tiff")) as opened:
@@ -167,7 +167,7 @@ def _numbers(page: Any, size: int) -> npt.NDArray[Any]:
     except ValueError as error:
         if "imagecodecs" not in str(error):
             raise
-        raise lacking("imagecodecs", error, "save it without compression, or ") from error
+        raise without_reader("imagecodecs", error, "save it without compression, or ") from error
     if values.shape != shape:
         raise ContentError(f"it holds {values.shape} points where its header states {shape}", _AGAIN)
     return values
