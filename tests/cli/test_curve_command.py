@@ -429,9 +429,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    said = (
-        "stopped: 2 of 4 loads are computed; compute the others with --forces 4e-06,8e-06, and another --out"
-    )
+    said = "stopped: 2 of 4 loads are computed; compute the others with --forces 4e-06,8e-06, and a new --out"
     assert said in answer.stderr
     assert said in json.loads((tmp_path / "out" / "curve.json").read_text())["notes"][-1]
     kept = rc.read_curve(tmp_path / "out" / "curve.nc")

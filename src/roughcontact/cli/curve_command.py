@@ -215,12 +215,10 @@ def curve(
             left = loads[len(computed) :]
             if left.size:
                 rest = ",".join(f"{load:.12g}" for load in left)
-                folder_of_its_own = (
-                    "" if folder is None else ", and another --out than this one, which it replaces"
-                )
+                elsewhere = "" if folder is None else ", and a new --out: this folder would be replaced"
                 notes += (
                     f"stopped: {len(computed)} of {loads.size} loads are computed; compute the others with "
-                    f"--{name} {rest}{folder_of_its_own}",
+                    f"--{name} {rest}{elsewhere}",
                 )
             per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
