@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import struct
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,9 +14,10 @@ from roughcontact.kernels.distributed import local
 
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
-    from roughcontact.kernels.team import Team
 
 __all__ = ["Function", "Operand", "address"]
+
+Run: TypeAlias = Callable[[int, bytes, int], None]
 
 
 class Operand:
@@ -47,8 +48,8 @@ class Function:
     parameters : sequence of Parameter
     place : int
         Its address.
-    team : Team
-        The threads that run it.
+    run : function of place, packed arguments and number of threads
+        What runs it.
 
     Raises
     ------
@@ -57,10 +58,10 @@ class Function:
         the kernel's or they do not lie one after the other, or a single number is none.
     """
 
-    __slots__ = ("_arrays", "_pack", "_place", "_team", "name")
+    __slots__ = ("_arrays", "_pack", "_place", "_run", "name")
 
-    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, team: Team) -> None:
-        self.name, self._place, self._team = name, place, team
+    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, run: Run) -> None:
+        self.name, self._place, self._run = name, place, run
         self._arrays = [np.dtype(p.dtype) if p.array else None for p in parameters]
         self._pack = struct.Struct("=" + "".join(p.slot for p in parameters)).pack
 
@@ -82,7 +83,7 @@ class Function:
             )
         except (TypeError, struct.error) as error:
             raise TypeError(f"{self.name}: {error}") from None
-        self._team.run(self._place, packed, workers)
+        self._run(self._place, packed, workers)
 
 
 def _address(given: Any, wanted: np.dtype[Any]) -> int:

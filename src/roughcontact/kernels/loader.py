@@ -185,7 +185,7 @@ def _loaded(code: bytes, kernels: Mapping[str, KernelDefinition], precision: str
     if not _TEAM:
         _TEAM.append(Team(lead, serve))
     return {
-        kernel.name: Function(kernel.name, kernel.parameters(precision), place, _TEAM[0])
+        kernel.name: Function(kernel.name, kernel.parameters(precision), place, _TEAM[0].run)
         for kernel, place in zip(kernels.values(), places, strict=True)
     }
 

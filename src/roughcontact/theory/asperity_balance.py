@@ -10,16 +10,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.theory.asperity_set import Asperities
 from roughcontact.theory.tools.roots import concave_root
 from roughcontact.validation import Array, require
-
-if TYPE_CHECKING:
-    from roughcontact.theory.asperities import Asperities
 
 __all__ = ["balance", "independent_depth"]
 
