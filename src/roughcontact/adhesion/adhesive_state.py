@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.detachment import Detachment
@@ -22,7 +23,6 @@ from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
-from roughcontact.pictures import plot_state, state_html
 from roughcontact.solver.control import Status
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -270,8 +270,8 @@ class AdhesiveState:
 
         return state_record(self)
 
-    plot = plot_state
-    _repr_html_ = state_html
+    plot = methods.plot_state
+    _repr_html_ = methods.state_html
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

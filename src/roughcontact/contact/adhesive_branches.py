@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import adhesive_loop_html, plot_adhesive_loop
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, Mask
 
@@ -193,8 +193,8 @@ class AdhesiveLoop:
 
         return adhesive_loop_record(self)
 
-    plot = plot_adhesive_loop
-    _repr_html_ = adhesive_loop_html
+    plot = methods.jump_loop
+    _repr_html_ = methods.adhesive_loop_html
 
 
 def collect_states(states: Iterable[AdhesiveState], loads: Array) -> AdhesiveLoop:

@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
-from roughcontact.contact.dataset import curve_dataframe, curve_dataset, curve_record
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import CURVE_POINTS, force_unit, unit_of
-from roughcontact.pictures import curve_html, plot_curve
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
@@ -341,11 +340,11 @@ class Curve:
         unit = unit_of("force", self.geometry)
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
 
-    to_dataset = curve_dataset
-    to_record = curve_record
-    to_dataframe = curve_dataframe
-    plot = plot_curve
-    _repr_html_ = curve_html
+    to_dataset = methods.curve_dataset
+    to_record = methods.curve_record
+    to_dataframe = methods.curve_dataframe
+    plot = methods.plot_curve
+    _repr_html_ = methods.curve_html
 
 
 @one_blas_thread()

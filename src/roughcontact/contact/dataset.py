@@ -10,22 +10,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.arrays import largest
+from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import flow_point
+from roughcontact.contact.interface_table import InterfaceTable
+from roughcontact.contact.solution import Solution
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
+from roughcontact.slabs.exchange import is_in_slabs
 
 if TYPE_CHECKING:
     import pandas
     import xarray
-
-    from roughcontact.contact.curve import Curve
-    from roughcontact.contact.solution import Solution
 
 __all__ = [
     *(
         "curve_dataframe",
         "curve_dataset",
         "curve_record",
+        "interface_dataset",
         "numbers_dataset",
         "solution_dataset",
         "solution_maps",
@@ -96,7 +98,24 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
     Maps lie along ``y, x`` with the cell centres [m] as coordinates, profiles along ``x``, rings along ``r``. Row 0
     is the top of the picture, so y points down. Scalars are variables without a dimension, areas and loads of the
     spots lie along ``spot`` (1, 2, ... as in ``spot_label``). On a line the units are per length.
+
+    Parameters
+    ----------
+    solution : Solution
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> solution.to_dataset()["gap"].attrs["units"]
+    'm'
     """
+    solution = solution.on_host()
     kind = solution.problem.geometry
     maps = {name: variable(name, kind.axes, values, kind) for name, values in solution_maps(solution).items()}
     return numbers_dataset(solution, maps)
@@ -194,7 +213,24 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     """Return the scalars of one loaded state as plain numbers and words that JSON can hold.
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+
+    Parameters
+    ----------
+    solution : Solution
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> solution.to_record()["spots"], solution.to_record()["units"]["force"]
+    (1, 'N')
     """
+    solution = solution if is_in_slabs(solution.pressure) else solution.on_host()
     grid, kind = solution.problem.grid, solution.problem.geometry
     record = {name: plain_values(getattr(solution, name)) for name in _SOLUTION_SCALARS}
     record["spots"] = int(solution.spots.count)
@@ -205,6 +241,46 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         name: plain_values(getattr(grid, name)) for name in ("shape", "lengths", "spacing", "periodic")
     }
     return record | {"geometry": kind.value, "units": units_of(record, kind)}
+
+
+def interface_dataset(table: InterfaceTable) -> xarray.Dataset:
+    """Return the law of an interface as an `xarray.Dataset` with units and long names.
+
+    Parameters
+    ----------
+    table : InterfaceTable
+
+    Returns
+    -------
+    xarray.Dataset
+        One value of each quantity a load; ``zero_gap`` without a dimension.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> surface = rc.examples.surface("ground")
+    >>> table = rc.interface_table(rc.loading_curve(surface, 1e11, pressures=[1e7, 3e7, 1e8]))
+    >>> table.to_dataset()["mean_gap"].attrs["units"]
+    'm'
+    """
+    import xarray
+
+    columns = {
+        "nominal_pressure": table.pressure,
+        "mean_gap": table.gap,
+        "overclosure": table.overclosure,
+        "interfacial_stiffness_per_area": table.stiffness,
+        "contact_fraction": table.contact_fraction,
+        **table.conductances,
+    }
+    data = {name: variable(name, ("load",), values) for name, values in columns.items()}
+    data["zero_gap"] = variable("zero_gap", (), table.zero_gap)
+    low, high = table.validity
+    words = {
+        "title": "law of a rough interface, per nominal area",
+        "validity": f"nominal pressure from {low:.6g} to {high:.6g} Pa",
+    }
+    return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})
 
 
 def _scales(solution: Solution) -> dict[str, float]:

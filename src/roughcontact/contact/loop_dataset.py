@@ -8,12 +8,12 @@ import numpy as np
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.dataset import curve_dataset, curve_record
+from roughcontact.contact.loop import Loop
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, units_of, variable
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.loop import Loop
 
 __all__ = ["loop_dataset", "loop_record"]
 
@@ -21,7 +21,25 @@ _SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
 
 
 def loop_dataset(loop: Loop) -> xarray.Dataset:
-    """Return the three branches one after the other along ``load``, and the maps of the surface before and after."""
+    """Return the three branches one after the other along ``load``, and the maps of the surface before and after.
+
+    Parameters
+    ----------
+    loop : Loop
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names; ``branch`` says to which branch a load belongs.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> loop.to_dataset()["branch"].to_numpy()[[0, 3, 6]].tolist()
+    ['loading', 'unloading', 'reloading']
+    """
     import xarray
 
     kind, grid = loop.loading.geometry, loop.surface.grid
@@ -47,7 +65,25 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
 
 
 def loop_record(loop: Loop) -> dict[str, Any]:
-    """Return a loop as plain numbers, words and lists that JSON can hold."""
+    """Return the numbers as plain values, for JSON: a record of each branch, and what they have in common.
+
+    Parameters
+    ----------
+    loop : Loop
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> f"{loop.to_record()['residual_depth'] * 1e9:.0f} nm"
+    '78 nm'
+    """
     kind = loop.loading.geometry
     record = {name: plain_values(getattr(loop, name)) for name in _SCALARS}
     record |= {

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.arrays import is_numpy, largest, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.flow import Flow, flow_of
-from roughcontact.contact.histograms import gap_histogram, pressure_histogram
-from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, count_spots, find_spots
@@ -27,7 +26,6 @@ from roughcontact.contact.stiffness import (
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import plot_solution, solution_html
 from roughcontact.slabs.exchange import is_in_slabs
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
@@ -37,9 +35,6 @@ from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["Solution"]
 
@@ -291,7 +286,7 @@ class Solution:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of these numbers should know, in sentences."""
-        return notes_on(self)
+        return methods.notes_on(self)
 
     @property
     def above_cells(self) -> bool:
@@ -314,35 +309,12 @@ class Solution:
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
-    pressure_histogram = pressure_histogram
-    gap_histogram = gap_histogram
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.contact.dataset import solution_dataset
-
-        return solution_dataset(self.on_host())
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-        """
-        from roughcontact.contact.dataset import solution_record
-
-        return solution_record(self if is_in_slabs(self.pressure) else self.on_host())
-
-    plot = plot_solution
-    _repr_html_ = solution_html
+    pressure_histogram = methods.pressure_histogram
+    gap_histogram = methods.gap_histogram
+    to_dataset = methods.solution_dataset
+    to_record = methods.solution_record
+    plot = methods.plot_solution
+    _repr_html_ = methods.solution_html
 
     @cached_property
     def _cells(self) -> npt.NDArray[np.intp]:

@@ -7,14 +7,14 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.arrays import on_host
+from roughcontact.friction.slip_curve import SlipCurve
+from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.friction.slip_curve import SlipCurve
-    from roughcontact.friction.slip_solution import TangentialSolution
 
 __all__ = ["slip_curve_dataset", "slip_curve_record", "tangential_dataset", "tangential_record"]
 
@@ -33,6 +33,24 @@ def tangential_dataset(solution: TangentialSolution) -> xarray.Dataset:
     Vectors lie along ``component`` (x, then y), their maps along ``component, y, x`` with the cell centres [m] as
     coordinates; row 0 is the top of the picture. The stiffness has the force along ``component`` and the displacement
     along ``direction``. ``force`` and ``pressure`` are those that press the bodies together.
+
+    Parameters
+    ----------
+    solution : TangentialSolution
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> state = rc.slide(pressed, rubber, friction=0.5, force=0.25e-3)
+    >>> state.to_dataset()["slip"].attrs["units"]
+    'm'
     """
     problem = solution.problem
     pressed = problem.pressed
@@ -64,6 +82,24 @@ def tangential_record(solution: TangentialSolution) -> dict[str, Any]:
     """Return the numbers of one state as plain values that JSON can hold; vectors are pairs (x, y).
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+
+    Parameters
+    ----------
+    solution : TangentialSolution
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> state = rc.slide(pressed, rubber, friction=0.5, force=0.25e-3)
+    >>> len(state.to_record()["tangential_force"]), state.to_record()["units"]["dissipated"]
+    (2, 'J')
     """
     grid = solution.problem.pressed.problem.grid
     whole = _vectors(solution) | {"tangential_stiffness": on_host(solution.stiffness)} | _scalars(solution)
@@ -77,6 +113,24 @@ def slip_curve_dataset(curve: SlipCurve) -> xarray.Dataset:
     """Return a path of tangential loads as a dataset.
 
     Every array is a variable along ``load``, force and displacement along ``load, component`` (x, then y).
+
+    Parameters
+    ----------
+    curve : SlipCurve
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> curve = rc.slide_curve(pressed, rubber, friction=0.5, forces=[0.1e-3, 0.2e-3])
+    >>> curve.to_dataset()["tangential_displacement"].attrs["units"]
+    'm'
     """
     data = {name: variable(name, ("load", "component"), values) for name, values in _vectors(curve).items()}
     data |= {name: variable(name, ("load",), values) for name, values in _taken(_POINTS, curve).items()}
@@ -90,6 +144,24 @@ def slip_curve_record(curve: SlipCurve) -> dict[str, Any]:
     """Return a path of tangential loads as plain numbers, words and lists that JSON can hold.
 
     Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+
+    Parameters
+    ----------
+    curve : SlipCurve
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> pressed = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-5), radius=1e-3), rubber, force=1e-3)
+    >>> curve = rc.slide_curve(pressed, rubber, friction=0.5, forces=[0.1e-3, 0.2e-3])
+    >>> len(curve.to_record()["stick_area"])
+    2
     """
     record = {name: plain_values(value) for name, value in (_vectors(curve) | _taken(_POINTS, curve)).items()}
     record |= {"status": [each.value for each in curve.status], "capacity": plain_values(curve.capacity)}

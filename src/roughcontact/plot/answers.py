@@ -1,34 +1,28 @@
-"""How values are drawn: the door from what is computed to the room that draws.
-
-`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState` and `AdhesiveLoop` have these functions as their methods. What
-draws is imported when they are called.
-"""
+"""Surfaces and answers drawn as their methods draw them: each by the picture that suits it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Sequence
+from typing import Literal
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+from matplotlib.axes import Axes
 
-    from matplotlib.axes import Axes
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.contact.compare import Law
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.loop import Loop
+from roughcontact.contact.solution import Solution
+from roughcontact.plot import curves, loops, maps, profile_plot
+from roughcontact.plot.tension import tension_map, tension_profile
+from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.spikes import Spikes
+from roughcontact.surface.surface import Surface
 
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
-    from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve
-    from roughcontact.contact.loop import Loop
-    from roughcontact.contact.solution import Solution
-    from roughcontact.statistics.power_law import PowerLaw
-    from roughcontact.surface.spikes import Spikes
-    from roughcontact.surface.surface import Surface
-
-__all__ = [
-    *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
-    *("plot_adhesive_loop", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
-]
+__all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
+@on_host_only
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights: a map in colour, of a profile a curve.
 
@@ -52,10 +46,7 @@ def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | N
     >>> surface.plot(spikes=rc.find_spikes(surface)).get_xlabel()
     'x [µm]'
     """
-    from roughcontact.plot.maps import height_map
-    from roughcontact.plot.profile_plot import profile_curve
-
-    draw = height_map if surface.grid.ndim == 2 else profile_curve
+    draw = maps.height_map if surface.grid.ndim == 2 else profile_plot.profile_curve
     return draw(surface, ax, spikes=spikes)
 
 
@@ -87,8 +78,6 @@ def plot_solution(
     >>> solution.plot(field="contact").get_xlabel()
     'x [µm]'
     """
-    from roughcontact.plot import maps, profile_plot
-
     if field not in ("pressure", "contact"):
         raise ValueError(f"field must be 'pressure' or 'contact', not {field!r}")
     if solution.problem.grid.ndim == 1:
@@ -139,8 +128,6 @@ def plot_curve(
     >>> axes.get_xscale(), axes.get_ylabel()
     ('log', 'contact area [µm²]')
     """
-    from roughcontact.plot import curves
-
     draw = {"contact_area": curves.area_curve, "depth": curves.depth_curve}
     if law is not None and "stiffness" not in quantity:
         raise ValueError(f"law is about the stiffness: leave it out with {quantity!r}")
@@ -185,8 +172,6 @@ def plot_loop(
     >>> [loop.plot(quantity=each).get_xlabel() for each in ("depth", "stiffness", "bearing")]
     ['depth [nm]', 'nominal pressure [MPa]', 'area above the height [%]']
     """
-    from roughcontact.plot import loops
-
     if quantity == "bearing":
         return loops.bearing_curves(loop.surface, loop.flow, ax)
     draw = {"depth": loops.depth_loop, "stiffness": loops.stiffness_loop}
@@ -216,75 +201,4 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
-    from roughcontact.plot.tension import tension_map, tension_profile
-
     return tension_map(state, ax) if state.blank.operator.grid.ndim == 2 else tension_profile(state, ax)
-
-
-def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
-    """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
-
-    Parameters
-    ----------
-    loop : AdhesiveLoop
-    ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
-    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
-    >>> loop.plot().get_ylabel()
-    'force [nN]'
-    """
-    from roughcontact.plot.jumps import jump_loop
-
-    return jump_loop(loop, ax)
-
-
-def surface_html(surface: Surface) -> str | None:
-    """Return a surface as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_surface(surface)
-
-
-def solution_html(solution: Solution) -> str:
-    """Return a solution as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_solution(solution)
-
-
-def curve_html(curve: Curve) -> str:
-    """Return a curve as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_curve(curve)
-
-
-def loop_html(loop: Loop) -> str:
-    """Return a loop as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_loop(loop)
-
-
-def state_html(state: AdhesiveState) -> str:
-    """Return a state of surfaces that stick as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_state(state)
-
-
-def adhesive_loop_html(loop: AdhesiveLoop) -> str:
-    """Return a path of surfaces that stick as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_adhesive_loop(loop)
