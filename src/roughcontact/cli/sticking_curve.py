@@ -33,10 +33,10 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.cli import options
     from roughcontact.cli.adhesion_options import Sticking
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
 
 __all__ = ["curve_sticking"]
 
@@ -62,7 +62,7 @@ def curve_sticking(
         pressed = Pressed.of(surface, modulus, None)
         unit = kinds_of(reading.profile)[name.removesuffix("s")].unit
         if loop:
-            from roughcontact.contact.adhesive_loop import loop_depths
+            from roughcontact.adhesion.adhesive_loop import loop_depths
 
             control = f"loop to a depth of {loads[0]:g} m in {count} steps"
             loads = loop_depths(adhesion, float(loads[0]), count)
@@ -127,9 +127,9 @@ def _follow(
     surface: Any, modulus: float, adhesion: Any, loads: Loads, limits: dict[str, Any], loop: int | None
 ) -> tuple[AdhesiveCurve, bool]:
     """Return the path, and whether it is whole: Ctrl-C ends it with the loads that are done."""
-    from roughcontact.contact.adhesive_branches import collect_states
-    from roughcontact.contact.adhesive_loop import until_off
-    from roughcontact.contact.sticking import states_under
+    from roughcontact.adhesion.adhesive_curve import collect_states
+    from roughcontact.adhesion.adhesive_loading import states_under
+    from roughcontact.adhesion.adhesive_loop import until_off
 
     states = states_under(surface, modulus, adhesion, loads, **limits)
     if loop is not None:
