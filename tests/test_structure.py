@@ -7,10 +7,6 @@ from collections import Counter
 from functools import cache
 from pathlib import Path
 
-import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
-
 import roughcontact
 from roughcontact import methods
 from roughcontact.late import LateMethod
@@ -33,8 +29,8 @@ ORDER = [
     {"labels"},
     {"solver"},
     {"statistics"},
-    {"adhesion"},
     {"contact"},
+    {"adhesion"},
     {"friction"},
     {"mdr"},
     {"files"},
@@ -105,45 +101,6 @@ def called(tree):
     }
 
 
-def without_types(tree):
-    """Return `tree` without what stands in it for type checkers alone, wherever it stands."""
-
-    class Bare(ast.NodeTransformer):
-        def visit_If(self, node):  # the name is that of ast
-            kept = node.orelse if ast.unparse(node.test) == "TYPE_CHECKING" else [node]
-            return [self.generic_visit(each) for each in kept]
-
-    return Bare().visit(ast.parse(ast.unparse(tree)))
-
-
-def circles(graph):
-    """Return the groups of modules that import each other, directly or by way of others, the largest first."""
-    names = list(graph)
-    place = {name: at for at, name in enumerate(names)}
-    pairs = [(place[a], place[b]) for a in names for b in graph[a] if b in place and b != a]
-    rows, columns = np.array(pairs).reshape(-1, 2).T
-    whole = csr_array((np.ones(len(pairs)), (rows, columns)), shape=(len(names), len(names)))
-    _, labels = connected_components(whole, connection="strong")
-    groups = [{name for name in names if labels[place[name]] == label} for label in set(labels)]
-    return sorted((group for group in groups if len(group) > 1), key=len, reverse=True)
-
-
-def import_graph(trees):
-    """Return the modules that each module imports: a package itself where what is imported is none of its modules."""
-
-    def taken(node):
-        if isinstance(node, ast.Import):
-            return {alias.name for alias in node.names}
-        whole = (
-            {f"{node.module}.{alias.name}" for alias in node.names}
-            if isinstance(node, ast.ImportFrom)
-            else {}
-        )
-        return {name if name in trees else node.module for name in whole}
-
-    return {module: set().union(*map(taken, ast.walk(tree))) & trees.keys() for module, tree in trees.items()}
-
-
 @cache
 def trees():
     return {path: ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
@@ -199,17 +156,6 @@ def test_a_fork_catches_every_property_that_is_kept():
     assert [path for path, tree in trees().items() if "functools.cached_property" in imported(tree)] == []
 
 
-def test_no_file_imports_itself_by_way_of_others():
-    """Neither at once, nor in a function when it is called."""
-    assert circles(import_graph({module: without_types(tree) for module, tree in modules().items()})) == []
-
-
-def test_imports_for_types_that_close_a_circle_stand_in_methods_alone():
-    bare = {m: without_types(tree) if m == METHODS else tree for m, tree in modules().items()}
-    assert {len(circle) for circle in circles(import_graph(bare))} <= {2}
-    assert len(circles(import_graph(modules()))[0]) > 50  # the check sees what it looks for
-
-
 def test_methods_names_each_function_once_for_types_and_once_at_run_time():
     block = next(node for node in modules()[METHODS].body if isinstance(node, ast.If))
     typed = {
@@ -243,10 +189,6 @@ def test_the_checks_see_what_they_look_for():
     assert wrong_way("grid", imported(ast.parse("import roughcontact.material"))) == {"material"}
     assert foreign(imported(tree)) == {"matplotlib"}
     assert called(tree) == {"open", "save"}
-    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"a"}, "e": {"d", "numpy"}}) == [{"b", "c"}]
-    assert circles({"a": {"b", "numpy"}, "b": {"c"}, "c": set()}) == []
-    bare = without_types(ast.parse("if TYPE_CHECKING:\n import a\nelse:\n import b\ndef f():\n import c"))
-    assert imported(bare) == {"b", "c"}
 
 
 def loaded(script, *arguments):

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
-        adhesive_loop_html as adhesive_loop_html,
+        adhesive_curve_html as adhesive_curve_html,
         curve_html as curve_html,
         loop_html as loop_html,
         solution_html as solution_html,
@@ -85,7 +85,14 @@ else:
         "plot.answers": ("plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
         "plot.jumps": ("jump_loop",),
         "plot.notebook": (
-            *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
+            *(
+                "adhesive_curve_html",
+                "curve_html",
+                "loop_html",
+                "solution_html",
+                "state_html",
+                "surface_html",
+            ),
         ),
         "surface.filters": ("filtered",),
         "surface.levelling": ("levelled", "without_form"),

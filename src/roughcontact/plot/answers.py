@@ -197,7 +197,7 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> state.plot().get_xlabel()
     'x [nm]'
     """

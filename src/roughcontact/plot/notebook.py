@@ -10,17 +10,17 @@ from io import BytesIO
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
+    adhesive_curve_facts,
     adhesive_facts,
-    adhesive_loop_facts,
     law_facts,
 )
 from roughcontact.plot.answers import plot_curve, plot_loop, plot_solution, plot_state, plot_surface
@@ -38,7 +38,7 @@ from roughcontact.plot.jumps import jump_loop
 from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
+    *("adhesive_curve_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
 ]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
@@ -94,11 +94,11 @@ def state_html(state: AdhesiveState) -> str:
     return _page("State", adhesive_facts(state), figure)
 
 
-def adhesive_loop_html(loop: AdhesiveLoop) -> str:
+def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
     jump_loop(loop, axes)
-    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_loop_facts(loop)]
+    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table
 
