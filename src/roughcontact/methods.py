@@ -12,6 +12,14 @@ from typing import TYPE_CHECKING
 from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve_dataset import (
+        adhesive_curve_dataset as adhesive_curve_dataset,
+        adhesive_curve_record as adhesive_curve_record,
+    )
+    from roughcontact.adhesion.state_dataset import (
+        state_dataset as state_dataset,
+        state_record as state_record,
+    )
     from roughcontact.contact.dataset import (
         curve_dataframe as curve_dataframe,
         curve_dataset as curve_dataset,
@@ -71,6 +79,8 @@ if TYPE_CHECKING:
     from roughcontact.surface.windows import tapered as tapered
 else:
     _HOMES = {
+        "adhesion.adhesive_curve_dataset": ("adhesive_curve_dataset", "adhesive_curve_record"),
+        "adhesion.state_dataset": ("state_dataset", "state_record"),
         "contact.dataset": (
             *("curve_dataframe", "curve_dataset", "curve_record"),
             *("interface_dataset", "solution_dataset", "solution_record"),

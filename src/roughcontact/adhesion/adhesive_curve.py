@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -19,9 +19,6 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["AdhesiveCurve", "collect_states"]
 
@@ -169,31 +166,8 @@ class AdhesiveCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the points and the jumps as an `xarray.Dataset`.
-
-        Returns
-        -------
-        xarray.Dataset
-            Points along ``load``, of which ``branch`` says whether they are of the approach or the retreat; jumps along
-            ``jump``. Each variable has its unit and a long name.
-        """
-        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_dataset
-
-        return adhesive_curve_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_record
-
-        return adhesive_curve_record(self)
-
+    to_dataset = methods.adhesive_curve_dataset
+    to_record = methods.adhesive_curve_record
     plot = methods.jump_loop
     _repr_html_ = methods.adhesive_curve_html
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.state_dataset import (
     adhesion_record,
     adhesion_variables,
@@ -17,8 +18,6 @@ from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_
 
 if TYPE_CHECKING:
     import xarray
-
-    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 
 __all__ = ["LOOP_POINTS", "LOOP_SCALES", "adhesive_curve_dataset", "adhesive_curve_record"]
 
@@ -34,7 +33,26 @@ _NUMBERS = ("unresolved", *LOOP_SCALES)
 
 
 def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
-    """Return the points along ``load``, the jumps along ``jump``, and the scales."""
+    """Return the points along ``load``, the jumps along ``jump``, and the scales.
+
+    Parameters
+    ----------
+    loop : AdhesiveCurve
+
+    Returns
+    -------
+    xarray.Dataset
+        ``branch`` says of each load whether it is of the approach or of the retreat.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
+    >>> loop.to_dataset()["jump_lost"].attrs["units"]
+    'J'
+    """
     kind = loop.geometry
     names = (*LOOP_POINTS, *_DERIVED)
     data = {name: adhesive_variable(name, ("load",), getattr(loop, name), kind) for name in names}
@@ -50,7 +68,26 @@ def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
 
 
 def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
-    """Return a path as plain numbers, words and lists that JSON can hold."""
+    """Return a path as plain numbers, words and lists that JSON can hold.
+
+    Parameters
+    ----------
+    loop : AdhesiveCurve
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
+    >>> loop.to_record()["control"], loop.to_record()["branch"][0]
+    ('depth', 'approach')
+    """
     names = (*LOOP_POINTS, *_DERIVED, *_NUMBERS, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(loop, name)) for name in names}
     record |= {name: plain_values(getattr(loop, attribute)) for name, attribute in _SCALARS.items()}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,9 +26,6 @@ from roughcontact.solver.control import Status
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["AdhesiveState", "Blank", "state_of"]
 
@@ -246,30 +242,8 @@ class AdhesiveState:
         scale = self._energy.scale(self._point)
         return np.asarray(self.contact & (self.reaction <= WEAK * scale))
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names; the jumps lie along ``jump``.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.adhesion.state_dataset import state_dataset
-
-        return state_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.state_dataset import state_record
-
-        return state_record(self)
-
+    to_dataset = methods.state_dataset
+    to_record = methods.state_record
     plot = methods.plot_state
     _repr_html_ = methods.state_html
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
@@ -17,8 +18,6 @@ from roughcontact.labels.labelled import centres, dataset_of, plain_values, size
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-
 __all__ = [
     "JUMPS",
     "adhesion_record",
@@ -26,6 +25,8 @@ __all__ = [
     "adhesive_variable",
     "jump_variables",
     "jumps_record",
+    "state_dataset",
+    "state_record",
 ]
 
 _MAPS = ("pressure", "displacement", "gap", "contact", "attracted")
@@ -105,6 +106,23 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
     """Return a state as a dataset: maps along the axes of the grid, numbers without a dimension, jumps along ``jump``.
 
     Row 0 is the top of the picture, so y points down. On a line forces, areas and energies are per unit length.
+
+    Parameters
+    ----------
+    state : AdhesiveState
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
+    >>> f"{float(state.to_dataset()['adhesive_energy']) * 1e15:.1f} fJ of adhesion"
+    '-5.7 fJ of adhesion'
     """
     blank, kind = state.blank, state.geometry
     grid = blank.operator.grid
@@ -119,7 +137,25 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
 
 
 def state_record(state: AdhesiveState) -> dict[str, Any]:
-    """Return the numbers of a state as plain values; units stand once, under ``"units"``."""
+    """Return the numbers of a state as plain values; units stand once, under ``"units"``.
+
+    Parameters
+    ----------
+    state : AdhesiveState
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
+    >>> state.to_record()["law"], state.to_record()["units"]["stability"]
+    ('exponential', '1')
+    """
     grid = state.blank.operator.grid
     numbers = _scalars(state) | {
         name: getattr(grid, name) for name in ("shape", "lengths", "spacing", "periodic")

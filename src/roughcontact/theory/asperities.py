@@ -16,8 +16,7 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.theory.asperity_balance import balance, independent_depth
-from roughcontact.theory.asperity_set import Asperities
+from roughcontact.theory.asperity_balance import Asperities, balance, independent_depth
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.validation import Array, numeric, positive, require
 
