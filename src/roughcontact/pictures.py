@@ -1,6 +1,6 @@
 """How values are drawn: the door from what is computed to the room that draws.
 
-`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState`, `AdhesiveLoop`, `DetachmentState` and `DetachmentCurve` have
+`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState`, `AdhesiveCurve`, `DetachmentState` and `DetachmentCurve` have
 these functions as their methods. What draws is imported when they are called.
 """
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
     from roughcontact.adhesion.detachment_state import DetachmentState
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("adhesive_loop_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
-    *("plot_adhesive_loop", "plot_curve", "plot_detachment", "plot_loop", "plot_solution", "plot_state"),
+    *("adhesive_curve_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
+    *("plot_adhesive_curve", "plot_curve", "plot_detachment", "plot_loop", "plot_solution", "plot_state"),
     *("plot_surface", "surface_html"),
 ]
 
@@ -215,7 +215,7 @@ def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
@@ -224,12 +224,12 @@ def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -
     return tension_map(state, ax) if state.contact.ndim == 2 else tension_profile(state, ax)
 
 
-def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+def plot_adhesive_curve(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -320,8 +320,8 @@ def detachment_html(curve: DetachmentCurve) -> str:
     return notebook.of_detachment(curve)
 
 
-def adhesive_loop_html(loop: AdhesiveLoop) -> str:
+def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a path of surfaces that stick as a notebook shows it."""
     from roughcontact.plot import notebook
 
-    return notebook.of_adhesive_loop(loop)
+    return notebook.of_adhesive_curve(loop)

@@ -29,7 +29,7 @@ from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.sticking_curve import curve_sticking
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
-from roughcontact.cli.unit_options import LENGTH, parse_loads, parse_path
+from roughcontact.cli.unit_options import parse_loads, parse_path
 from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
 
@@ -67,7 +67,7 @@ _FEWEST = 3  # resolved loads that a power law takes
 
 
 @dataclass(frozen=True, slots=True)
-class Loads:
+class LoadOptions:
     """Loads, as the user gave them: rising, with adhesion of either sign, up and down."""
 
     PANEL: ClassVar = "Loads (at most one of them)"
@@ -92,15 +92,11 @@ class Loads:
         Raises
         ------
         UsageError
-            If several are named, or their text is none.
-        ValueError
-            If they are mean gaps.
+            If several are named, their text is none, or they are mean gaps.
         """
         given = asdict(self)
-        if (gaps := given.pop("mean_gaps")) is not None:
-            from roughcontact.contact.mean_gaps import refuse_gaps
-
-            refuse_gaps(parse_path(gaps, LENGTH, "--mean-gaps"))
+        if given.pop("mean_gaps") is not None:
+            raise UsageError("--mean-gaps is about surfaces that stick: give --depths, or give --work")
         if not any(text is not None for text in given.values()):
             return "forces", None
         name = options.only_one(given, "the loads")
@@ -128,7 +124,7 @@ class Loads:
 def curve(
     reading: options.Reading,
     *,
-    given: Loads,
+    given: LoadOptions,
     elasticity: options.Elasticity,
     plastic: LoopLoads,
     sticking: Sticking,

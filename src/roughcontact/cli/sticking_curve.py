@@ -16,7 +16,7 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import (
     ADHESIVE_COLUMNS,
-    adhesive_loop_facts,
+    adhesive_curve_facts,
     doing,
     emit,
     law_facts,
@@ -27,19 +27,19 @@ from roughcontact.cli.report import (
     screen,
     size_of,
 )
+from roughcontact.solver.loads import Loads
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.cli import options
     from roughcontact.cli.adhesion_options import Sticking
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
 
 __all__ = ["curve_sticking"]
 
-_LOADS = ("depths", "forces", "mean_gaps")
 _POINTS = 40  # of the approach of a loop, as in the library
 
 
@@ -62,14 +62,16 @@ def curve_sticking(
         pressed = Pressed.of(surface, modulus, None)
         unit = kinds_of(reading.profile)[name.removesuffix("s")].unit
         if loop:
-            from roughcontact.contact.adhesive_loop import loop_depths
+            from roughcontact.adhesion.adhesive_loop import loop_depths
 
             control = f"loop to a depth of {loads[0]:g} m in {count} steps"
             loads = loop_depths(adhesion, float(loads[0]), count)
         else:
             control = f"{name.replace('_', ' ')} {', '.join(f'{load:g}' for load in loads)} {unit}"
-        limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance, "adhesion": adhesion}
-        path, whole = _follow(surface, modulus, {name: loads, **limits}, count if loop else None)
+        limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
+        path, whole = _follow(
+            surface, modulus, adhesion, Loads.of(**{name: loads}), limits, count if loop else None
+        )
         record = {
             "command": "curve",
             "file": plain(str(reading.source.file)),
@@ -88,7 +90,7 @@ def curve_sticking(
         size = ("surface", size_of(surface.grid))
         print_facts([size, *pressed.facts(), *law_facts(adhesion, modulus, surface.grid.spacing)])
         print_table(*load_table(path.to_dataset(), ADHESIVE_COLUMNS))
-        print_facts(adhesive_loop_facts(path))
+        print_facts(adhesive_curve_facts(path))
     if missed := sum(not status.converged for status in path.status):
         note(f"{missed} of {len(path)} loads missed the tolerance: see their residual")
     sticking.remark(unresolved=path.unresolved, ambiguous=path.ambiguous)
@@ -122,17 +124,16 @@ def _points_of_loop(name: str, loads: npt.NDArray[np.float64], *, loop: bool, po
 
 
 def _follow(
-    surface: Any, modulus: float, given: dict[str, Any], loop: int | None
-) -> tuple[AdhesiveLoop, bool]:
+    surface: Any, modulus: float, adhesion: Any, loads: Loads, limits: dict[str, Any], loop: int | None
+) -> tuple[AdhesiveCurve, bool]:
     """Return the path, and whether it is whole: Ctrl-C ends it with the loads that are done."""
-    import roughcontact as rc
-    from roughcontact.contact.adhesive_branches import collect_states
-    from roughcontact.contact.adhesive_loop import until_off
+    from roughcontact.adhesion.adhesive_curve import collect_states
+    from roughcontact.adhesion.adhesive_loading import states_under
+    from roughcontact.adhesion.adhesive_loop import until_off
 
-    [(name, loads)] = ((name, values) for name, values in given.items() if name in _LOADS)
-    states = rc.loading_path(surface, modulus, **given)
+    states = states_under(surface, modulus, adhesion, loads, **limits)
     if loop is not None:
-        states, loads = until_off(states, loop), loads[1:]
+        states, loads = until_off(states, loop), Loads("depth", loads.values[1:])
     stopped: list[bool] = []
 
     def watched() -> Iterator[AdhesiveState]:
@@ -149,14 +150,13 @@ def _follow(
 
     columns = (TextColumn("Approach and retreat"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("", total=None if loop is not None else len(loads))
-        # The bodies draw near as the mean gap falls.
-        path = collect_states(watched(), -loads if name == "mean_gaps" else loads)
+        task = progress.add_task("", total=None if loop is not None else len(loads.values))
+        path = collect_states(watched(), loads)
     return path, not stopped
 
 
 def _write(
-    path: AdhesiveLoop, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
+    path: AdhesiveCurve, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
 ) -> None:
     """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
     from roughcontact.files.provenance import provenance

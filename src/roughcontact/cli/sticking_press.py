@@ -35,8 +35,8 @@ def press_sticking(
     with output(answer.out) as folder:
         surface = reading.surface()
         pressed = Pressed.of(surface, modulus, None)
-        limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance, "adhesion": adhesion}
-        state = _press(surface, modulus, **given, **limits)
+        limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
+        state = _press(surface, modulus, adhesion, **given, **limits)
         with doing("Stability and files"):
             record = {
                 "command": "press",
@@ -75,14 +75,14 @@ def press_sticking(
         raise typer.Exit(MISSED)
 
 
-def _press(surface: Any, modulus: float, **given: Any) -> AdhesiveState:
+def _press(surface: Any, modulus: float, adhesion: Any, **given: Any) -> AdhesiveState:
     """Return the state, the best that was reached where the tolerance was missed."""
     import roughcontact as rc
 
     cells = " x ".join(str(n) for n in surface.grid.shape)
     with doing(f"Pressing {cells} cells that stick"):
         try:
-            state: AdhesiveState = rc.press(surface, modulus, **given)
+            state: AdhesiveState = rc.adhesive_state(surface, modulus, adhesion, **given)
         except rc.ConvergenceError as error:
             state = error.solution
     return state

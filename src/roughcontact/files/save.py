@@ -13,11 +13,11 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_curve import DetachmentCurve
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import on_host
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import numbers_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable
@@ -48,7 +48,7 @@ Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
 Pressed = Solution | TangentialSolution | AdhesiveState | DetachmentState
-Curves = Curve | Loop | AdhesiveLoop | DetachmentCurve | SlipCurve
+Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
 Writable = Surface | Pressed | Curves | InterfaceTable
 
 
@@ -59,7 +59,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
     ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
                 loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
-                adhesion by `read_adhesive_loop`, of a detachment by `read_detachment_curve`
+                adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
     ``.csv``    a curve, a loop, or the table of an interface: one line a load
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
                 history, for which the format has no place

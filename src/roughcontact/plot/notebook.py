@@ -10,17 +10,17 @@ from io import BytesIO
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_curve import DetachmentCurve
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.pictures import (
-    plot_adhesive_loop,
+    plot_adhesive_curve,
     plot_curve,
     plot_detachment,
     plot_loop,
@@ -30,8 +30,8 @@ from roughcontact.pictures import (
 )
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
+    adhesive_curve_facts,
     adhesive_facts,
-    adhesive_loop_facts,
     law_facts,
 )
 from roughcontact.plot.detachment_plot import (
@@ -52,7 +52,7 @@ from roughcontact.plot.facts import (
 from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("of_adhesive_loop", "of_curve", "of_detachment", "of_loop", "of_solution", "of_state", "of_surface")
+    *("of_adhesive_curve", "of_curve", "of_detachment", "of_loop", "of_solution", "of_state", "of_surface")
 ]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
@@ -117,11 +117,11 @@ def of_detachment(curve: DetachmentCurve) -> str:
     return _page("Detachment", detachment_facts(curve), figure) + table
 
 
-def of_adhesive_loop(loop: AdhesiveLoop) -> str:
+def of_adhesive_curve(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
-    plot_adhesive_loop(loop, axes)
-    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_loop_facts(loop)]
+    plot_adhesive_curve(loop, axes)
+    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table
 
