@@ -63,7 +63,7 @@ LATE = [
     (kind, name)
     for kind in (
         *(rc.Surface, rc.Solution, rc.Curve, rc.Loop, rc.InterfaceTable, rc.TangentialSolution, rc.SlipCurve),
-        *(rc.AdhesiveState, rc.AdhesiveCurve),
+        *(rc.AdhesiveState, rc.AdhesiveCurve, rc.DetachmentState, rc.DetachmentCurve),
     )
     for name, each in vars(kind).items()
     if isinstance(each, LateMethod)

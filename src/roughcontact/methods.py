@@ -16,6 +16,12 @@ if TYPE_CHECKING:
         adhesive_curve_dataset as adhesive_curve_dataset,
         adhesive_curve_record as adhesive_curve_record,
     )
+    from roughcontact.adhesion.detachment_dataset import (
+        detachment_curve_dataset as detachment_curve_dataset,
+        detachment_curve_record as detachment_curve_record,
+        detachment_state_dataset as detachment_state_dataset,
+        detachment_state_record as detachment_state_record,
+    )
     from roughcontact.adhesion.state_dataset import (
         state_dataset as state_dataset,
         state_record as state_record,
@@ -51,10 +57,12 @@ if TYPE_CHECKING:
         plot_state as plot_state,
         plot_surface as plot_surface,
     )
+    from roughcontact.plot.detachment_plot import detachment_force as detachment_force
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
         adhesive_curve_html as adhesive_curve_html,
         curve_html as curve_html,
+        detachment_html as detachment_html,
         loop_html as loop_html,
         solution_html as solution_html,
         state_html as state_html,
@@ -80,6 +88,10 @@ if TYPE_CHECKING:
 else:
     _HOMES = {
         "adhesion.adhesive_curve_dataset": ("adhesive_curve_dataset", "adhesive_curve_record"),
+        "adhesion.detachment_dataset": (
+            *("detachment_curve_dataset", "detachment_curve_record"),
+            *("detachment_state_dataset", "detachment_state_record"),
+        ),
         "adhesion.state_dataset": ("state_dataset", "state_record"),
         "contact.dataset": (
             *("curve_dataframe", "curve_dataset", "curve_record"),
@@ -93,16 +105,11 @@ else:
             *("slip_curve_dataset", "slip_curve_record", "tangential_dataset", "tangential_record"),
         ),
         "plot.answers": ("plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
+        "plot.detachment_plot": ("detachment_force",),
         "plot.jumps": ("jump_loop",),
         "plot.notebook": (
-            *(
-                "adhesive_curve_html",
-                "curve_html",
-                "loop_html",
-                "solution_html",
-                "state_html",
-                "surface_html",
-            ),
+            *("adhesive_curve_html", "curve_html", "detachment_html"),
+            *("loop_html", "solution_html", "state_html", "surface_html"),
         ),
         "surface.filters": ("filtered",),
         "surface.levelling": ("levelled", "without_form"),

@@ -31,15 +31,6 @@ def test_the_laws_are_those_of_the_library():
     assert [law.value for law in LawChoice] == list(get_args(Law))
 
 
-def test_stuck_surfaces_are_drawn_back(invoke, rough):
-    words = ("curve", rough, *MODULUS, "--work", "50mJ/m^2", "--law", "sharp", "--depths", "20nm,-100nm,-1um")
-    record = json.loads(invoke(*words, "--json").stdout)
-    curve = rc.adhesive_curve(rc.read(rough), 10e6, rc.Adhesion(50e-3, law="sharp"), depths=record["depth"])
-    np.testing.assert_array_equal(record["force"], curve.force)
-    assert "leave out --range" in invoke(*words, "--range", "2nm").stderr
-    assert "falling" in invoke(*words[:-1], "-20nm,20nm").stderr
-
-
 def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     answer = invoke(
         "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"

@@ -234,17 +234,6 @@ $ {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm
 > {PRESS} --force 1uN --work 50mJ/m^2 --range 2.18e-08m
 > {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm --allow-unresolved
 
-$ {STICKS} --force 1mN --law sharp --range 2nm
-! the sharp law has no range: leave out --range
-> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --depths 20nm,10nm
-
-$ {STICKS} --force 1mN --law sharp
-! give at least two falling depths or forces ('roughcontact curve'), the first, above zero,
-> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --depths 20nm,10nm
-> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --law sharp --forces 2uN,1uN
-> {FAR} --force 1uN --law exponential
-> {FAR} --force 1uN --law dugdale
-
 $ {FAR} --force -1nN
 ! give 'curve --forces 0N,-1nN'
 > curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --forces 0N,-1nN

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["POINTS", "LawChoice", "Sticking"]
 
-LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE", "SHARP"])
+LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE"])
 POINTS: int | None = option(
     "Depths of the approach of a --loop with --work, in even steps; the retreat has the same (default: 40).",
     "40",
@@ -66,16 +66,11 @@ class Sticking:
         Raises
         ------
         UsageError
-            If its range is not given, or that of the sharp law is, or a number makes no sense.
+            If its range is not given, or a number makes no sense.
         """
         import roughcontact as rc
 
         assert self.work is not None
-        if self.law is LawChoice.SHARP:
-            if self.range is not None:
-                raise UsageError("the sharp law has no range: leave out --range")
-            work = parse_positive(self.work, ENERGY_PER_AREA, "--work", "the work of adhesion")
-            return rc.Adhesion(work, law="sharp", allow_unresolved=self.allow_unresolved)
         if self.range is None:
             raise UsageError(
                 "--work and --range belong together: give the length over which the attraction falls, such as "

@@ -8,6 +8,7 @@ from typing import Literal
 from matplotlib.axes import Axes
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
@@ -180,12 +181,12 @@ def plot_loop(
     return draw[quantity](loop, ax)
 
 
-def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
+def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -> Axes:
     """Draw the pressure of surfaces that stick, tension in blue, the contact outlined; of a line or rings a curve.
 
     Parameters
     ----------
-    state : AdhesiveState
+    state : AdhesiveState or DetachmentState
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -201,4 +202,4 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
-    return tension_map(state, ax) if state.blank.operator.grid.ndim == 2 else tension_profile(state, ax)
+    return tension_map(state, ax) if state.contact.ndim == 2 else tension_profile(state, ax)

@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.detachment_curve import DetachmentCurve
+from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
@@ -24,6 +26,12 @@ from roughcontact.plot.adhesive_facts import (
     law_facts,
 )
 from roughcontact.plot.answers import plot_curve, plot_loop, plot_solution, plot_state, plot_surface
+from roughcontact.plot.detachment_plot import (
+    DETACHMENT_COLUMNS,
+    detachment_facts,
+    detachment_force,
+    detachment_state_facts,
+)
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
     CURVE_COLUMNS,
@@ -38,7 +46,8 @@ from roughcontact.plot.jumps import jump_loop
 from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("adhesive_curve_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
+    *("adhesive_curve_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
+    "surface_html",
 ]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
@@ -87,11 +96,20 @@ def loop_html(loop: Loop) -> str:
     return _page("Loop", loop_facts(loop), figure)
 
 
-def state_html(state: AdhesiveState) -> str:
+def state_html(state: AdhesiveState | DetachmentState) -> str:
     """Return the numbers of a state of surfaces that stick beside pressure and tension."""
     figure, axes = _figure()
     plot_state(state, axes)
-    return _page("State", adhesive_facts(state), figure)
+    facts = detachment_state_facts(state) if isinstance(state, DetachmentState) else adhesive_facts(state)
+    return _page("State", facts, figure)
+
+
+def detachment_html(curve: DetachmentCurve) -> str:
+    """Return a table of the loads of stuck surfaces, and the pull-off force beside force against depth."""
+    figure, axes = _figure()
+    detachment_force(curve, axes)
+    table = _table(*load_table(curve.to_dataset(), DETACHMENT_COLUMNS))
+    return _page("Detachment", detachment_facts(curve), figure) + table
 
 
 def adhesive_curve_html(loop: AdhesiveCurve) -> str:
