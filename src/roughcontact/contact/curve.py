@@ -18,7 +18,9 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import CURVE_POINTS, force_unit, unit_of
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
@@ -29,7 +31,7 @@ from roughcontact.validation import Array, Mask, number, numeric
 if TYPE_CHECKING:
     from roughcontact.theory.law import Basis
 
-__all__ = ["Curve", "collect"]
+__all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
 DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
@@ -347,6 +349,10 @@ class Curve:
     _repr_html_ = methods.curve_html
 
 
+CURVE_POINTS = tuple(column.name for column in POINTS if Curve.__annotations__.get(column.name) == "Array")
+"""What a curve takes over from each state; the other columns follow."""
+
+
 @one_blas_thread()
 def collect(path: Iterable[Solution]) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
@@ -355,13 +361,13 @@ def collect(path: Iterable[Solution]) -> Curve:
     flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
     hardness = 0.0
+    names = (*CURVE_POINTS, *names_of(CERTIFICATES))
     for solution in path:
         problem = problem or solution.problem
         if solution.problem.plastic:  # on unloading nothing limits the pressure
             hardness = max(hardness, solution.problem.terms.largest_hardness)
         flows.append(flow_point(solution))
-        numbers = (getattr(solution, name) for name in CURVE_POINTS)
-        points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
+        points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)
         del solution  # with its maps, before the next load is solved
     if problem is None:
@@ -369,7 +375,7 @@ def collect(path: Iterable[Solution]) -> Curve:
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
-        **dict(zip((*CURVE_POINTS, "residual", "stiffness_residual"), columns, strict=True)),
+        **dict(zip(names, columns, strict=True)),
         spots=spots.astype(np.intp),
         status=tuple(status),
         modulus=problem.modulus,

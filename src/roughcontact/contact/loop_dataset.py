@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.arrays import on_host
 from roughcontact.contact.dataset import curve_dataset, curve_record
 from roughcontact.contact.loop import Loop
-from roughcontact.labels.labelled import centres, dataset_of, plain_values, units_of, variable
+from roughcontact.labels.contact_columns import FLOW, LOOP
+from roughcontact.labels.labelled import centres, dataset_of, record_of, variable, variables_of
 
 if TYPE_CHECKING:
     import xarray
@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 
 __all__ = ["loop_dataset", "loop_record"]
 
-_SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
+_NAMES = {
+    "heights": "surface.heights",
+    "flattened_heights": "flattened.heights",
+    **{f"flow_{name}": f"flow.{name}" for name in ("depth", "rise", "volume", "energy")},
+}
 
 
 def loop_dataset(loop: Loop) -> xarray.Dataset:
@@ -49,14 +53,7 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
     loads = xarray.concat([each[along] for each in branches], "load")
     others = branches[0].drop_vars(along)
     words = np.repeat(list(loop.curves), [len(curve) for curve in loop.curves.values()])
-    fields = {
-        "heights": loop.surface.heights,
-        "flattened_heights": loop.flattened.heights,
-        "flow_depth": loop.flow.depth,
-    }
-    data: dict[str, Any] = {name: variable(name, kind.axes, on_host(field)) for name, field in fields.items()}
-    data |= {name: variable(name, (), getattr(loop, name), kind) for name in _SCALARS}
-    data["flow_rise"] = variable("flow_rise", (), loop.flow.rise)
+    data = variables_of(loop, LOOP, kind, _NAMES)
     whole = dataset_of(
         data, centres(grid, kind), "first loading, unloading and reloading of a rough surface", kind
     )
@@ -85,11 +82,5 @@ def loop_record(loop: Loop) -> dict[str, Any]:
     '78 nm'
     """
     kind = loop.loading.geometry
-    record = {name: plain_values(getattr(loop, name)) for name in _SCALARS}
-    record |= {
-        "flow_volume": loop.flow.volume,
-        "flow_energy": plain_values(loop.flow.energy),
-        "flow_rise": loop.flow.rise,
-    }
-    record |= {"units": units_of(record, kind)}
-    return record | {name: curve_record(curve) for name, curve in loop.curves.items()}
+    data = variables_of(loop, {(): (*LOOP[()], *FLOW[1:3])}, kind, _NAMES)
+    return record_of(data, kind) | {name: curve_record(curve) for name, curve in loop.curves.items()}

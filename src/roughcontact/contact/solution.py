@@ -115,6 +115,16 @@ class Solution:
         """Real contact area over the nominal area of all cells, missing ones included."""
         return self.contact_area / self.problem.grid.area
 
+    @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area of all cells [Pa]."""
+        return self.force / self.problem.grid.area
+
+    @property
+    def largest_pressure(self) -> float:
+        """Largest pressure of a cell [Pa]."""
+        return largest(self.pressure)
+
     @cached_property
     def mean_gap(self) -> float:
         """Mean of the deformed gap over the measured cells [m], at this depth; plastic cells count below zero."""
@@ -180,6 +190,11 @@ class Solution:
         """
         return self.frozen.stiffness
 
+    @property
+    def stiffness_residual(self) -> float:
+        """Residual of the linear problem of the stiffness, relative: its certificate."""
+        return self.frozen.residual
+
     @cached_property
     def touching(self) -> npt.NDArray[np.bool_]:
         """Mask of the cells without pressure whose gap is zero, as far as rounding and the residual tell.
@@ -218,6 +233,11 @@ class Solution:
         if not self.frozen.residual + ROUNDING <= ACCURACY * closing:
             closing = self._mean_opening(1 - exact_of(self.problem.operator).apply(self.frozen.tangent))
         return k / closing if closing else np.inf  # in full contact the gap cannot close
+
+    @property
+    def interfacial_stiffness_per_area(self) -> float:
+        """Interfacial stiffness over the nominal area of all cells, K/A0 [Pa/m]."""
+        return self.interfacial_stiffness / self.problem.grid.area
 
     @cached_property
     def spots(self) -> Spots:
