@@ -87,39 +87,35 @@ if TYPE_CHECKING:
     from roughcontact.surface.windows import tapered as tapered
 else:
     _HOMES = {
-        "adhesion.adhesive_curve_dataset": ("adhesive_curve_dataset", "adhesive_curve_record"),
+        "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
         "adhesion.detachment_dataset": (
-            *("detachment_curve_dataset", "detachment_curve_record"),
-            *("detachment_state_dataset", "detachment_state_record"),
+            "detachment_curve_dataset detachment_curve_record "
+            "detachment_state_dataset detachment_state_record"
         ),
-        "adhesion.state_dataset": ("state_dataset", "state_record"),
+        "adhesion.state_dataset": "state_dataset state_record",
         "contact.dataset": (
-            *("curve_dataframe", "curve_dataset", "curve_record"),
-            *("interface_dataset", "solution_dataset", "solution_record"),
+            "curve_dataframe curve_dataset curve_record interface_dataset solution_dataset solution_record"
         ),
-        "contact.histograms": ("gap_histogram", "pressure_histogram"),
-        "contact.loop_dataset": ("loop_dataset", "loop_record"),
-        "contact.notes": ("notes_on",),
-        "files.surface_dataset": ("surface_dataset", "surface_of"),
-        "friction.slip_dataset": (
-            *("slip_curve_dataset", "slip_curve_record", "tangential_dataset", "tangential_record"),
-        ),
-        "plot.answers": ("plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
-        "plot.detachment_plot": ("detachment_force",),
-        "plot.jumps": ("jump_loop",),
+        "contact.histograms": "gap_histogram pressure_histogram",
+        "contact.loop_dataset": "loop_dataset loop_record",
+        "contact.notes": "notes_on",
+        "files.surface_dataset": "surface_dataset surface_of",
+        "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
+        "plot.answers": "plot_curve plot_loop plot_solution plot_state plot_surface",
+        "plot.detachment_plot": "detachment_force",
+        "plot.jumps": "jump_loop",
         "plot.notebook": (
-            *("adhesive_curve_html", "curve_html", "detachment_html"),
-            *("loop_html", "solution_html", "state_html", "surface_html"),
+            "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
         ),
-        "surface.filters": ("filtered",),
-        "surface.levelling": ("levelled", "without_form"),
-        "surface.mask": ("masked",),
-        "surface.missing": ("filled",),
-        "surface.orientation": ("flipped", "rotated", "transposed"),
-        "surface.sampling": ("averaged", "cropped", "downsampled"),
-        "surface.spikes": ("despiked",),
-        "surface.tip": ("scanned",),
-        "surface.windows": ("tapered",),
+        "surface.filters": "filtered",
+        "surface.levelling": "levelled without_form",
+        "surface.mask": "masked",
+        "surface.missing": "filled",
+        "surface.orientation": "flipped rotated transposed",
+        "surface.sampling": "averaged cropped downsampled",
+        "surface.spikes": "despiked",
+        "surface.tip": "scanned",
+        "surface.windows": "tapered",
     }
     for _home, _names in _HOMES.items():
-        globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names})
+        globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact import methods
 from roughcontact.adhesion.adhesive_state import AdhesiveState
@@ -15,6 +16,8 @@ from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
+from roughcontact.labels.column import stored_in
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
@@ -117,6 +120,11 @@ class AdhesiveCurve:
         return len(self.force)
 
     @property
+    def branch(self) -> npt.NDArray[np.str_]:
+        """Of each point ``"approach"`` or ``"retreat"``."""
+        return np.where(self.approach, "approach", "retreat")
+
+    @property
     def pull_off_force(self) -> float:
         """Largest tension of the retreat [N], positive; 0 where nothing pulls back.
 
@@ -167,6 +175,10 @@ class AdhesiveCurve:
     to_record = methods.adhesive_curve_record
     plot = methods.jump_loop
     _repr_html_ = methods.adhesive_curve_html
+
+
+CURVE_POINTS = stored_in(AdhesiveCurve, ADHESIVE_CURVE[("load",)])
+"""What a path keeps of each state; the other columns follow."""
 
 
 def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCurve:

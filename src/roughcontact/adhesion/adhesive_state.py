@@ -160,6 +160,21 @@ class AdhesiveState:
         return geometry_of(self.blank.operator)
 
     @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area [Pa]."""
+        return self.force / self.blank.operator.grid.area
+
+    @property
+    def largest_pressure(self) -> float:
+        """Largest pressure of a cell [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def largest_tension(self) -> float:
+        """Largest tension of a cell [Pa], positive."""
+        return max(0.0, -float(self.pressure.min()))
+
+    @property
     def mean_gap(self) -> float:
         """Gap averaged over the measured cells [m]."""
         there = np.isfinite(self.blank.separation)

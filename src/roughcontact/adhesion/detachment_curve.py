@@ -15,6 +15,8 @@ from roughcontact.adhesion.detachment_path import detachment_path, force_unit_of
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
+from roughcontact.labels.column import stored_in
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, numeric
@@ -151,6 +153,10 @@ class DetachmentCurve:
     to_record = methods.detachment_curve_record
     plot = methods.detachment_force
     _repr_html_ = methods.detachment_html
+
+
+CURVE_POINTS = stored_in(DetachmentCurve, DETACHMENT_CURVE[("load",)])
+"""What a curve keeps of each state; the other columns follow."""
 
 
 @numeric(work="J/m^2", depths="m", forces=force_unit_of, pressures="Pa")

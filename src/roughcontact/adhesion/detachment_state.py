@@ -166,6 +166,11 @@ class DetachmentState:
         return self.contact_area / self.problem.grid.area
 
     @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area [Pa]."""
+        return self.force / self.problem.grid.area
+
+    @property
     def largest_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
         return float(self.pressure.max())

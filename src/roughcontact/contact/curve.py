@@ -18,7 +18,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.column import names_of
+from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
@@ -349,7 +349,7 @@ class Curve:
     _repr_html_ = methods.curve_html
 
 
-CURVE_POINTS = tuple(column.name for column in POINTS if Curve.__annotations__.get(column.name) == "Array")
+CURVE_POINTS = stored_in(Curve, POINTS)
 """What a curve takes over from each state; the other columns follow."""
 
 

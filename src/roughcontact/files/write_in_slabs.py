@@ -12,6 +12,7 @@ import numpy as np
 from roughcontact.files.aside import written_aside
 from roughcontact.files.write import netcdf_bytes
 from roughcontact.labels.labelled import attributes_of
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.slabs.agreement import by_each, by_first, entered_by_first
 from roughcontact.slabs.by_rows import rows_to_first
 from roughcontact.slabs.slab_array import SlabArray
@@ -95,5 +96,5 @@ def _new_map(file: Any, name: str, field: SlabArray) -> Any:
         compression_opts=4,
         shuffle=True,
     )
-    stored.attrs.update(attributes_of(name) | ({"dtype": "bool"} if truth else {}))
+    stored.attrs.update(attributes_of(VARIABLES[name]) | ({"dtype": "bool"} if truth else {}))
     return stored

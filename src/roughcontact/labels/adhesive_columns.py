@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from roughcontact.labels.column import CELLS, Column, Table
+from roughcontact.labels.column import CELLS, Column, Table, columns
 from roughcontact.labels.contact_columns import (
     CERTIFICATES,
     LARGEST_PRESSURE,
@@ -43,23 +43,23 @@ LOWEST_FORCE = Column(
     "lowest_force", "N", "lowest force since the body is drawn back, between the loads and in jumps"
 )
 PULL_OFF = Column("pull_off_force", "N", "largest tension of the retreat, between the loads and in jumps")
-LOST = Column("lost_energy", "J", "energy lost in all jumps", "energy lost")
+LOST = Column("lost_energy", "J", "energy lost in all jumps", "", "energy lost")
 LARGEST_TENSION = Column("largest_tension", "Pa", "largest tension of a cell")
 UNRESOLVED = Column("unresolved", "", "attraction varies from cell to cell: states are those of the lattice")
 WORK_OF_ADHESION = Column(
-    "work_of_adhesion", "J m-2", "work of adhesion, to part a unit area", "work of adhesion w"
+    "work_of_adhesion", "J m-2", "work of adhesion, to part a unit area", "", "work of adhesion w"
 )
-ADHESION = (
-    Column("adhesion_range", "m", "length over which the attraction falls", "range of the attraction"),
-    Column("allow_unresolved", "", "whether an attraction that varies from cell to cell was allowed"),
-)
+ADHESION = columns("""
+    adhesion_range | m | length over which the attraction falls | | range of the attraction
+    allow_unresolved | | whether an attraction that varies from cell to cell was allowed
+""")
 """What a law has besides its work of adhesion, which may be a map."""
 
 _POINTS = (DEPTH, FORCE, AREA, FRACTION, STIFFNESS, CONTACT_STIFFNESS, MEAN_GAP)
 _ENERGIES = (_OF["elastic_energy"], ADHESIVE_ENERGY, ENERGY)
 ADHESIVE_CURVE: Table = {
     ("load",): (
-        Column("branch", "", "branch of the path: approach or retreat", shown="path"),
+        Column("branch", "", "branch of the path: approach or retreat", "path"),
         *_POINTS,
         *_ENERGIES,
         LOWEST_FORCE,
@@ -96,31 +96,26 @@ ADHESIVE_STATE: Table = {
         LARGEST_TENSION,
         *_POINTS,
         *_ENERGIES,
-        Column(
-            "stability",
-            "1",
-            "smallest eigenvalue found of the Hessian over that without attraction, as it is controlled",
-        ),
-        Column(
-            "stability_residual",
-            "1",
-            "residual of the eigenvector of the stability: some eigenvalue lies within it of the stability",
-        ),
+        *columns("""
+            stability | 1 | smallest eigenvalue found of the Hessian over that without attraction, as it is controlled
+            stability_residual | 1 | \
+                residual of the eigenvector of the stability: some eigenvalue lies within it of the stability
+        """),
         RESIDUAL,
         UNRESOLVED,
         STATUS,
     ),
     ("axis",): SIZES,
 }
-JUMPS = (
-    Column("jump_depth", "m", "last depth of the branch that ends"),
-    Column("jump_depth_after", "m", "depth after the jump"),
-    Column("jump_force_before", "N", "force before the jump"),
-    Column("jump_force_after", "N", "force after the jump"),
-    Column("jump_lost", "J", "energy lost in the jump"),
-    Column("jump_approach", "", "whether the depth or the force was growing"),
-    Column("jump_ambiguous", "", "whether two integrations of the flow after the jump end apart"),
-)
+JUMPS = columns("""
+    jump_depth | m | last depth of the branch that ends
+    jump_depth_after | m | depth after the jump
+    jump_force_before | N | force before the jump
+    jump_force_after | N | force after the jump
+    jump_lost | J | energy lost in the jump
+    jump_approach | | whether the depth or the force was growing
+    jump_ambiguous | | whether two integrations of the flow after the jump end apart
+""")
 BRACKETS = {
     "depth": Column(
         "jump_depth_bracket", "m", "depth between the last state of the branch and the first beyond it"
@@ -158,11 +153,11 @@ DETACHMENT_STATE: Table = {
     ),
     ("axis",): SIZES,
 }
-DETACHMENTS = (
-    Column("detachment_depth", "m", "depth at which cells let go"),
-    Column("detachment_depth_after", "m", "depth after cells let go"),
-    Column("detachment_force_before", "N", "force before cells let go"),
-    Column("detachment_force_after", "N", "force after cells let go"),
-    Column("detachment_cells", "1", "number of cells that let go"),
-    Column("detachment_lost", "J", "elastic energy set free less the work of adhesion"),
-)
+DETACHMENTS = columns("""
+    detachment_depth | m | depth at which cells let go
+    detachment_depth_after | m | depth after cells let go
+    detachment_force_before | N | force before cells let go
+    detachment_force_after | N | force after cells let go
+    detachment_cells | 1 | number of cells that let go
+    detachment_lost | J | elastic energy set free less the work of adhesion
+""")

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["CELLS", "Column", "Table", "names_of", "shown_in"]
+__all__ = ["CELLS", "Column", "Table", "columns", "names_of", "shown_in", "stored_in"]
 
 CELLS = "cells"
 """In the dimensions of a table: the axes of the grid."""
@@ -27,12 +27,12 @@ class Column:
         Empty for words.
     long_name : str
         The quantity in words, complete enough to stand alone in a file.
-    label : str
-        The quantity on the axis of a picture and in a table, without its unit; by default its name.
     shown : str
         Where it is shown to a person, in words apart: ``"patch"`` and ``"joint"`` are tables of loads on a screen, of a
         free and of a periodic map; ``"path"`` that of a path of surfaces that stick; ``"page"`` that of the page in the
         browser; ``"facts"`` the lines about one state.
+    label : str
+        The quantity on the axis of a picture and in a table, without its unit; by default its name.
     digits : str
         How its numbers are written in a table on a screen.
     """
@@ -40,8 +40,8 @@ class Column:
     name: str
     unit: str
     long_name: str
-    label: str = ""
     shown: str = ""
+    label: str = ""
     digits: str = ".4g"
 
     def __post_init__(self) -> None:
@@ -65,9 +65,19 @@ _ON_A_LINE = {"N": "N m-1", "N m-1": "N m-2", "m2": "m", "m3": "m2", "J": "J m-1
 _ON_SPRINGS = {"Pa": "N m-1", "m2": "m", "m3": "m2", "Pa m-1": "N m-2"}
 
 
+def columns(table: str) -> tuple[Column, ...]:
+    """Return the columns of a table in words: a line each, the fields of `Column` between bars."""
+    return tuple(Column(*map(str.strip, line.split("|"))) for line in table.strip().splitlines())
+
+
 def names_of(columns: Iterable[Column]) -> tuple[str, ...]:
     """Return the names of columns."""
     return tuple(column.name for column in columns)
+
+
+def stored_in(answer: type, columns: Iterable[Column]) -> tuple[str, ...]:
+    """Return the names of the columns that a curve holds as arrays; the others follow from them."""
+    return tuple(each.name for each in columns if answer.__annotations__.get(each.name) == "Array")
 
 
 def shown_in(place: str, columns: Iterable[Column]) -> tuple[Column, ...]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from roughcontact.labels.column import CELLS, Column, Table
+from roughcontact.labels.column import CELLS, Column, Table, columns
 
 __all__ = [
     *(
@@ -24,109 +24,66 @@ __all__ = [
     *("SPOT_LABEL", "STATE", "STATE_NAMES", "STATUS"),
 ]
 
-POINTS = (
-    Column("force", "N", "normal force", shown="patch page facts"),
-    Column("nominal_pressure", "Pa", "force over the nominal area", shown="joint page facts"),
-    Column("depth", "m", "approach of the bodies since first touch", shown="patch page facts"),
-    Column(
-        "stiffness",
-        "N m-1",
-        "normal stiffness dF/dd of the contact region held fixed",
-        shown="patch page facts",
-    ),
-    Column(
-        "interfacial_stiffness",
-        "N m-1",
-        "normal stiffness against the mean gap, contact region held fixed",
-        shown="page facts",
-    ),
-    Column("contact_area", "m2", "real contact area", shown="patch page facts"),
-    Column(
-        "contact_fraction",
-        "1",
-        "relative real contact area, real over nominal",
-        "relative real contact area A/A0",
-        shown="joint page facts",
-    ),
-    Column(
-        "interfacial_stiffness_per_area",
-        "Pa m-1",
-        "interfacial stiffness over the nominal area",
-        "interfacial stiffness per area K/A0",
-        shown="joint page",
-    ),
-    Column(
-        "spots",
-        "1",
-        "number of connected contact spots",
-        "contact spots",
-        shown="patch joint page facts",
-        digits="d",
-    ),
-    Column("mean_gap", "m", "gap averaged over the measured cells", shown="patch joint page facts"),
-    Column("elastic_energy", "J", "elastic energy of the bodies", shown="page facts"),
-)
+POINTS = columns("""
+    force | N | normal force | patch page facts
+    nominal_pressure | Pa | force over the nominal area | joint page facts
+    depth | m | approach of the bodies since first touch | patch page facts
+    stiffness | N m-1 | normal stiffness dF/dd of the contact region held fixed | patch page facts
+    interfacial_stiffness | N m-1 | normal stiffness against the mean gap, contact region held fixed | page facts
+    contact_area | m2 | real contact area | patch page facts
+    contact_fraction | 1 | relative real contact area, real over nominal | joint page facts | \
+        relative real contact area A/A0
+    interfacial_stiffness_per_area | Pa m-1 | interfacial stiffness over the nominal area | joint page | \
+        interfacial stiffness per area K/A0
+    spots | 1 | number of connected contact spots | patch joint page facts | contact spots | d
+    mean_gap | m | gap averaged over the measured cells | patch joint page facts
+    elastic_energy | J | elastic energy of the bodies | page facts
+""")
 """What a loaded state has, and a curve at each load."""
-CERTIFICATES = (
-    Column(
-        "residual",
-        "1",
-        "violation of the contact conditions, recomputed on the answer",
-        shown="patch joint page",
-        digits=".1e",
-    ),
-    Column("stiffness_residual", "1", "residual of the linear problem of the stiffness"),
-)
+CERTIFICATES = columns("""
+    residual | 1 | violation of the contact conditions, recomputed on the answer | patch joint page | | .1e
+    stiffness_residual | 1 | residual of the linear problem of the stiffness
+""")
 STATUS = Column("status", "", "how the solver ended")
-MODULUS = Column(
-    "modulus", "Pa", "reduced modulus E* of the pair of solids", "reduced modulus E*", shown="facts"
-)
-RMS = Column("rms", "m", "root mean square height about the mean", "rms height")
+MODULUS = Column("modulus", "Pa", "reduced modulus E* of the pair of solids", "facts", "reduced modulus E*")
+RMS = Column("rms", "m", "root mean square height about the mean", "", "rms height")
 HARDNESS = Column("hardness", "Pa", "pressure that no cell exceeds")
 SCALES = (
     MODULUS,
     RMS,
-    Column(
-        "full_contact_stiffness",
-        "N m-1",
-        "stiffness with every measured cell in contact",
-        "full-contact stiffness",
-    ),
-    Column("cell_stiffness", "N m-1", "stiffness with one cell in contact", "one cell"),
-    Column("nominal_area", "m2", "area of all cells"),
+    *columns("""
+        full_contact_stiffness | N m-1 | stiffness with every measured cell in contact | | full-contact stiffness
+        cell_stiffness | N m-1 | stiffness with one cell in contact | | one cell
+        nominal_area | m2 | area of all cells
+    """),
 )
 """What a curve is measured by."""
-SIZES = (
-    Column("lengths", "m", "side lengths of the map, cells times spacing", "length"),
-    Column("spacing", "m", "size of a cell"),
-    Column("periodic", "", "whether the surface repeats itself"),
-)
-SHAPE = Column("shape", "1", "number of cells", "cells")
+SIZES = columns("""
+    lengths | m | side lengths of the map, cells times spacing | | length
+    spacing | m | size of a cell
+    periodic | | whether the surface repeats itself
+""")
+SHAPE = Column("shape", "1", "number of cells", "", "cells")
 
-FLOW = (
-    Column("plastic_area", "m2", "area of the cells whose pressure is the hardness"),
-    Column("flow_volume", "m3", "volume that has flowed", "volume of flow"),
-    Column("flow_energy", "J", "work that first loading spent on flow", "energy of flow"),
-    Column(
-        "unloading_stiffness",
-        "N m-1",
-        "normal stiffness dF/dd as the load is reduced, contact region held fixed",
-    ),
-    Column(
-        "unloading_interfacial_stiffness",
-        "N m-1",
-        "normal stiffness against the mean gap as the load is reduced, contact region held fixed",
-    ),
-)
+FLOW = columns("""
+    plastic_area | m2 | area of the cells whose pressure is the hardness
+    flow_volume | m3 | volume that has flowed | | volume of flow
+    flow_energy | J | work that first loading spent on flow | | energy of flow
+    unloading_stiffness | N m-1 | normal stiffness dF/dd as the load is reduced, contact region held fixed
+    unloading_interfacial_stiffness | N m-1 | \
+        normal stiffness against the mean gap as the load is reduced, contact region held fixed
+""")
 """What a state and a curve have besides where a hardness limits the pressure."""
-FLOW_DEPTH = Column("flow_depth", "m", "depth by which the surface has flowed", "depth of flow")
-FLOW_RISE = Column("flow_rise", "m", "rise of the whole surface by what has flowed", "rise")
+FLOW_DEPTH = Column("flow_depth", "m", "depth by which the surface has flowed", "", "depth of flow")
+FLOW_RISE = Column("flow_rise", "m", "rise of the whole surface by what has flowed", "", "rise")
 
 CURVE: Table = {
     ("load",): (
         *POINTS,
-        Column("dimensionless_force", "1", "force over modulus, length and rms height", "force / (E* L h)"),
-        Column("dimensionless_stiffness", "1", "stiffness over modulus and length", "stiffness / (E* L)"),
+        *columns("""
+            dimensionless_force | 1 | force over modulus, length and rms height | | force / (E* L h)
+            dimensionless_stiffness | 1 | stiffness over modulus and length | | stiffness / (E* L)
+        """),
         *CERTIFICATES,
         Column("resolved", "", "contact stands above twenty cells and below the full-contact stiffness"),
         STATUS,
@@ -142,25 +99,27 @@ CURVE: Table = {
     ("axis",): SIZES,
 }
 
-HEIGHTS = Column("heights", "m", "height of the surface, positive toward the other body", "height")
+HEIGHTS = Column("heights", "m", "height of the surface, positive toward the other body", "", "height")
 CONTACT = Column("contact", "", "whether the cell is in contact")
 PRESSURE = Column("pressure", "Pa", "contact pressure")
 STEPS = Column("steps", "1", "steps of the solver")
-LARGEST_PRESSURE = Column("largest_pressure", "Pa", "largest contact pressure of a cell", shown="facts")
+LARGEST_PRESSURE = Column("largest_pressure", "Pa", "largest contact pressure of a cell", "facts")
 MAPS = (
     PRESSURE,
-    Column("displacement", "m", "normal displacement of the half-space"),
-    Column("gap", "m", "gap between the bodies"),
+    *columns("""
+        displacement | m | normal displacement of the half-space
+        gap | m | gap between the bodies
+    """),
     CONTACT,
 )
 SPOT_LABEL = Column(
-    "spot_label", "1", "number of the contact spot a cell belongs to, 0 outside contact", "spot"
+    "spot_label", "1", "number of the contact spot a cell belongs to, 0 outside contact", "", "spot"
 )
 SPOTS: Table = {
-    ("spot",): (
-        Column("spot_area", "m2", "area of a contact spot"),
-        Column("spot_load", "N", "force carried by a contact spot"),
-    )
+    ("spot",): columns("""
+        spot_area | m2 | area of a contact spot
+        spot_load | N | force carried by a contact spot
+    """)
 }
 STATE: Table = {
     (): (
@@ -171,8 +130,10 @@ STATE: Table = {
         *CERTIFICATES,
         STATUS,
         STEPS,
-        Column("missing", "1", "number of cells without a height; they never touch", "missing cells"),
-        Column("touches_edge", "", "contact reaches the edge of the map", "contact at the edge"),
+        *columns("""
+            missing | 1 | number of cells without a height; they never touch | | missing cells
+            touches_edge | | contact reaches the edge of the map | | contact at the edge
+        """),
     ),
     ("axis",): SIZES,
 }
@@ -193,10 +154,12 @@ LOOP: Table = {
         FLOW_DEPTH,
     ),
     (): (
-        Column("residual_depth", "m", "approach at which the flattened surface is touched without force"),
-        Column("residual_gap", "m", "mean gap of the flattened surface that is touched without force"),
-        Column("work", "J", "work of first loading up to the largest load"),
-        Column("dissipated_work", "J", "work of loading that unloading does not give back"),
+        *columns("""
+            residual_depth | m | approach at which the flattened surface is touched without force
+            residual_gap | m | mean gap of the flattened surface that is touched without force
+            work | J | work of first loading up to the largest load
+            dissipated_work | J | work of loading that unloading does not give back
+        """),
         FLOW_RISE,
     ),
 }
@@ -214,46 +177,28 @@ INTERFACE: Table = {
     (): (Column("zero_gap", "m", "mean gap at which the pressure of the table begins"),),
 }
 
-CONDUCTION = (
-    Column("electrical_conductance", "S", "electrical conductance of the contact"),
-    Column("electrical_resistance", "ohm", "electrical resistance of the contact"),
-    Column("thermal_conductance", "W K-1", "thermal conductance of the contact"),
-    Column("thermal_resistance", "K W-1", "thermal resistance of the contact"),
-)
-CONDUCTION_PER_AREA = (
-    Column(
-        "electrical_conductance_per_area",
-        "S m-2",
-        "electrical conductance over the nominal area",
-        shown="page",
-    ),
-    Column("electrical_resistance_per_area", "m2 ohm", "electrical resistance times the nominal area"),
-    Column(
-        "thermal_conductance_per_area",
-        "W m-2 K-1",
-        "thermal conductance over the nominal area",
-        "thermal conductance per area h_c",
-        shown="page",
-    ),
-    Column("thermal_resistance_per_area", "m2 K W-1", "thermal resistance times the nominal area"),
-)
-ERRORS = (
-    Column(
-        "corrected_contact_area",
-        "m2",
-        "real contact area, corrected for the perimeter of its cells",
-        "contact area, corrected",
-    ),
-    Column(
-        "corrected_contact_fraction",
-        "1",
-        "relative real contact area, corrected for the perimeter of its cells",
-        "A/A0, corrected",
-    ),
-)
+CONDUCTION = columns("""
+    electrical_conductance | S | electrical conductance of the contact
+    electrical_resistance | ohm | electrical resistance of the contact
+    thermal_conductance | W K-1 | thermal conductance of the contact
+    thermal_resistance | K W-1 | thermal resistance of the contact
+""")
+CONDUCTION_PER_AREA = columns("""
+    electrical_conductance_per_area | S m-2 | electrical conductance over the nominal area | page
+    electrical_resistance_per_area | m2 ohm | electrical resistance times the nominal area
+    thermal_conductance_per_area | W m-2 K-1 | thermal conductance over the nominal area | page | \
+        thermal conductance per area h_c
+    thermal_resistance_per_area | m2 K W-1 | thermal resistance times the nominal area
+""")
+ERRORS = columns("""
+    corrected_contact_area | m2 | real contact area, corrected for the perimeter of its cells | | \
+        contact area, corrected
+    corrected_contact_fraction | 1 | relative real contact area, corrected for the perimeter of its cells | | \
+        A/A0, corrected
+""")
 """What is quoted with its error besides the columns of a state."""
-PLACES = (
-    Column("x", "m", "position along the rows of the picture, centre of the cell"),
-    Column("y", "m", "position down the picture from its top, centre of the cell"),
-    Column("r", "m", "distance from the axis, mean radius of the ring"),
-)
+PLACES = columns("""
+    x | m | position along the rows of the picture, centre of the cell
+    y | m | position down the picture from its top, centre of the cell
+    r | m | distance from the axis, mean radius of the ring
+""")

@@ -53,7 +53,7 @@ def variables_of(answer: Any, table: Table, geometry: Geometry, names: Names = _
         column.name: (
             tuple(axis for each in along for axis in (geometry.axes if each == CELLS else (each,))),
             _array(value),
-            _attributes(column, geometry),
+            attributes_of(column, geometry),
         )
         for along, columns in table.items()
         for column, value in values_of(answer, columns, names).items()
@@ -84,15 +84,11 @@ def variable(
     name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
 ) -> tuple[Any, Any, dict[str, str]]:
     """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
-    return dimensions, np.asarray(values), attributes_of(name, geometry)
+    return dimensions, np.asarray(values), attributes_of(VARIABLES[name], geometry)
 
 
-def attributes_of(name: str, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
+def attributes_of(column: Column, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
     """Return what a variable says of itself: its name in words, and its unit if it has one."""
-    return _attributes(VARIABLES[name], geometry)
-
-
-def _attributes(column: Column, geometry: Geometry) -> dict[str, str]:
     unit = column.unit_on(geometry)
     return {"long_name": column.long_name} | ({"units": unit} if unit else {})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roughcontact.labels.column import CELLS, Column, Table
+from roughcontact.labels.column import CELLS, Column, Table, columns
 from roughcontact.labels.contact_columns import (
     CERTIFICATES,
     CONTACT,
@@ -15,17 +15,15 @@ from roughcontact.labels.contact_columns import (
 
 __all__ = ["DIRECTION", "SLIP_CURVE", "SLIP_STATE"]
 
-FORCE, DISPLACEMENT = (
-    Column("tangential_force", "N", "tangential force that body 2 exerts upon body 1"),
-    Column(
-        "tangential_displacement", "m", "tangential displacement of body 2 against body 1 since the start"
-    ),
-)
-AREAS = (
-    Column("stick_area", "m2", "area of the cells in contact that hold"),
-    Column("slip_area", "m2", "area of the cells in contact that slip"),
-    Column("dissipated", "J", "energy that friction took in the step", "dissipated in a step"),
-)
+FORCE, DISPLACEMENT = columns("""
+    tangential_force | N | tangential force that body 2 exerts upon body 1
+    tangential_displacement | m | tangential displacement of body 2 against body 1 since the start
+""")
+AREAS = columns("""
+    stick_area | m2 | area of the cells in contact that hold
+    slip_area | m2 | area of the cells in contact that slip
+    dissipated | J | energy that friction took in the step | | dissipated in a step
+""")
 ENERGY = Column("tangential_elastic_energy", "J", "elastic energy of the tangential displacement")
 CAPACITY = Column("capacity", "N", "largest tangential force that friction holds")
 DIRECTION = "direction"
@@ -43,10 +41,10 @@ SLIP_CURVE: Table = {
     (): (CAPACITY,),
 }
 SLIP_STATE: Table = {
-    ("component", CELLS): (
-        Column("traction", "Pa", "tangential traction upon body 1"),
-        Column("slip", "m", "slip of surface 1 over surface 2 since the start"),
-    ),
+    ("component", CELLS): columns("""
+        traction | Pa | tangential traction upon body 1
+        slip | m | slip of surface 1 over surface 2 since the start
+    """),
     (CELLS,): (
         HEIGHTS,
         PRESSURE,
@@ -63,7 +61,7 @@ SLIP_STATE: Table = {
     ),
     (): (
         POINTS[0],
-        Column("friction", "1", "coefficient of friction", "friction coefficient"),
+        Column("friction", "1", "coefficient of friction", "", "friction coefficient"),
         CAPACITY,
         *AREAS,
         ENERGY,
