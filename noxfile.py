@@ -27,11 +27,9 @@ BLAS = ("Haswell", "SkylakeX", "Zen", "Nehalem")
 CPU = ("off", "x86-64", "haswell", "native")  # what machine code is made for
 PAIRS = {("Haswell", "off"), ("SkylakeX", "haswell"), ("Zen", "native"), ("Nehalem", "x86-64")}
 NUMERICAL = [
-    f"tests/{room}"
-    for room in (
-        *("contact", "friction", "halfspace", "kernels", "mdr", "solver"),
-        *("statistics", "surface", "theory", "thesis"),
-    )
+    *(f"tests/{room}" for room in ("contact", "friction", "halfspace", "kernels", "mdr", "solver")),
+    *(f"tests/{room}" for room in ("statistics", "surface", "theory")),
+    "reproduction/tests/thesis",
 ]
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")

@@ -85,9 +85,9 @@ def test_quick_tests_are_those_of_the_house_and_of_what_changed(monkeypatch):
     quick = script("quick")
     house = {HOME / "tests" / f"test_{name}.py" for name in quick.HOUSE}
     assert all(path.exists() for path in house)
-    answers = {"diff": ["src/roughcontact/files/sur.py", "README.md", "tests/test_law.py"], "ls-files": []}
+    answers = {"diff": ["src/roughcontact/files/sur.py", "README.md", "tests/test_loops.py"], "ls-files": []}
     monkeypatch.setattr(quick, "git", lambda verb, *_: answers[verb])
-    assert quick.tests() - house == {HOME / "tests" / name for name in ("files/test_sur.py", "test_law.py")}
+    assert quick.tests() - house == {HOME / "tests" / name for name in ("files/test_sur.py", "test_loops.py")}
     answers = {"diff": [], "ls-files": []}
     assert quick.tests() == house
 

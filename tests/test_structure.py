@@ -34,7 +34,6 @@ ORDER = [
     {"files"},
     {"study"},
     {"plot"},
-    {"thesis"},
     {"page"},
     {"cli"},
 ]
@@ -188,8 +187,7 @@ def test_bundlers_of_programs_find_what_is_opened_late():
         wanted = {name for module in left for name in names[module]}
         packages = {name.rpartition(".")[0] for name in wanted}
         left = (wanted | packages) & names.keys() - found
-    # Figures of the thesis are looked for in their folder.
-    assert {name.split(".")[1] for name in names.keys() - found} == {"__main__", "thesis"}
+    assert names.keys() - found == {"roughcontact.__main__"}
 
 
 def test_the_checks_see_what_they_look_for():

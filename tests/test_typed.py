@@ -21,7 +21,6 @@ UNTYPED = {
     "roughcontact.plot.surface_view",
     "roughcontact.study.Range.values",
     "roughcontact.study.Slurm",
-    "roughcontact.thesis.SimpleFigure.case",
 }
 WRONG = (
     "roughcontact.Curv",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughcontact.study.study import Study
-    from roughcontact.thesis.figures import EnsembleFigure, FigureModule, Scale, SimpleFigure
+    from roughcontact_thesis.figures import EnsembleFigure, FigureModule, Scale, SimpleFigure
 
 __all__ = ["EXAMPLES", "thesis"]
 
@@ -62,7 +62,7 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
     A figure of an ensemble keeps its cases in DIR/studies: stopped at any time, the same command goes on from there.
     """
     with reported(wanted.out):
-        from roughcontact.thesis.figures import FIGURES, module
+        from roughcontact_thesis.figures import FIGURES, module
 
         if name == "list":
             print_facts([(each, module(each).TITLE) for each in FIGURES])
@@ -80,7 +80,7 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
 
 def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -> None:
     """Compute and draw a figure, and print what is to be said about it; `workers` is 0 for one a core."""
-    from roughcontact.thesis.figures import is_ensemble, module, verdicts
+    from roughcontact_thesis.figures import is_ensemble, module, verdicts
 
     found, folder = module(name), wanted.out
     if is_ensemble(found):
@@ -103,7 +103,7 @@ def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -
 
 def _draw(picture: str, found: FigureModule, data: Any, folder: Path) -> None:
     from roughcontact.plot.canvas import save
-    from roughcontact.thesis.figures import drawn
+    from roughcontact_thesis.figures import drawn
 
     with doing(f"Drawing {picture}"), all_or_none(folder) as aside:
         save(drawn(found, data), aside / picture)
@@ -115,7 +115,7 @@ def _ensemble(
     """Run the studies of a figure, write their averages beside its picture, and return them."""
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_netcdf
-    from roughcontact.thesis.reproduce import averages_of, planned
+    from roughcontact_thesis.reproduce import averages_of, planned
 
     scale, seed, workers = options
     studies = planned(found, scale, seed)
@@ -136,7 +136,7 @@ def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> N
     """Run studies and show how far they are."""
     from roughcontact.cli.study_progress import progress
     from roughcontact.study import Processes, Serial
-    from roughcontact.thesis.reproduce import run_study, store_of
+    from roughcontact_thesis.reproduce import run_study, store_of
 
     executor = Serial() if workers == 1 else Processes(workers or None)
     for study in studies:

@@ -1,0 +1,1 @@
+from cli.conftest import invoke  # noqa: F401
