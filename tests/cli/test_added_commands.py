@@ -89,6 +89,13 @@ def test_a_group_of_commands_has_none_of_them(invoke, asked):
     assert asked == []
 
 
+def test_without_its_package_the_command_thesis_says_how_to_install_it(invoke, asked):
+    answer = invoke("thesis", "list")
+    assert answer.exit_code == 2
+    words = " ".join(answer.stderr.replace("│", " ").split())
+    assert f"run: {sys.executable} -m pip install roughcontact-thesis" in words
+
+
 def test_a_press_does_not_read_what_is_installed(rough):
     script = "import importlib.metadata\nimportlib.metadata.entry_points = None\n"
     script += "from roughcontact.cli.main import run\nrun()"

@@ -21,13 +21,12 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         spectrum_command as spectrum_command,
         study_command as study_command,
         surface_command as surface_command,
-        thesis_command as thesis_command,
     )
 
 __all__ = ["app"]
 
 
-_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve", "thesis")}
+_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve")}
 _SURFACE = {
     "info": "surface_command",
     "make": "surface_command",
