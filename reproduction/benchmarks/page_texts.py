@@ -1,4 +1,4 @@
-"""The page about the thesis, computed again, and the one about its verdicts, of what `pages.py` reads."""
+"""The pages about the thesis, of what `pages.py` reads: findings and claims, figures, and former verdicts."""
 
 from __future__ import annotations
 
@@ -112,7 +112,8 @@ RULES = f"""## How claims are judged
   says so.
 * Averages over samples are arithmetic means at one force; power laws are fitted to their logarithms.
 
-How each verdict came about, and what it was by the rules before: [verdicts.md](../reproduction/verdicts.md).
+Every figure, with what was chosen and what it shows, stands in `reproduction/figures.md` of the repository. What became
+of former verdicts stands in `reproduction/verdicts.md`.
 """
 
 WORDS = """## Words and symbols
@@ -130,28 +131,39 @@ WORDS = """## Words and symbols
 * Case: one solution, or one curve over all forces. Sample: one draw of the random phases, the same for all parameters.
   Sizes, rms heights and moduli of studies are bare numbers: what is found does not depend on them.
 
-This page is written by `python reproduction/benchmarks/pages.py` from what lies in `reproduction/data`: averages of
-ensembles, NetCDF files that also hold the studies they are averages of, and the findings of figures that take seconds.
-The single solutions are not kept; the command in each section makes them again, and all of them at once
+The package `roughcontact-thesis` draws the figures: `make thesis FIG=fig27` in a checkout, or, once it is installed,
+`roughcontact thesis fig27`. `python reproduction/benchmarks/pages.py` writes this page.
+"""
+
+FIGURES = """# The figures of the thesis, computed again
+
+What is found, every claim with its verdict, and the words and symbols stand in
+[docs/reproduction.md](../docs/reproduction.md). `python reproduction/benchmarks/pages.py` writes this page from files
+in [data](data): averages of ensembles, NetCDF files that also hold the studies they are averages of, and the findings
+of figures that take seconds. The single solutions are not kept; the command in each section makes them again, and all
+of them at once
 
     roughcontact thesis all --scale thesis --out DIR         # days; stopped at any time it goes on where it was
     python reproduction/benchmarks/pages.py --collect DIR
 """
 
 
-def page(every: Sequence[Entry], unjudged: dict[str, Any]) -> str:
-    """Return the page: what is found, the claims in tables, then the figures."""
+def page(every: Sequence[Entry]) -> str:
+    """Return the page of the documentation: what is found, and the claims in tables."""
     parts = [
         HEAD,
         *_findings(every),
         *_missing(every),
         RULES,
         *(line for kind in _KINDS for line in _table(every, kind)),
-        *_unjudged(unjudged),
         WORDS,
-        *(line for each in every for line in _section(each)),
     ]
     return "\n".join(parts)
+
+
+def figures_page(every: Sequence[Entry], unjudged: dict[str, Any]) -> str:
+    """Return the page of the figures: what is not judged, then a section for each."""
+    return "\n".join([FIGURES, *_unjudged(unjudged), *(line for each in every for line in _section(each))])
 
 
 def changes_page(every: Sequence[Entry], former: Sequence[dict[str, Any]]) -> str:
@@ -180,14 +192,14 @@ def changes_page(every: Sequence[Entry], former: Sequence[dict[str, Any]]) -> st
         words = "<br>".join(each.word if each else "missing" for each in found) or "no claim"
         claims = "<br>".join(map(plain, row["now"])) or "left out"
         lines.append(
-            f"| [{entry.short}](../docs/reproduction.md#{entry.anchor}) | {plain(row['claim'])} | {row['word']} | "
+            f"| [{entry.short}](figures.md#{entry.anchor}) | {plain(row['claim'])} | {row['word']} | "
             f"{claims} | {plain(words)} | {plain(row['why'])} |"
         )
     lines += ["", "## Claims that are new", "", "| figure | claim | verdict |", "|---|---|---|"]
     for name, claim in new:
         entry = anchors[name]
         word = plain(now[name, claim].word)
-        lines.append(f"| [{entry.short}](../docs/reproduction.md#{entry.anchor}) | {plain(claim)} | {word} |")
+        lines.append(f"| [{entry.short}](figures.md#{entry.anchor}) | {plain(claim)} | {word} |")
     return "\n".join([*lines, ""])
 
 
@@ -219,7 +231,7 @@ def _missing(every: Sequence[Entry]) -> list[str]:
         ("Cases failed or are missing: {}.", [each for each in every if not each.whole]),
     ):
         if chosen:
-            names = ", ".join(f"[{each.short}](#{each.anchor})" for each in chosen)
+            names = ", ".join(each.short for each in chosen)
             lines += [said.format(f"figure{'s' if len(chosen) > 1 else ''} {names}"), ""]
     return lines
 
@@ -234,7 +246,7 @@ def _table(every: Sequence[Entry], kind: str) -> list[str]:
     lines = [
         f"## {title}",
         "",
-        f"{words} Of {len(rows)}, {told}. What is found stands in the section of the figure.",
+        f"{words} Of {len(rows)}, {told}. What is found stands in `reproduction/figures.md`.",
         "",
     ]
     lines += [
@@ -247,8 +259,7 @@ def _table(every: Sequence[Entry], kind: str) -> list[str]:
         judged = ", ".join(filter(None, (rule.tolerance, rule.span)))
         cells = (verdict.claim, f"“{verdict.quote}” ({verdict.source})", judged)
         lines.append(
-            f"| [{each.short}](#{each.anchor}){each.mark} | {' | '.join(map(plain, cells))} | {word} | "
-            f"{plain(rule.trigger)} |"
+            f"| {each.short}{each.mark} | {' | '.join(map(plain, cells))} | {word} | {plain(rule.trigger)} |"
         )
     return [*lines, ""]
 
@@ -258,7 +269,7 @@ def _unjudged(words: dict[str, Any]) -> list[str]:
     lines += [
         f"| {plain(each['claim'])} | {plain(each['where'])} | {each['why']} |" for each in words["claims"]
     ]
-    lines += ["", "Figures of the thesis that have no section here:", "", "| figure | what it is | why not |"]
+    lines += ["", "Figures of the thesis that are not drawn:", "", "| figure | what it is | why not |"]
     lines += ["|---|---|---|"]
     lines += [f"| {each['figure']} | {plain(each['what'])} | {each['why']} |" for each in words["figures"]]
     return [*lines, ""]
@@ -276,7 +287,7 @@ def _section(entry: Entry) -> list[str]:
     lines = [f"## {entry.heading}", "", f"**{plain(entry.title[0].upper() + entry.title[1:])}**", ""]
     if not entry.computed:
         return [*lines, f"**Missing:** not computed yet; {command(entry.name, 'thesis')} does it.", ""]
-    lines += [f"![{entry.title}](../reproduction/pictures/{entry.name}.png)", "", plain(entry.caption), ""]
+    lines += [f"![{entry.title}](pictures/{entry.name}.png)", "", plain(entry.caption), ""]
     if entry.verdicts:
         lines += [
             f"* **{plain(verdict.word[0].upper() + verdict.word[1:])}:** {plain(verdict.claim)}. "
@@ -288,7 +299,7 @@ def _section(entry: Entry) -> list[str]:
     lines += ["", "Chosen where the thesis leaves it open:", "", *_items(map(plain, entry.chosen))]
     lines += ["", _SCALES[entry.scale], "", *_items(entry.computed)]
     if entry.scale is not None:
-        lines.append(f"* averages: [{entry.name}.nc](../reproduction/data/{entry.name}.nc)")
+        lines.append(f"* averages: [{entry.name}.nc](data/{entry.name}.nc)")
     return [*lines, ""]
 
 

@@ -1,13 +1,14 @@
-"""What of the thesis holds: its figures computed again, beside its text, as a page of the documentation.
+"""What of the thesis holds: its figures computed again, beside its text, as pages.
 
     python reproduction/benchmarks/pages.py                   # draws all figures and writes the pages
     python reproduction/benchmarks/pages.py --collect DIR     # takes over the averages DIR/figN.nc before
-    python reproduction/benchmarks/pages.py fig6 fig27        # draws some of them anew, and writes the page
+    python reproduction/benchmarks/pages.py fig6 fig27        # draws some of them anew, and writes the pages
 
-The page says what is found in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
+The pages say what is found in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
 figN --scale thesis --out DIR``), what the figures found that are computed here in seconds (``simple.json``), what is
-seen in each (``captions.toml``), and the pictures. What is not there is said to be missing. A second page,
-reproduction/verdicts.md, lays former verdicts (``former.toml``) beside those of now.
+seen in each (``captions.toml``), and the pictures. What is not there is said to be missing. docs/reproduction.md holds
+findings and claims, reproduction/figures.md the figures; reproduction/verdicts.md lays former verdicts
+(``former.toml``) beside those of now.
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ HOME = Path(__file__).resolve().parent.parent
 FOLDER = HOME / "data"
 PICTURES = HOME / "pictures"
 PAGE = HOME.parent / "docs" / "reproduction.md"
+FIGURES_PAGE = HOME / "figures.md"
 CHANGES = HOME / "verdicts.md"
 DPI = 160  # of the pictures
 FEW = 8  # values that are listed one by one
@@ -177,9 +179,14 @@ def _time(seconds: float) -> str:
 
 
 def page(folder: Path = FOLDER) -> str:
-    """Return the page that `folder` makes."""
+    """Return the page of the documentation, of what is in `folder`."""
+    return page_texts.page(entries(folder))
+
+
+def figures_page(folder: Path = FOLDER) -> str:
+    """Return the page of the figures, of what `folder` says about them."""
     unjudged = tomllib.loads((folder / "unjudged.toml").read_text(encoding="utf-8"))
-    return page_texts.page(entries(folder), unjudged)
+    return page_texts.figures_page(entries(folder), unjudged)
 
 
 def changes(folder: Path = FOLDER) -> str:
@@ -242,13 +249,14 @@ def save(picture: Figure, path: Path) -> int:
 
 
 def write() -> None:
-    """Write both pages, of what is there."""
+    """Write all pages, of what is there."""
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    FIGURES_PAGE.write_text(figures_page(), encoding="utf-8", newline="\n")
     CHANGES.write_text(changes(), encoding="utf-8", newline="\n")
 
 
 def main() -> None:
-    """Draw what is asked for, and write the page."""
+    """Draw what is asked for, and write the pages."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
