@@ -104,7 +104,9 @@ def kernels(session: nox.Session, blas: str, cpu: str) -> None:
 
 def install(session: nox.Session, *options: str) -> None:
     """Install what the tests need into the environment of the session, from wheels."""
-    session.install("--only-binary=:all:", *options, "--editable", ".[formats,page,test]")
+    session.install(
+        "--only-binary=:all:", *options, "--editable", ".[formats,page,test]", "--editable", "./reproduction"
+    )
 
 
 def lower_bound(requirement: Requirement) -> str:
