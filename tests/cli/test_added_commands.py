@@ -1,6 +1,7 @@
 """Commands that other packages add."""
 
 import importlib.metadata
+import json
 import subprocess
 import sys
 from importlib.metadata import EntryPoint, EntryPoints
@@ -92,8 +93,18 @@ def test_a_group_of_commands_has_none_of_them(invoke, asked):
 def test_without_its_package_the_command_thesis_says_how_to_install_it(invoke, asked):
     answer = invoke("thesis", "list")
     assert answer.exit_code == 2
-    words = " ".join(answer.stderr.replace("│", " ").split())
-    assert f"run: {sys.executable} -m pip install roughcontact-thesis" in words
+    assert answer.stdout == ""
+    [line] = answer.stderr.splitlines()
+    assert line.startswith("Error: ")
+    assert f" {sys.executable} -m pip install roughcontact-thesis, " in line
+
+
+def test_without_its_package_it_is_a_usage_error_in_json(invoke, asked, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["roughcontact", "thesis", "fig27", "--json"])
+    answer = invoke("thesis", "fig27", "--json")
+    assert answer.exit_code == 2
+    error = json.loads(answer.stdout)["error"]
+    assert (error["kind"], error["exit_status"]) == ("usage", 2)
 
 
 def test_a_press_does_not_read_what_is_installed(rough):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import sys
 
-__all__ = ["added_commands", "how_to_add"]
+__all__ = ["PACKAGES", "added_commands", "refuse_missing"]
 
 _GROUP = "roughcontact.commands"
-_OURS = {"thesis": ("roughcontact-thesis", "./reproduction")}  # on an index, and in a checkout
+PACKAGES = {"thesis": ("roughcontact-thesis", "./reproduction")}
+"""What installs a command of ours that stands in a package of its own: its name, and its folder in a checkout."""
 
 
 def added_commands() -> dict[str, str]:
@@ -17,13 +18,16 @@ def added_commands() -> dict[str, str]:
     return {point.name: point.module for point in entry_points(group=_GROUP)}
 
 
-def how_to_add(command: str) -> str | None:
-    """Return the line that installs the package of ours that has a command; None if there is none."""
-    if command not in _OURS:
-        return None
-    package, folder = _OURS[command]
+def refuse_missing(command: str) -> None:
+    """Refuse a command of a package of ours that is not installed, with the line that installs it."""
+    if command not in PACKAGES:
+        return
+    from roughcontact.cli.messages import UsageError, reported
+
+    package, folder = PACKAGES[command]
     install = f"{sys.executable} -m pip install"
-    return (
-        f"the package {package}, which adds the command {command!r}, is not installed; run: {install} {package}; in a "
-        f"checkout: {install} {folder}"
-    )
+    with reported(as_json="--json" in sys.argv[1:]):
+        raise UsageError(
+            f"the package {package}, which adds the command {command!r}, is not installed; run: {install} {package}, "
+            f"or in a checkout: {install} {folder}"
+        )

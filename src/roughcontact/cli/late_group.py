@@ -20,13 +20,13 @@ __all__ = ["late_group"]
 def late_group(
     commands: Mapping[str, str],
     added: Callable[[], Mapping[str, str]] = dict,
-    how_to_add: Callable[[str], str | None] = lambda name: None,
+    refuse: Callable[[str], None] = lambda name: None,
 ) -> type[TyperGroup]:
     """Return the class of a group of commands: functions of these names, in these modules of this room.
 
     Their examples stand in the module's ``EXAMPLES``, by the name of the command. For a name that is not among them,
-    and for the help, `added` returns the modules of commands of other packages; `how_to_add` returns why there is no
-    such command, if that is known.
+    and for the help, `added` returns the modules of commands of other packages; `refuse` may say more of a name that
+    nothing adds than that there is no such command.
     """
     modules = {name: f"roughcontact.cli.{module}" for name, module in commands.items()}
 
@@ -41,8 +41,8 @@ def late_group(
             module = added().get(cmd_name) if known is None else modules.get(cmd_name)
             if module is not None:
                 return _imported(module, cmd_name)
-            if known is None and (reason := how_to_add(cmd_name)) is not None:
-                ctx.fail(reason)
+            if known is None:
+                refuse(cmd_name)
             return known
 
         def list_commands(self, ctx: Any) -> list[str]:
