@@ -1,5 +1,9 @@
 """The verb ``thesis``."""
 
+import importlib.metadata
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import xarray
@@ -18,6 +22,16 @@ def few(monkeypatch):
         return Study(name=f"few-{scale}", case="curve", samples=2, parameters=parameters)
 
     monkeypatch.setattr("roughcontact_thesis.fig37_stiffness_of_sphere.sphere_study", study)
+
+
+def test_an_installed_package_adds_the_command():
+    try:
+        importlib.metadata.distribution("roughcontact-thesis")
+    except importlib.metadata.PackageNotFoundError:
+        pytest.skip("roughcontact-thesis is not installed")
+    command = [sys.executable, "-m", "roughcontact", "thesis", "list"]
+    answer = subprocess.run(command, capture_output=True, encoding="utf-8", check=True, timeout=120)
+    assert answer.stdout.split()[0] == next(iter(FIGURES))
 
 
 def test_it_lists_its_figures(invoke):
