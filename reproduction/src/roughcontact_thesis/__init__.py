@@ -8,6 +8,7 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
+    from roughcontact_thesis import bounds as bounds, calibration as calibration
     from roughcontact_thesis.figures import (
         FIGURES as FIGURES,
         EnsembleFigure as EnsembleFigure,

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import xarray
 
-from roughcontact.mdr.calibration import force_ratio
 from roughcontact.statistics.bootstrap import counts_of
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.validation import Array
 from roughcontact_thesis.averaging import converged
+from roughcontact_thesis.calibration import force_ratio
 
 __all__ = ["Ensemble", "Match", "match", "pairs"]
 

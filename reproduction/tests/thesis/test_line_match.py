@@ -5,9 +5,9 @@ import pytest
 import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.mdr.calibration import calibrated_lambda
 from roughcontact.solver.control import Status
 from roughcontact_thesis import fig29_spectrum_factor as fig29, fig30_crossover as fig30
+from roughcontact_thesis.calibration import calibrated_lambda
 from roughcontact_thesis.figures import drawn, verdicts
 from roughcontact_thesis.line_match import Ensemble, match
 

@@ -51,7 +51,7 @@ def calibrated_lambda(
 
     Examples
     --------
-    >>> from roughcontact.mdr import calibration
+    >>> from roughcontact_thesis import calibration
     >>> equal = calibration.calibrated_lambda(1.0, line_prefactor=0.85, surface_prefactor=0.85)
     >>> round(equal, 4)  # of equal prefactors lambda_rms
     2.5069
@@ -104,7 +104,8 @@ def matched_lambda(
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact.mdr import calibration, lattice_sums
+    >>> from roughcontact.mdr import lattice_sums
+    >>> from roughcontact_thesis import calibration
     >>> force = np.geomspace(1e-3, 1e-1, 9)
     >>> curve = (force, 0.85 * force**0.5)
     >>> matched = calibration.matched_lambda(1.0, curve, curve, window=(0.03, 0.2))
@@ -140,7 +141,7 @@ def force_ratio(
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact.mdr import calibration
+    >>> from roughcontact_thesis import calibration
     >>> force = np.geomspace(1e-3, 1e-1, 9)
     >>> ratio = calibration.force_ratio((force, force**0.5), (2 * force, force**0.5), (0.05, 0.2))
     >>> round(ratio, 6)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import bounds
+from roughcontact_thesis import bounds
 
 
 def test_one_cell():

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.calibration import calibrated_lambda, force_ratio, matched_lambda
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
 from roughcontact.mdr.random_lines import line_heights, random_waves
 from roughcontact.mdr.rough_line import loading_curves
+from roughcontact_thesis.calibration import calibrated_lambda, force_ratio, matched_lambda
 
 # Stiffness of one wave at low load, k/(E* L) = zeta (F/(E* h L))^(1/3): a cosine line, two crossed cosines.
 LINE = (3 / (math.sqrt(2) * math.pi**2)) ** (1 / 3)
@@ -67,6 +67,7 @@ def test_a_line_with_it_follows_the_law_of_the_surface(hurst, alpha):
         (math.nan, {}, "finite"),
         (1.0, {"line_prefactor": 0.0}, "line_prefactor must be positive"),
         (1.0, {"surface_prefactor": math.inf}, "surface_prefactor must be positive"),
+        (0.8, {"line_prefactor": 1e300}, "line_prefactor"),
     ],
 )
 def test_what_makes_no_sense_is_refused(hurst, options, says):

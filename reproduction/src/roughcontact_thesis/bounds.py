@@ -50,7 +50,7 @@ def cell(modulus: ArrayLike, spacing: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> round(float(bounds.cell(1e11, 1e-6)), 1)
     89110.7
     """
@@ -75,7 +75,7 @@ def spring(modulus: ArrayLike, spacing: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> round(float(bounds.spring(1e11, 1e-6)), 1)
     100000.0
     """
@@ -100,7 +100,7 @@ def full_contact_stiffness(modulus: ArrayLike, length: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> round(float(bounds.full_contact_stiffness(1e11, 1e-3) / 1e11 / 1e-3), 6)
     1.152298
     """
@@ -127,7 +127,7 @@ def king_full_contact_stiffness(modulus: ArrayLike, length: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> round(float(bounds.king_full_contact_stiffness(1.0, 1.0)), 4)
     1.1419
     """
@@ -164,7 +164,7 @@ def window(
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> lowest, highest = bounds.window(1e11, 1e-3, 1e-6)
     >>> round(float(highest / lowest), 1)  # 20 cells of a thousand a side: less than two decades
     64.7
@@ -205,7 +205,7 @@ def resolved(
 
     Examples
     --------
-    >>> from roughcontact.theory import bounds
+    >>> from roughcontact_thesis import bounds
     >>> bounds.resolved([1e5, 1e7, 1e9], 1e11, 1e-3, 1e-6).tolist()
     [False, True, False]
     """
