@@ -17,7 +17,6 @@ if TYPE_CHECKING or _LATE is None:
         statistics as statistics,
         study as study,
         theory as theory,
-        thesis as thesis,
     )
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
