@@ -13,6 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import POINTS, Sticking
+from roughcontact.cli.adhesive_curve_command import curve_sticking
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
@@ -26,7 +27,6 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.run_memory import require_memory_for_load
-from roughcontact.cli.sticking_curve import curve_sticking
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.unit_options import LENGTH, parse_loads, parse_path

@@ -12,6 +12,7 @@ import typer
 from roughcontact.arrays import largest
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import Sticking
+from roughcontact.cli.adhesive_press_command import press_sticking
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
@@ -23,7 +24,6 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.cli.run_memory import require_memory_for_load
-from roughcontact.cli.sticking_press import press_sticking
 from roughcontact.cli.unit_options import parse, parse_load
 from roughcontact.cli.write_from_slabs import write_from_slabs
 
