@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from itertools import islice
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -19,17 +18,16 @@ from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.load_options import Loads
 from roughcontact.cli.messages import UsageError, note, reported
-from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.profile_options import ProfileBody, kinds_of
+from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
-from roughcontact.cli.unit_options import LENGTH, parse_loads, parse_path
 from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
 
@@ -64,65 +62,6 @@ roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --t
 }
 
 _FEWEST = 3  # resolved loads that a power law takes
-
-
-@dataclass(frozen=True, slots=True)
-class Loads:
-    """Loads, as the user gave them: rising, with adhesion of either sign, up and down."""
-
-    PANEL: ClassVar = "Loads (at most one of them)"
-    forces: str | None = option(
-        "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
-        "(default, if no loads are named: 24 forces that suit the surface, found by a search).",
-        "1N:100N:30",
-    )
-    pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
-    depths: str | None = option(
-        "Indentation depths since first touch, likewise. With --work depths and forces go up and down and may be "
-        "negative, and from:to:count is evenly spaced; with --work and --loop one depth, where it turns.",
-        "1nm:1um:100",
-    )
-    mean_gaps: str | None = option(
-        "Mean gaps of surfaces that stick (--work), on whole periodic maps, likewise.", "100nm:20nm:9"
-    )
-
-    def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64] | None]:
-        """Return what the loads are, and their values in SI units; None where they were left out.
-
-        Raises
-        ------
-        UsageError
-            If several are named, or their text is none.
-        ValueError
-            If they are mean gaps.
-        """
-        given = asdict(self)
-        if (gaps := given.pop("mean_gaps")) is not None:
-            from roughcontact.contact.mean_gaps import refuse_gaps
-
-            refuse_gaps(parse_path(gaps, LENGTH, "--mean-gaps"))
-        if not any(text is not None for text in given.values()):
-            return "forces", None
-        name = options.only_one(given, "the loads")
-        return name, parse_loads(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
-
-    def path(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64]]:
-        """Return what the loads of surfaces that stick are, and their values: of either sign, up and down.
-
-        Raises
-        ------
-        UsageError
-            If they are pressures, or none are named: no search finds them.
-        """
-        if self.pressures is not None:
-            raise UsageError(
-                "--pressures does not go with --work: give --forces, pressures times area, or --depths"
-            )
-        given = {"depths": self.depths, "forces": self.forces, "mean-gaps": self.mean_gaps}
-        option = options.only_one(given, "the loads of surfaces that stick")
-        name, text = option.replace("-", "_"), given[option]
-        assert text is not None
-        return name, parse_path(text, kinds_of(body)[name.removesuffix("s")], f"--{option}")
 
 
 def curve(

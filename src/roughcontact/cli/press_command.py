@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -16,15 +15,15 @@ from roughcontact.cli.adhesive_press_command import press_sticking
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.load_options import Load
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.plastic_options import AfterLoad
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.profile_options import ProfileBody, kinds_of
+from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.cli.run_memory import require_memory_for_load
-from roughcontact.cli.unit_options import parse, parse_load
 from roughcontact.cli.write_from_slabs import write_from_slabs
 
 if TYPE_CHECKING:
@@ -50,40 +49,6 @@ Theory = StrEnum("Theory", ["PERSSON"])
 _THEORY = option(
     "With --out: draw the distribution of the pressure beside that of a theory.", rich_help_panel="Answer"
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Load:
-    """One load, as the user gave it."""
-
-    PANEL: ClassVar = "Load (one of them)"
-    force: str | None = option("Normal force.", "10N")
-    pressure: str | None = option("Nominal pressure: force over area.", "1MPa")
-    depth: str | None = option(
-        "Indentation depth: approach since first touch; with --work also negative.", "1um"
-    )
-
-    def value(self, body: ProfileBody | None) -> dict[str, float]:
-        """Return the load in SI units, by its name."""
-        given = asdict(self)
-        name = options.only_one(given, "one load")
-        return {name: parse_load(given[name], kinds_of(body)[name], f"--{name}")}
-
-    def signed(self, body: ProfileBody | None) -> dict[str, float]:
-        """Return a depth of either sign or a force of at least 0, of surfaces that stick."""
-        given = asdict(self)
-        name = options.only_one(given, "one load")
-        if name == "pressure":
-            raise UsageError(
-                "--pressure does not go with --work: give --force, pressure times area, or --depth"
-            )
-        value = parse(given[name], kinds_of(body)[name], f"--{name}")
-        if name == "force" and value < 0:
-            raise UsageError(
-                f"--force {given[name]} pulls, and a press is the end of an approach: a tension comes on the way back; "
-                f"give 'curve --forces 0N,{given[name]}'"
-            )
-        return {name: value}
 
 
 def press(
