@@ -1,16 +1,21 @@
-"""The command ``curve`` of surfaces that stick: approach and retreat, with jumps."""
+"""The commands ``adhesion curve`` and ``adhesion loop``: approach and retreat of surfaces that stick, with jumps."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from roughcontact.cli import options
+from roughcontact.cli.adhesion_options import AdhesionLaw, note_unresolved
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import UsageError, note, plain
+from roughcontact.cli.load_options import AdhesiveLoads
+from roughcontact.cli.messages import note, plain, reported
+from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import kinds_of
@@ -27,112 +32,167 @@ from roughcontact.cli.report import (
     screen,
     size_of,
 )
+from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.cli import options
-    from roughcontact.cli.adhesion_options import Sticking
+    from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.contact.adhesive_branches import AdhesiveLoop
 
-__all__ = ["curve_sticking"]
+__all__ = ["EXAMPLES", "curve", "loop"]
 
-_LOADS = ("depths", "forces", "mean_gaps")
-_POINTS = 40  # of the approach of a loop, as in the library
+EXAMPLES = {
+    "curve": """
+roughcontact adhesion curve part.x3p --depths -20nm:20nm:9,-20nm --modulus 10MPa --work 50mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --forces 0N,1mN,-1mN --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
+roughcontact adhesion curve part.x3p --mean-gaps 3um:1um:5,3um --periodic --modulus 10MPa --work 50mJ/m^2 --range 20nm
+""",
+    "loop": """
+roughcontact adhesion loop part.x3p --depth 100nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
+roughcontact adhesion loop part.x3p --depth 20nm --points 10 --modulus 10MPa --work 50mJ/m^2 --range 20nm --json
+""",
+}
+
+_PANEL = "Loads"
+_TURN: str = option(
+    "Indentation depth at which the retreat begins; it may be negative.",
+    "20nm",
+    default=...,
+    rich_help_panel=_PANEL,
+)
+_POINTS: int = option(
+    "Depths of the approach, in even steps; the retreat has the same steps.",
+    "N",
+    default=40,
+    min=2,
+    max=10_000,
+    rich_help_panel=_PANEL,
+)
 
 
-def curve_sticking(
+@dataclass(frozen=True, slots=True)
+class _Path:
+    """A path to follow: what its loads are called, their values, and both in words.
+
+    Of a loop also the steps of the approach: it ends when the body is off.
+    """
+
+    name: str
+    loads: npt.NDArray[np.float64]
+    control: str
+    steps: int | None = None
+
+
+def curve(
     reading: options.Reading,
-    prescribed: tuple[str, npt.NDArray[np.float64]],
-    elasticity: options.Elasticity,
-    sticking: Sticking,
-    asked: options.Answer,
     *,
-    loop: bool,
-    points: int | None,
+    loads: AdhesiveLoads,
+    elasticity: options.Elasticity,
+    law: AdhesionLaw,
+    answer: options.Answer,
 ) -> None:
-    """Follow surfaces that stick along loads, or along a loop to a depth; print the path, write it to a folder."""
-    modulus, adhesion, tolerance = elasticity.reduced_modulus(), sticking.adhesion(), asked.residual
-    name, loads = prescribed
-    count = _points_of_loop(name, loads, loop=loop, points=points)
+    """Bring a surface that sticks to one load after the other, up and down: force, area and stiffness, and the jumps.
+
+    States depend on the history: approach and retreat differ. Ctrl-C keeps what is done; a path cannot be resumed.
+    """
+    with reported(reading.source.file, answer.out, as_json=answer.json):
+        name, values = loads.values(reading.profile)
+        unit = kinds_of(reading.profile)[name.removesuffix("s")].unit
+        control = f"{name.replace('_', ' ')} {', '.join(f'{load:g}' for load in values)} {unit}"
+        _answer("curve", reading, elasticity, law.adhesion(), answer, _Path(name, values, control))
+
+
+def loop(
+    reading: options.Reading,
+    *,
+    depth: str = _TURN,
+    points: int = _POINTS,
+    elasticity: options.Elasticity,
+    law: AdhesionLaw,
+    answer: options.Answer,
+) -> None:
+    """Bring a surface that sticks to a depth and back until it is off: pull-off force, jumps and the lost energy.
+
+    The approach begins ten ranges of the attraction apart. Files are those of 'adhesion curve'.
+    """
+    with reported(reading.source.file, answer.out, as_json=answer.json):
+        from roughcontact.contact.adhesive_loop import loop_depths
+
+        turn, adhesion = parse(depth, LENGTH, "--depth"), law.adhesion()
+        control = f"loop to a depth of {turn:g} m in {points} steps"
+        path = _Path("depths", loop_depths(adhesion, turn, points), control, points)
+        _answer("loop", reading, elasticity, adhesion, answer, path)
+
+
+def _answer(
+    command: str,
+    reading: options.Reading,
+    elasticity: options.Elasticity,
+    adhesion: Adhesion,
+    asked: options.Answer,
+    path: _Path,
+) -> None:
+    """Follow a path; print what was found, and write it to a folder if there is one."""
+    modulus, tolerance = elasticity.reduced_modulus(), asked.residual
     with output(asked.out) as folder:
         surface = reading.surface()
         pressed = Pressed.of(surface, modulus, None)
-        unit = kinds_of(reading.profile)[name.removesuffix("s")].unit
-        if loop:
-            from roughcontact.contact.adhesive_loop import loop_depths
-
-            control = f"loop to a depth of {loads[0]:g} m in {count} steps"
-            loads = loop_depths(adhesion, float(loads[0]), count)
-        else:
-            control = f"{name.replace('_', ' ')} {', '.join(f'{load:g}' for load in loads)} {unit}"
         limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance, "adhesion": adhesion}
-        path, whole = _follow(surface, modulus, {name: loads, **limits}, count if loop else None)
+        found, whole = _follow(surface, modulus, path, **limits)
         record = {
-            "command": "curve",
+            "command": f"adhesion {command}",
             "file": plain(str(reading.source.file)),
             "surface": list(surface.provenance),
             "kind": pressed.kind.value,
-            **path.to_record(),
-            "converged": path.converged,
+            **found.to_record(),
+            "converged": found.converged,
             "whole": whole,
         }
         if folder is not None:
             with doing("Writing files"):
-                _write(path, record, surface, folder, control, asked.ending)
+                _write(found, record, surface, folder, path.control, asked.ending)
     if asked.json:
         emit(record)
     else:
         size = ("surface", size_of(surface.grid))
         print_facts([size, *pressed.facts(), *law_facts(adhesion, modulus, surface.grid.spacing)])
-        print_table(*load_table(path.to_dataset(), ADHESIVE_COLUMNS))
-        print_facts(adhesive_loop_facts(path))
-    if missed := sum(not status.converged for status in path.status):
-        note(f"{missed} of {len(path)} loads missed the tolerance: see their residual")
-    sticking.remark(unresolved=path.unresolved, ambiguous=path.ambiguous)
+        print_table(*load_table(found.to_dataset(), ADHESIVE_COLUMNS))
+        print_facts(adhesive_loop_facts(found))
+    if missed := sum(not status.converged for status in found.status):
+        note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
+    note_unresolved(found.unresolved)
+    if found.ambiguous:
+        note(
+            "a jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
+            "given"
+        )
     if folder is not None:
         note_files(folder, ("curve.csv", "jumps.csv", "curve.json", "curve.nc", f"curve.{asked.ending}"))
     if not whole:
-        end = "the loop is not closed" if loop else f"{len(path)} of {len(loads)} loads are kept"
-        note(f"stopped: {end}; a path of surfaces that stick begins anew, what comes depends on what was")
+        kept = f"{len(found)} of {len(path.loads)} loads are kept"
+        note(
+            f"stopped: {kept if path.steps is None else 'the loop is not closed'}; a path of surfaces that stick "
+            "cannot be resumed, because its states depend on the history"
+        )
         raise typer.Exit(INTERRUPTED)
-    if not path.converged:
+    if not found.converged:
         raise typer.Exit(MISSED)
 
 
-def _points_of_loop(name: str, loads: npt.NDArray[np.float64], *, loop: bool, points: int | None) -> int:
-    """Return the steps of the approach of a loop; refuse what no loop goes by, and points of what is none."""
-    if not loop:
-        if points is not None:
-            raise UsageError(
-                "--points is about a --loop: without it name all --depths, --forces or --mean-gaps"
-            )
-        return 0
-    if name != "depths" or len(loads) != 1:
-        raise UsageError(
-            "--loop of surfaces that stick goes by depth, to the one that is named and back until the bodies are "
-            "apart: give one, such as --depths 20nm; or leave out --loop, and name all --depths, --forces or "
-            "--mean-gaps"
-        )
-    if points is not None and not 2 <= points <= 10_000:
-        raise UsageError(f"--points: an approach has from 2 to 10000 depths, not {points}")
-    return _POINTS if points is None else points
-
-
-def _follow(
-    surface: Any, modulus: float, given: dict[str, Any], loop: int | None
-) -> tuple[AdhesiveLoop, bool]:
+def _follow(surface: Any, modulus: float, path: _Path, **limits: Any) -> tuple[AdhesiveLoop, bool]:
     """Return the path, and whether it is whole: Ctrl-C ends it with the loads that are done."""
     import roughcontact as rc
     from roughcontact.contact.adhesive_branches import collect_states
     from roughcontact.contact.adhesive_loop import until_off
 
-    [(name, loads)] = ((name, values) for name, values in given.items() if name in _LOADS)
+    loads = path.loads
+    given: dict[str, Any] = {path.name: loads, **limits}
     states = rc.loading_path(surface, modulus, **given)
-    if loop is not None:
-        states, loads = until_off(states, loop), loads[1:]
+    if path.steps is not None:
+        states, loads = until_off(states, path.steps), loads[1:]
     stopped: list[bool] = []
 
     def watched() -> Iterator[AdhesiveState]:
@@ -149,14 +209,14 @@ def _follow(
 
     columns = (TextColumn("Approach and retreat"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("", total=None if loop is not None else len(loads))
+        task = progress.add_task("", total=len(loads) if path.steps is None else None)
         # The bodies draw near as the mean gap falls.
-        path = collect_states(watched(), -loads if name == "mean_gaps" else loads)
-    return path, not stopped
+        found = collect_states(watched(), -loads if path.name == "mean_gaps" else loads)
+    return found, not stopped
 
 
 def _write(
-    path: AdhesiveLoop, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
+    found: AdhesiveLoop, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
 ) -> None:
     """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
     from roughcontact.files.provenance import provenance
@@ -165,12 +225,12 @@ def _write(
     from roughcontact.plot.jumps import jump_figure
 
     source = provenance(
-        surface, modulus=path.modulus, control=control, tolerance=path.tolerance, command=command_line()
+        surface, modulus=found.modulus, control=control, tolerance=found.tolerance, command=command_line()
     )
-    dataset = path.to_dataset()
+    dataset = found.to_dataset()
     with all_or_none(folder) as aside:
         write_netcdf(dataset, aside / "curve.nc", source)
         write_csv(dataset, aside / "curve.csv", source)
         write_csv(dataset, aside / "jumps.csv", source, dimension="jump")
-        save(jump_figure(path), aside / f"curve.{ending}")
+        save(jump_figure(found), aside / f"curve.{ending}")
         write_json(record, aside / "curve.json", source)

@@ -11,14 +11,12 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
-from roughcontact.cli.adhesion_options import POINTS, Sticking
-from roughcontact.cli.adhesive_curve_command import curve_sticking
 from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
-from roughcontact.cli.load_options import Loads
+from roughcontact.cli.load_options import RisingLoads
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
@@ -54,9 +52,6 @@ roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
-roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --loop --depths 100nm --out result
-roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --forces 0N,1mN,-1mN
-roughcontact curve part.x3p --modulus 10MPa --work 50mJ/m^2 --range 20nm --periodic --mean-gaps 3um:1um:5,3um
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
@@ -67,11 +62,9 @@ _FEWEST = 3  # resolved loads that a power law takes
 def curve(
     reading: options.Reading,
     *,
-    given: Loads,
-    elasticity: options.Elasticity,
+    given: RisingLoads,
+    bodies: options.TwoBodies,
     plastic: LoopLoads,
-    sticking: Sticking,
-    points: int | None = POINTS,
     materials: Materials,
     theories: Theories,
     errors: Errors,
@@ -89,38 +82,19 @@ def curve(
             {
                 "--loop": plastic.loop,
                 "--flow": plastic.flow,
-                "--work": sticking.work,
                 "--theory": theories.theory,
                 "--errors": errors.errors,
                 "--table": tables.table,
             }
         )
-        if sticking.asked:
-            others: dict[str, Any] = {
-                "--flow": plastic.flow,
-                "--theory": theories.theory,
-                "--table": tables.table,
-            }
-            others |= {"--hardness": elasticity.hardness, "--errors": errors.errors}
-            others |= {"--resistivity": materials.resistivity, "--conductivity": materials.conductivity}
-            sticking.refuse(
-                others | {"--unit-stiffness": units.unit_stiffness, "--unit-pressure": units.unit_pressure}
-            )
-            prescribed = given.path(reading.profile)
-            curve_sticking(reading, prescribed, elasticity, sticking, asked, loop=plastic.loop, points=points)
-            return
         in_slabs = slabs_of_job() is not None
-        if points is not None:
-            raise UsageError(
-                "--points is about a --loop of surfaces that stick: leave it out, or give --work"
-            )
         name, loads = given.values(reading.profile)
         if in_slabs and loads is None:
             raise UsageError(
                 "several processes do not look for loads: name them, such as --pressures 1kPa:1MPa:20"
             )
         chosen = units.chosen()
-        modulus, hardness = elasticity.reduced_modulus(), plastic.hardness(elasticity)
+        modulus, hardness = bodies.elasticity.reduced_modulus(), plastic.hardness(bodies)
         plastic.check(name, errors)
         conductors = materials.conductors()
         if reading.profile is not None:
@@ -135,7 +109,7 @@ def curve(
             surface = reading.surface()
             errors.check_for(surface)
             operator = reading.body(surface, modulus)
-            pressed = Pressed.of(surface, modulus, elasticity.softer())
+            pressed = Pressed.of(surface, modulus, bodies.softer())
             laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
                 loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from roughcontact.cli.error_options import Errors
-    from roughcontact.cli.options import Elasticity
+    from roughcontact.cli.options import TwoBodies
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.surface.surface import Surface
@@ -51,7 +51,7 @@ class AfterLoad:
         """Whether what flows raises the surface."""
         return self.flow is FlowChoice.RAISED
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material where a load comes before and none is given.
 
         Raises
@@ -59,7 +59,7 @@ class AfterLoad:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--after" if self.after is not None else None, self.flow)
+        return _hardness(bodies, "--after" if self.after is not None else None, self.flow)
 
     def first(self, given: Mapping[str, float], body: ProfileBody | None) -> float | None:
         """Return the load that comes first, in SI units.
@@ -129,7 +129,7 @@ class LoopLoads:
     PANEL: ClassVar = "Plastic flow"
     loop: bool = option(
         "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
-        "surface. Takes a --hardness, or --materials. With --work: approach and retreat.",
+        "surface. Takes a --hardness, or --materials.",
         default=False,
     )
     flow: FlowChoice | None = _FLOW
@@ -139,7 +139,7 @@ class LoopLoads:
         """Where material that flows goes, as the library calls it."""
         return _reading(self.flow)
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material for a loop where none is given.
 
         Raises
@@ -147,7 +147,7 @@ class LoopLoads:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--loop" if self.loop else None, self.flow)
+        return _hardness(bodies, "--loop" if self.loop else None, self.flow)
 
     def check(self, name: str, errors: Errors) -> None:
         """Refuse loads that no loop has, and errors of a surface that rises.
@@ -195,13 +195,13 @@ def _reading(flow: FlowChoice | None) -> Any:
     return FlowChoice.REMOVED.value if flow is None else flow.value
 
 
-def _hardness(elasticity: Elasticity, asked: str | None, flow: FlowChoice | None) -> float | None:
+def _hardness(bodies: TwoBodies, asked: str | None, flow: FlowChoice | None) -> float | None:
     """Return the hardness that was given; else, where flow is asked for, that of the softer material."""
-    given = elasticity.yield_pressure()
+    given = bodies.yield_pressure()
     asked = asked or (None if flow is None else "--flow")
     if given is not None or asked is None:
         return given
-    softer = elasticity.softer()
+    softer = bodies.softer()
     if softer is None:
         raise UsageError(f"{asked} is about what flows: give a --hardness, or both bodies by --materials")
     note(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")

@@ -10,12 +10,10 @@ import typer
 
 from roughcontact.arrays import largest
 from roughcontact.cli import options
-from roughcontact.cli.adhesion_options import Sticking
-from roughcontact.cli.adhesive_press_command import press_sticking
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
-from roughcontact.cli.load_options import Load
+from roughcontact.cli.load_options import OneLoad
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
@@ -39,7 +37,6 @@ roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
 roughcontact press part.x3p --force 10N --after 100N --materials steel,aluminium --hardness aluminium --out result
-roughcontact press part.x3p --depth -2nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """,
@@ -54,10 +51,9 @@ _THEORY = option(
 def press(
     reading: options.Reading,
     *,
-    load: Load,
-    elasticity: options.Elasticity,
+    load: OneLoad,
+    bodies: options.TwoBodies,
     plastic: AfterLoad,
-    sticking: Sticking,
     theory: Theory | None = _THEORY,
     errors: Errors,
     answer: options.Answer,
@@ -70,33 +66,27 @@ def press(
             {
                 "--after": plastic.after,
                 "--flow": plastic.flow,
-                "--work": sticking.work,
                 "--theory": theory,
                 "--errors": errors.errors,
             }
         )
-        if sticking.asked:
-            others: dict[str, Any] = {"--after": plastic.after, "--flow": plastic.flow, "--theory": theory}
-            sticking.refuse(others | {"--hardness": elasticity.hardness, "--errors": errors.errors})
-            press_sticking(reading, load.signed(reading.profile), elasticity, sticking, answer)
-            return
         given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:
             raise UsageError("--theory draws a picture: say where by --out")
         if theory is not None and body is not None:
             raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
-        limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(elasticity)}
+        limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(bodies)}
         first = plastic.first(given, body)
         plastic.check(errors)
         if body is not None:
             body.require(conducting=None, areal_units=False, hardness=limits["hardness"] is not None)
-        modulus = elasticity.reduced_modulus()
+        modulus = bodies.elasticity.reduced_modulus()
         drawn: tuple[str, ...] = ()
         with output(out) as folder:
             surface = reading.surface()
             errors.check_for(surface)
-            pressed = Pressed.of(surface, modulus, elasticity.softer())
+            pressed = Pressed.of(surface, modulus, bodies.softer())
             limits["operator"] = reading.body(surface, modulus)
             require_memory_for_load(surface, modulus, given)
             if first is None and not plastic.raises:
