@@ -73,7 +73,7 @@ $ {FAR}
 > {FAR} --mean-gaps 100nm,99nm --periodic
 
 $ {LOOP} --depth 20nm --points 1
-! 1 is not in the range 2<=x<=10000
+! Invalid value for '--points'
 > {LOOP} --depth 20nm --points 2
 
 $ {FAR} --depths 1nm:2nm
