@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import AdhesionLaw, note_unresolved
@@ -17,11 +14,11 @@ from roughcontact.cli.load_options import AdhesiveLoads
 from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.path_progress import collected
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import (
     ADHESIVE_COLUMNS,
-    adhesive_loop_facts,
+    adhesive_curve_facts,
     doing,
     emit,
     law_facts,
@@ -29,18 +26,14 @@ from roughcontact.cli.report import (
     note_files,
     print_facts,
     print_table,
-    screen,
     size_of,
 )
 from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.contact.adhesive_branches import AdhesiveCurve
+    from roughcontact.solver.loads import Loads
 
 __all__ = ["EXAMPLES", "curve", "loop"]
 
@@ -73,19 +66,6 @@ _POINTS: int = option(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class _Path:
-    """A path to follow: what its loads are called, their values, and both in words.
-
-    Of a loop also the steps of the approach: it ends when the body is off.
-    """
-
-    name: str
-    loads: npt.NDArray[np.float64]
-    control: str
-    steps: int | None = None
-
-
 def curve(
     reading: options.Reading,
     *,
@@ -99,10 +79,9 @@ def curve(
     States depend on the history: approach and retreat differ. Ctrl-C keeps what is done; a path cannot be resumed.
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
-        name, values = loads.values(reading.profile)
-        unit = kinds_of(reading.profile)[name.removesuffix("s")].unit
-        control = f"{name.replace('_', ' ')} {', '.join(f'{load:g}' for load in values)} {unit}"
-        _answer("curve", reading, elasticity, law.adhesion(), answer, _Path(name, values, control))
+        wanted, unit = loads.values(reading.profile)
+        control = f"{wanted.kind}s {', '.join(f'{load:g}' for load in wanted.values)} {unit}"
+        _answer("curve", reading, elasticity, law.adhesion(), answer, wanted, control)
 
 
 def loop(
@@ -120,11 +99,12 @@ def loop(
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
         from roughcontact.contact.adhesive_loop import loop_depths
+        from roughcontact.solver.loads import Loads
 
         turn, adhesion = parse(depth, LENGTH, "--depth"), law.adhesion()
+        wanted = Loads("depth", loop_depths(adhesion, turn, points))
         control = f"loop to a depth of {turn:g} m in {points} steps"
-        path = _Path("depths", loop_depths(adhesion, turn, points), control, points)
-        _answer("loop", reading, elasticity, adhesion, answer, path)
+        _answer("loop", reading, elasticity, adhesion, answer, wanted, control, points)
 
 
 def _answer(
@@ -133,15 +113,29 @@ def _answer(
     elasticity: options.Elasticity,
     adhesion: Adhesion,
     asked: options.Answer,
-    path: _Path,
+    loads: Loads,
+    control: str,
+    points: int | None = None,
 ) -> None:
-    """Follow a path; print what was found, and write it to a folder if there is one."""
+    """Follow loads, or a loop with `points` on its approach; print what was found, and write it where asked."""
+    from roughcontact.contact.adhesive_branches import collect_states
+    from roughcontact.contact.adhesive_loop import until_off
+    from roughcontact.contact.sticking import states_under
+    from roughcontact.solver.loads import Loads
+
     modulus, tolerance = elasticity.reduced_modulus(), asked.residual
     with output(asked.out) as folder:
         surface = reading.surface()
         pressed = Pressed.of(surface, modulus, None)
-        limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance, "adhesion": adhesion}
-        found, whole = _follow(surface, modulus, path, **limits)
+        states = states_under(surface, modulus, adhesion, loads, reading.body(surface, modulus), tolerance)
+        if points is not None:
+            states, loads = until_off(states, points), Loads("depth", loads.values[1:])
+        found, whole = collected(
+            states,
+            lambda states: collect_states(states, loads),
+            "Approach and retreat",
+            len(loads.values) if points is None else None,
+        )
         record = {
             "command": f"adhesion {command}",
             "file": plain(str(reading.source.file)),
@@ -153,14 +147,14 @@ def _answer(
         }
         if folder is not None:
             with doing("Writing files"):
-                _write(found, record, surface, folder, path.control, asked.ending)
+                _write(found, record, surface, folder, control, asked.ending)
     if asked.json:
         emit(record)
     else:
         size = ("surface", size_of(surface.grid))
         print_facts([size, *pressed.facts(), *law_facts(adhesion, modulus, surface.grid.spacing)])
         print_table(*load_table(found.to_dataset(), ADHESIVE_COLUMNS))
-        print_facts(adhesive_loop_facts(found))
+        print_facts(adhesive_curve_facts(found))
     if missed := sum(not status.converged for status in found.status):
         note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
     note_unresolved(found.unresolved)
@@ -172,9 +166,9 @@ def _answer(
     if folder is not None:
         note_files(folder, ("curve.csv", "jumps.csv", "curve.json", "curve.nc", f"curve.{asked.ending}"))
     if not whole:
-        kept = f"{len(found)} of {len(path.loads)} loads are kept"
+        kept = f"{len(found)} of {len(loads.values)} loads are kept"
         note(
-            f"stopped: {kept if path.steps is None else 'the loop is not closed'}; a path of surfaces that stick "
+            f"stopped: {kept if points is None else 'the loop is not closed'}; a path of surfaces that stick "
             "cannot be resumed, because its states depend on the history"
         )
         raise typer.Exit(INTERRUPTED)
@@ -182,41 +176,8 @@ def _answer(
         raise typer.Exit(MISSED)
 
 
-def _follow(surface: Any, modulus: float, path: _Path, **limits: Any) -> tuple[AdhesiveLoop, bool]:
-    """Return the path, and whether it is whole: Ctrl-C ends it with the loads that are done."""
-    import roughcontact as rc
-    from roughcontact.contact.adhesive_branches import collect_states
-    from roughcontact.contact.adhesive_loop import until_off
-
-    loads = path.loads
-    given: dict[str, Any] = {path.name: loads, **limits}
-    states = rc.loading_path(surface, modulus, **given)
-    if path.steps is not None:
-        states, loads = until_off(states, path.steps), loads[1:]
-    stopped: list[bool] = []
-
-    def watched() -> Iterator[AdhesiveState]:
-        done = 0
-        try:
-            for state in states:
-                done += 1
-                progress.advance(task)
-                yield state
-        except KeyboardInterrupt:
-            if not done:  # nothing to keep
-                raise
-            stopped.append(True)
-
-    columns = (TextColumn("Approach and retreat"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("", total=len(loads) if path.steps is None else None)
-        # The bodies draw near as the mean gap falls.
-        found = collect_states(watched(), -loads if path.name == "mean_gaps" else loads)
-    return found, not stopped
-
-
 def _write(
-    found: AdhesiveLoop, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
+    found: AdhesiveCurve, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
 ) -> None:
     """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
     from roughcontact.files.provenance import provenance

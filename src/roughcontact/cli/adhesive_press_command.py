@@ -12,7 +12,7 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.load_options import AdhesiveLoad
 from roughcontact.cli.messages import plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, print_facts
 
@@ -44,6 +44,8 @@ def press(
 
     The state is the end of an approach from beyond the reach of the attraction. For a tension use 'adhesion curve'.
     """
+    import roughcontact as rc
+
     file = reading.source.file
     with reported(file, answer.out, as_json=answer.json):
         given = load.value(reading.profile)
@@ -51,8 +53,10 @@ def press(
         with output(answer.out) as folder:
             surface = reading.surface()
             pressed = Pressed.of(surface, modulus, None)
-            body = reading.body(surface, modulus)
-            state = _press(surface, modulus, **given, operator=body, tolerance=tolerance, adhesion=adhesion)
+            limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
+            state: AdhesiveState = best_state(
+                rc.adhesive_state, surface, modulus, adhesion, **given, **limits
+            )
             with doing("Stability and files"):
                 record = {
                     "command": "adhesion press",
@@ -75,19 +79,6 @@ def press(
         note_files(folder, ("press.json", "pressure.nc", f"pressure.{answer.ending}"))
         if not state.status.converged:
             raise typer.Exit(MISSED)
-
-
-def _press(surface: Any, modulus: float, **given: Any) -> AdhesiveState:
-    """Return the state, the best that was reached where the tolerance was missed."""
-    import roughcontact as rc
-
-    cells = " x ".join(str(n) for n in surface.grid.shape)
-    with doing(f"Pressing {cells} cells that stick"):
-        try:
-            state: AdhesiveState = rc.press(surface, modulus, **given)
-        except rc.ConvergenceError as error:
-            state = error.solution
-    return state
 
 
 def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: str, ending: str) -> None:

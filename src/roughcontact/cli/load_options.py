@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-__all__ = ["AdhesiveLoad", "AdhesiveLoads", "OneLoad", "RisingLoads"]
+    from roughcontact.solver.loads import Loads
+
+__all__ = ["AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad", "RisingLoads"]
 
 _PULLS = ("force", "pressure")  # of which a negative value is a tension
 
@@ -113,14 +115,44 @@ class AdhesiveLoads:
         "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9"
     )
 
-    def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64]]:
-        """Return what the loads are, and their values in SI units.
+    def values(self, body: ProfileBody | None) -> tuple[Loads, str]:
+        """Return the loads, and their SI unit.
 
         Raises
         ------
         UsageError
             If not one kind is named: no search finds them.
         """
+        from roughcontact.solver.loads import Loads
+
         given = asdict(self)
         name = options.only_one(given, "the loads")
-        return name, parse_path(given[name], kinds_of(body)[name.removesuffix("s")], flag(name))
+        kind = kinds_of(body)[name.removesuffix("s")]
+        return Loads.of(**{name: parse_path(given[name], kind, flag(name))}), kind.unit
+
+
+@dataclass(frozen=True, slots=True)
+class FallingLoads:
+    """Loads on the way back from a larger one, as the user gave them."""
+
+    PANEL: ClassVar = "Retreat (at most one of them)"
+    depths: str | None = option(
+        "Falling indentation depths, of either sign: a comma list of values and of ranges from:to:count, evenly "
+        "spaced (default: until no cell is in contact).",
+        "50nm:-50nm:11",
+    )
+    forces: str | None = option("Falling normal forces, likewise.", "1mN,0N,-1mN")
+
+    def values(self, body: ProfileBody | None) -> dict[str, npt.NDArray[np.float64]]:
+        """Return the loads in SI units by their name; nothing where they were left out.
+
+        Raises
+        ------
+        UsageError
+            If both are named, or their text is none.
+        """
+        given = {name: text for name, text in asdict(self).items() if text is not None}
+        if not given:
+            return {}
+        name = options.only_one(given, "the loads")
+        return {name: parse_path(given[name], kinds_of(body)[name.removesuffix("s")], flag(name))}

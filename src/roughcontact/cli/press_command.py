@@ -18,7 +18,7 @@ from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.plastic_options import AfterLoad
-from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.cli.run_memory import require_memory_for_load
@@ -59,6 +59,8 @@ def press(
     answer: options.Answer,
 ) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
+    import roughcontact as rc
+
     file, out = reading.source.file, answer.out
     with reported(file, out, as_json=answer.json):
         slabs = slabs_of_job()
@@ -90,7 +92,7 @@ def press(
             limits["operator"] = reading.body(surface, modulus)
             require_memory_for_load(surface, modulus, given)
             if first is None and not plastic.raises:
-                solution = _solve(surface, modulus, **given, **limits)
+                solution = best_state(rc.press, surface, modulus, **given, **limits)
             else:
                 solution = plastic.last_of(surface, modulus, given, first, limits)
                 if solution.flow is None or not solution.flow.volume:
@@ -115,19 +117,6 @@ def press(
         note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
         if not solution.status.converged:
             raise typer.Exit(MISSED)
-
-
-def _solve(surface: Surface, modulus: float, **given: Any) -> Solution:
-    """Return the loaded state, the best that was reached where the tolerance was missed."""
-    import roughcontact as rc
-
-    cells = " x ".join(str(n) for n in surface.grid.shape)
-    with doing(f"Pressing {cells} cells"):
-        try:
-            solution: Solution = rc.press(surface, modulus, **given)
-        except rc.ConvergenceError as error:
-            solution = error.solution
-    return solution
 
 
 def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
