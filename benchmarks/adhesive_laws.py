@@ -71,7 +71,7 @@ def row(number: float, rings: int) -> None:
     adhesion = rc.Adhesion(1.0, 1 / theory.strength, law="dugdale")
     began = time.perf_counter()
     pull = theory.pull_off_force
-    free, off = rc.loading_path(profile, 1.0, forces=[0.0, -1.2 * pull], adhesion=adhesion)
+    free, off = rc.adhesive_path(profile, 1.0, adhesion, forces=[0.0, -1.2 * pull])
     jumps = [jump for jump in off.jumps if not math.isfinite(jump.lost)]
     radius = unloaded(theory)
     # Depths of stable states: from the smallest depth of an equilibrium up to twice the radius without load.
@@ -79,7 +79,7 @@ def row(number: float, rings: int) -> None:
     depths = theory.depth(radii)
     last = int(np.argmin(depths))
     chosen = np.linspace(0, max(1, int(0.98 * last)), POINTS).astype(int)
-    states = list(rc.loading_path(profile, 1.0, depths=depths[chosen] + tip, adhesion=adhesion))
+    states = list(rc.adhesive_path(profile, 1.0, adhesion, depths=depths[chosen] + tip))
     events = [jump for state in states[1:] for jump in state.jumps]
     curve = max(
         abs(state.force - float(theory.force(radii[k]))) for state, k in zip(states, chosen, strict=True)
@@ -106,7 +106,7 @@ def plane(number: float, cells: int) -> None:
     pull_off = int(np.argmin(theory.force(radii)))
     chosen = np.linspace(0, pull_off, 6).astype(int)
     depths = theory.depth(radii[chosen]) + float(surface.heights.max())
-    states = list(rc.loading_path(surface, 1.0, depths=depths, adhesion=adhesion))
+    states = list(rc.adhesive_path(surface, 1.0, adhesion, depths=depths))
     forces = np.array([state.force for state in states])
     errors = np.abs(forces - theory.force(radii[chosen])) / theory.pull_off_force
     found = math.sqrt(states[0].contact_area / math.pi)
@@ -120,7 +120,7 @@ def plane(number: float, cells: int) -> None:
 def pulled(surface: rc.Surface | rc.RadialProfile, depth: float) -> tuple[float, float, int]:
     """Return the largest tension of a stuck surface drawn back under given depths, the first, and its events."""
     sharp = rc.Adhesion(1.0, law="sharp")
-    _, off = rc.loading_path(surface, 1.0, depths=[depth, -100.0], adhesion=sharp)
+    _, off = rc.adhesive_path(surface, 1.0, sharp, depths=[depth, -100.0])
     return -off.lowest_force, -off.detachments[0].force_before, len(off.detachments)
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
     from roughcontact.adhesion.detachment import Detachment as Detachment
     from roughcontact.adhesion.quasi_static import Jump as Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop as AdhesiveLoop
+    from roughcontact.contact.adhesive_branches import AdhesiveCurve as AdhesiveCurve
     from roughcontact.contact.adhesive_loop import adhesive_loop as adhesive_loop
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
@@ -50,12 +50,17 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.problem import ContactProblem as ContactProblem
     from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
+    from roughcontact.contact.sticking import (
+        adhesive_curve as adhesive_curve,
+        adhesive_path as adhesive_path,
+        adhesive_state as adhesive_state,
+    )
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
     from roughcontact.contact.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read, read_line as read_line
-    from roughcontact.files.read_adhesive_loop import read_adhesive_loop as read_adhesive_loop
+    from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.save import write as write
     from roughcontact.friction.slide import load_cycle as load_cycle, slide as slide, slide_path as slide_path

@@ -1,6 +1,6 @@
 """How values are drawn: the door from what is computed to the room that draws.
 
-`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState` and `AdhesiveLoop` have these functions as their methods. What
+`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState` and `AdhesiveCurve` have these functions as their methods. What
 draws is imported when they are called.
 """
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
-    *("plot_adhesive_loop", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
+    *("adhesive_curve_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
+    *("plot_adhesive_curve", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
 ]
 
 
@@ -212,7 +212,7 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
@@ -221,12 +221,12 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     return tension_map(state, ax) if state.blank.operator.grid.ndim == 2 else tension_profile(state, ax)
 
 
-def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+def plot_adhesive_curve(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -283,8 +283,8 @@ def state_html(state: AdhesiveState) -> str:
     return notebook.of_state(state)
 
 
-def adhesive_loop_html(loop: AdhesiveLoop) -> str:
+def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a path of surfaces that stick as a notebook shows it."""
     from roughcontact.plot import notebook
 
-    return notebook.of_adhesive_loop(loop)
+    return notebook.of_adhesive_curve(loop)

@@ -15,7 +15,7 @@ SHARP = rc.Adhesion(1.0, law="sharp")
 
 
 def largest_tension(surface, depth, adhesion=SHARP, modulus=1.0):
-    _, off = rc.loading_path(surface, modulus, depths=[depth, -100.0], adhesion=adhesion)
+    _, off = rc.adhesive_path(surface, modulus, adhesion, depths=[depth, -100.0])
     assert not off.contact.any()
     return max(-event.force_before for event in off.detachments)
 
@@ -35,7 +35,7 @@ def test_on_rings_it_converges_to_johnson_kendall_and_roberts():
 
 def test_under_a_force_the_pull_off_is_the_largest_tension_under_depths():
     # The force is the same function of the depth, and its smallest value lies at an event.
-    *_, off = rc.loading_path(ball(100), 1.0, forces=[8.0, -10.0], adhesion=SHARP)
+    *_, off = rc.adhesive_path(ball(100), 1.0, SHARP, forces=[8.0, -10.0])
     assert off.jumps[0].force_before == pytest.approx(-largest_tension(ball(100), 4.0), rel=1e-9)
     assert off.jumps[0].lost == math.inf
     assert off.depth == -math.inf
@@ -54,7 +54,7 @@ def test_on_a_plane_the_pull_off_is_too_large_and_depends_on_the_start_only_if_t
 
 
 def test_a_ring_that_lets_go_alone_loses_nothing():
-    _, off = rc.loading_path(ball(60), 1.0, depths=[4.0, -100.0], adhesion=SHARP)
+    _, off = rc.adhesive_path(ball(60), 1.0, SHARP, depths=[4.0, -100.0])
     *alone, last = off.detachments
     area = math.pi * 3.2**2
     for event in alone:
@@ -66,7 +66,7 @@ def test_a_ring_that_lets_go_alone_loses_nothing():
 
 def test_energy_and_work_balance():
     """What the force does on the way is what the elastic energy and the work of adhesion take, and what is lost."""
-    path = list(rc.loading_path(ball(40), 1.0, depths=np.linspace(4.0, -2.0, 4001), adhesion=SHARP))
+    path = list(rc.adhesive_path(ball(40), 1.0, SHARP, depths=np.linspace(4.0, -2.0, 4001)))
     lost = math.fsum(event.lost for state in path for event in state.detachments)
     forces = [state.force for state in path]
     work = -float(np.trapezoid(forces, [state.depth for state in path]))
@@ -151,8 +151,7 @@ def test_a_rough_surface_lets_go_at_the_same_depths_whatever_the_steps(periodic)
     surface = rough(24, periodic=periodic, slope=0.2, seed=0)
     deep, sharp = 0.3 * float(separation_of(surface).mean()), rc.Adhesion(0.01, law="sharp")
     few, many = (
-        list(rc.loading_path(surface, 1.0, depths=np.linspace(deep, -4 * deep, n), adhesion=sharp))
-        for n in (3, 21)
+        list(rc.adhesive_path(surface, 1.0, sharp, depths=np.linspace(deep, -4 * deep, n))) for n in (3, 21)
     )
     events = [[event for state in path for event in state.detachments] for path in (few, many)]
     assert [event.cells for event in events[0]] == [event.cells for event in events[1]]
@@ -168,16 +167,16 @@ def test_a_rough_surface_lets_go_at_the_same_depths_whatever_the_steps(periodic)
 
 
 def test_only_on_a_plane_the_criterion_depends_on_the_direction():
-    for state in rc.loading_path(ball(20), 1.0, depths=[1.0, 0.5], adhesion=SHARP):
+    for state in rc.adhesive_path(ball(20), 1.0, SHARP, depths=[1.0, 0.5]):
         assert not state.directional
-    smooth = rc.press(rough(16, periodic=True, slope=0.2, seed=0), 1.0, depth=0.3, adhesion=sticky(2.0))
+    smooth = rc.adhesive_state(rough(16, periodic=True, slope=0.2, seed=0), 1.0, sticky(2.0), depth=0.3)
     assert not smooth.directional
 
 
 @pytest.mark.parametrize("depths", [[1.0], [0.5, 1.0], [0.0, -1.0]])
 def test_an_approach_is_refused(depths):
     with pytest.raises(ValueError, match="falling"):
-        rc.loading_path(ball(20), 1.0, depths=depths, adhesion=SHARP)
+        rc.adhesive_path(ball(20), 1.0, SHARP, depths=depths)
 
 
 def test_a_range_of_the_sharp_law_is_refused():

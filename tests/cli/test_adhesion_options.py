@@ -10,7 +10,8 @@ import xarray
 import roughcontact as rc
 from roughcontact.adhesion.attraction import Law
 from roughcontact.cli.adhesion_options import LawChoice
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
+from roughcontact.contact import sticking
+from roughcontact.contact.adhesive_branches import AdhesiveCurve
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")
@@ -35,7 +36,7 @@ def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
         "adhesion", "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"
     )
     assert answer.exit_code == 0, answer.stderr
-    state = rc.press(rc.read(rough), 10e6, depth=-20e-9, adhesion=ADHESION)
+    state = rc.adhesive_state(rc.read(rough), 10e6, ADHESION, depth=-20e-9)
     record = json.loads(answer.stdout)
     expected = json.loads(json.dumps(state.to_record()))
     assert {name: record[name] for name in expected} == expected
@@ -57,11 +58,11 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--json", "--out", tmp_path / "out")
     assert answer.exit_code == 0, answer.stderr
     depths = [-0.2e-6, 0.05e-6, -0.1e-6]
-    curve = rc.loading_curve(rc.read(rough), 10e6, depths=depths, adhesion=ADHESION)
+    curve = rc.adhesive_curve(rc.read(rough), 10e6, ADHESION, depths=depths)
     record, expected = json.loads(answer.stdout), json.loads(json.dumps(curve.to_record()))
     assert {name: record[name] for name in expected} == expected
     assert record["branch"] == ["approach", "approach", "retreat"]
-    back = rc.read_adhesive_loop(tmp_path / "out" / "curve.nc")
+    back = rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")
     np.testing.assert_array_equal(back.force, curve.force)
     assert back.jumps == curve.jumps
     table = np.genfromtxt(
@@ -78,7 +79,7 @@ def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
     answer = invoke(*words)
     assert answer.exit_code == 0
     assert "is ambiguous" not in answer.stderr
-    monkeypatch.setattr(AdhesiveLoop, "ambiguous", True)
+    monkeypatch.setattr(AdhesiveCurve, "ambiguous", True)
     assert "Note: a jump is ambiguous" in invoke(*words).stderr
 
 
@@ -122,8 +123,8 @@ def test_mean_gaps_are_those_of_the_library(invoke, tmp_path):
     answer = invoke(*words, "--json")
     assert answer.exit_code == 0, answer.stderr
     record = json.loads(answer.stdout)
-    curve = rc.loading_curve(
-        rc.read(tmp_path / "whole.npz"), 10e6, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7], adhesion=ADHESION
+    curve = rc.adhesive_curve(
+        rc.read(tmp_path / "whole.npz"), 10e6, ADHESION, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7]
     )
     # Texts and numbers are of the last digit apart, and the tolerance of the states is 1e-8.
     np.testing.assert_allclose(record["mean_gap"], [5e-7, 3.5e-7, 2e-7, 4e-7], rtol=1e-9)
@@ -140,7 +141,7 @@ def test_mean_gaps_are_refused_where_the_library_refuses_them(invoke, rough):
 
 
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
-    whole = rc.loading_path
+    whole = sticking.states_under
 
     def interrupted(*arguments, **named):
         path = whole(*arguments, **named)
@@ -148,11 +149,11 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
         yield next(path)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(rc, "loading_path", interrupted)
+    monkeypatch.setattr(sticking, "states_under", interrupted)
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
-    assert len(rc.read_adhesive_loop(tmp_path / "out" / "curve.nc")) == 2
+    assert len(rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")) == 2
     loop = ("--depth", "50nm", "--points", "4", "--out", tmp_path / "loop")
     answer = invoke("adhesion", "loop", rough, *MODULUS, *STICKS, *loop)
     assert answer.exit_code == 130

@@ -277,11 +277,11 @@ def test_a_notebook_shows_surfaces_that_stick(law):
     sharp = law == "sharp"
     adhesion = rc.Adhesion(work=10e-3, law=law) if sharp else rc.Adhesion(work=10e-3, range=4e-9)
     depths = [10e-9, 0.0, -20e-9]
-    state = next(rc.loading_path(ball, 1e8, depths=depths, adhesion=adhesion))
+    state = next(rc.adhesive_path(ball, 1e8, adhesion, depths=depths))
     facts = dict(shown(state))
     assert facts["depth"] == "10 nm"
     assert ("Irwin's length" in facts) is not sharp
-    loop = rc.loading_curve(ball, 1e8, depths=depths, adhesion=adhesion)
+    loop = rc.adhesive_curve(ball, 1e8, adhesion, depths=depths)
     rows = shown(loop)
     assert facts["adhesion"] in [row[1] for row in rows if row[0] == "adhesion"]
     (head,) = [row for row in rows if row[0] == "branch"]

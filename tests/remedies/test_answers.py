@@ -16,11 +16,11 @@ RISING, HIGH = np.geomspace(1e-5, 1e-3, 6), np.geomspace(1, 10, 5)
 
 
 def stuck(surface=ROUGH, adhesion=FAR, **named):
-    return rc.press(surface, MODULUS, adhesion=adhesion, **named)
+    return rc.adhesive_state(surface, MODULUS, adhesion, **named)
 
 
 def path(surface=ROUGH, adhesion=FAR, **named):
-    return list(rc.loading_path(surface, MODULUS, adhesion=adhesion, **named))
+    return list(rc.adhesive_path(surface, MODULUS, adhesion, **named))
 
 
 def pressed(force=1e-4, **named):
@@ -66,19 +66,8 @@ ADHESION = [
     ),
     row(
         lambda: stuck(adhesion=0.05, force=1e-6),
-        "an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not 0.05",
+        "adhesion must be an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9), not 0.05",
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-6),
-    ),
-    row(
-        lambda: stuck(pressure=1.0),
-        "a contact that sticks takes no pressure: give depths or forces alone",
-        lambda: stuck(depth=1e-9),
-        lambda: stuck(force=1e-9),
-    ),
-    row(
-        lambda: stuck(force=1e-9, hardness=1e9),
-        "a contact that sticks takes no hardness: give depths or forces alone",
-        lambda: stuck(force=1e-9),
     ),
     row(
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9), force=1e-9),
@@ -105,7 +94,7 @@ ADHESION = [
     ),
     row(
         lambda: stuck(),
-        "give exactly one of depths, forces and mean_gaps, not none",
+        "give exactly one of depth, force, pressure and mean_gap, not none",
         lambda: stuck(force=1e-9),
     ),
     row(
@@ -124,7 +113,7 @@ ADHESION = [
     ),
     row(
         lambda: path(depths=[np.nan]),
-        "the list of depths must hold finite numbers in one row",
+        "the depths must be finite (given: nan)",
         lambda: path(depths=[1e-9]),
     ),
     row(

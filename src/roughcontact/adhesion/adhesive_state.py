@@ -111,7 +111,7 @@ class AdhesiveState:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> state = rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0)
     >>> f"{state.force * 1e9:.0f} nN at a depth of zero, on {state.contact.sum()} rings"
     '-440 nN at a depth of zero, on 34 rings'
     >>> state.residual < 1e-8, state.stability > 0

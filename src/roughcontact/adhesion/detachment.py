@@ -53,7 +53,7 @@ class Detachment:
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
     >>> sharp = rc.Adhesion(work=10e-3, law="sharp")
-    >>> *_, last = rc.loading_path(ball, 1e8, depths=[2e-8, -2e-8], adhesion=sharp)
+    >>> *_, last = rc.adhesive_path(ball, 1e8, sharp, depths=[2e-8, -2e-8])
     >>> first = last.detachments[0]
     >>> f"{first.cells} ring lets go at {first.depth * 1e9:.1f} nm", bool(last.contact.any())
     ('1 ring lets go at 3.0 nm', False)

@@ -168,8 +168,9 @@ class LoopLoads:
     def up_and_down(self, loads: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Return the loads in the order in which they come."""
         from roughcontact.contact.loop import loads_of_loop
+        from roughcontact.solver.loads import Loads
 
-        return loads_of_loop(loads) if self.loop else loads
+        return loads_of_loop(Loads("force", loads)).values if self.loop else loads
 
 
 def write_loop(loop: Loop, folder: Path, source: Mapping[str, Any], ending: str) -> tuple[str, ...]:

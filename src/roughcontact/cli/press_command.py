@@ -26,7 +26,6 @@ from roughcontact.cli.write_from_slabs import write_from_slabs
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "press"]
 

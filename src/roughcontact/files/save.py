@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import on_host
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
+from roughcontact.contact.adhesive_branches import AdhesiveCurve
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import numbers_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable
@@ -46,7 +46,7 @@ Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
 Pressed = Solution | TangentialSolution | AdhesiveState
-Writable = Surface | Pressed | Curve | Loop | AdhesiveLoop | SlipCurve | InterfaceTable
+Writable = Surface | Pressed | Curve | Loop | AdhesiveCurve | SlipCurve | InterfaceTable
 
 
 def write(what: Writable, path: str | os.PathLike[str]) -> None:
@@ -56,7 +56,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
     ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
                 loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
-                adhesion by `read_adhesive_loop`
+                adhesion by `read_adhesive_curve`
     ``.csv``    a curve, a loop, or the table of an interface: one line a load
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
                 history, for which the format has no place
@@ -72,7 +72,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    what : Surface, Solution, TangentialSolution, AdhesiveState, Curve, Loop, AdhesiveLoop, SlipCurve or InterfaceTable
+    what : Surface, Solution, TangentialSolution, AdhesiveState, Curve, Loop, AdhesiveCurve, SlipCurve or InterfaceTable
         What is written.
     path : str or path
         File to write; one that is there is replaced.
@@ -90,7 +90,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    if isinstance(what, Curve | SlipCurve | Loop | AdhesiveLoop):
+    if isinstance(what, Curve | SlipCurve | Loop | AdhesiveCurve):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return

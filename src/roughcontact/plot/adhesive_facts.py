@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.quasi_static import Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["ADHESIVE_COLUMNS", "adhesive_facts", "adhesive_loop_facts", "jump_facts", "law_facts"]
+__all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
 
 ADHESIVE_COLUMNS = (*("branch", "depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual"),)
 _JUMPS = 12  # that are told one by one: those that lost most
@@ -73,7 +73,7 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     ]
 
 
-def adhesive_loop_facts(loop: AdhesiveLoop) -> list[tuple[str, str]]:
+def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
     """Return what a path of surfaces that stick is worth telling, line by line."""
     kind = loop.geometry
     facts = []

@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
+from roughcontact.contact.adhesive_branches import AdhesiveCurve
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.pictures import (
-    plot_adhesive_loop,
+    plot_adhesive_curve,
     plot_curve,
     plot_loop,
     plot_solution,
@@ -27,8 +27,8 @@ from roughcontact.pictures import (
 )
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
+    adhesive_curve_facts,
     adhesive_facts,
-    adhesive_loop_facts,
     law_facts,
 )
 from roughcontact.plot.facts import (
@@ -43,7 +43,7 @@ from roughcontact.plot.facts import (
 )
 from roughcontact.surface.surface import Surface
 
-__all__ = ["of_adhesive_loop", "of_curve", "of_loop", "of_solution", "of_state", "of_surface"]
+__all__ = ["of_adhesive_curve", "of_curve", "of_loop", "of_solution", "of_state", "of_surface"]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
 _SIZE, _DPI = (4.6, 3.4), 96
@@ -98,11 +98,11 @@ def of_state(state: AdhesiveState) -> str:
     return _page("State", adhesive_facts(state), figure)
 
 
-def of_adhesive_loop(loop: AdhesiveLoop) -> str:
+def of_adhesive_curve(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
-    plot_adhesive_loop(loop, axes)
-    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_loop_facts(loop)]
+    plot_adhesive_curve(loop, axes)
+    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table
 

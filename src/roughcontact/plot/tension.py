@@ -48,7 +48,7 @@ def tension_map(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> axes = rc.plot.tension_map(state)
     >>> axes.images[0].norm.vcenter, axes.images[0].norm.vmin < 0 < axes.images[0].norm.vmax
     (0, True)
@@ -99,7 +99,7 @@ def tension_profile(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> axes = rc.plot.tension_profile(rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9)))
+    >>> axes = rc.plot.tension_profile(rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0))
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('r [nm]', 'pressure, tension negative [MPa]')
     """
@@ -136,7 +136,7 @@ def state_figure(state: AdhesiveState) -> Figure:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> figure = rc.plot.state_figure(rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9)))
+    >>> figure = rc.plot.state_figure(rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0))
     >>> figure.axes[0].get_title()
     'force -440 nN,  depth 0 m,  contact 32.1 %,  stability 0.39'
     """

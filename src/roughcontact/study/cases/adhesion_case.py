@@ -17,7 +17,7 @@ from roughcontact.study.cases.shared_parameters import RoughSquare
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.validation import Array
 
 __all__ = ["CASE", "AdhesionParameters", "run"]
@@ -103,7 +103,7 @@ def run(parameters: AdhesionParameters, rng: np.random.Generator) -> xarray.Data
     return xarray.Dataset(data, attrs={"title": "loops of rough surfaces that stick"})
 
 
-def _retreat(loop: AdhesiveLoop, values: Array, parameters: AdhesionParameters) -> Array:
+def _retreat(loop: AdhesiveCurve, values: Array, parameters: AdhesionParameters) -> Array:
     """Return the values of the retreat at the depths of the approach; NaN where it ended before."""
     back = values[parameters.loads : 2 * parameters.loads + 1]
     return np.pad(back, (0, parameters.loads + 1 - back.size), constant_values=np.nan)[::-1].copy()
