@@ -19,12 +19,17 @@ if TYPE_CHECKING or _LATE is None:
         theory as theory,
         thesis as thesis,
     )
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
+    from roughcontact.adhesion.adhesive_loading import (
+        adhesive_curve as adhesive_curve,
+        adhesive_path as adhesive_path,
+        adhesive_state as adhesive_state,
+    )
+    from roughcontact.adhesion.adhesive_loop import adhesive_loop as adhesive_loop
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
     from roughcontact.adhesion.detachment import Detachment as Detachment
     from roughcontact.adhesion.quasi_static import Jump as Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve as AdhesiveCurve
-    from roughcontact.contact.adhesive_loop import adhesive_loop as adhesive_loop
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
         below as below,
@@ -50,11 +55,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.problem import ContactProblem as ContactProblem
     from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
-    from roughcontact.contact.sticking import (
-        adhesive_curve as adhesive_curve,
-        adhesive_path as adhesive_path,
-        adhesive_state as adhesive_state,
-    )
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
     from roughcontact.contact.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError

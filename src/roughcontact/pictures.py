@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop

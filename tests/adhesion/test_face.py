@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.adhesive_branches import collect_states
+from roughcontact.adhesion.adhesive_curve import collect_states
 from roughcontact.contact.problem import separation_of
 from roughcontact.solver.loads import Loads
 from sticking import rough, sticky

@@ -8,10 +8,10 @@ import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.adhesion import adhesive_loading
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.attraction import Law
 from roughcontact.cli.adhesion_options import LawChoice
-from roughcontact.contact import sticking
-from roughcontact.contact.adhesive_branches import AdhesiveCurve
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")
@@ -141,7 +141,7 @@ def test_mean_gaps_are_refused_where_the_library_refuses_them(invoke, rough):
 
 
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
-    whole = sticking.states_under
+    whole = adhesive_loading.states_under
 
     def interrupted(*arguments, **named):
         path = whole(*arguments, **named)
@@ -149,7 +149,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
         yield next(path)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sticking, "states_under", interrupted)
+    monkeypatch.setattr(adhesive_loading, "states_under", interrupted)
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr

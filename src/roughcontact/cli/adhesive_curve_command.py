@@ -31,8 +31,8 @@ from roughcontact.cli.report import (
 from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.attraction import Adhesion
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.solver.loads import Loads
 
 __all__ = ["EXAMPLES", "curve", "loop"]
@@ -98,7 +98,7 @@ def loop(
     The approach begins ten ranges of the attraction apart. Files are those of 'adhesion curve'.
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
-        from roughcontact.contact.adhesive_loop import loop_depths
+        from roughcontact.adhesion.adhesive_loop import loop_depths
         from roughcontact.solver.loads import Loads
 
         turn, adhesion = parse(depth, LENGTH, "--depth"), law.adhesion()
@@ -118,9 +118,9 @@ def _answer(
     points: int | None = None,
 ) -> None:
     """Follow loads, or a loop with `points` on its approach; print what was found, and write it where asked."""
-    from roughcontact.contact.adhesive_branches import collect_states
-    from roughcontact.contact.adhesive_loop import until_off
-    from roughcontact.contact.sticking import states_under
+    from roughcontact.adhesion.adhesive_curve import collect_states
+    from roughcontact.adhesion.adhesive_loading import states_under
+    from roughcontact.adhesion.adhesive_loop import until_off
     from roughcontact.solver.loads import Loads
 
     modulus, tolerance = elasticity.reduced_modulus(), asked.residual

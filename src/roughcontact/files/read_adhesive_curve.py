@@ -9,11 +9,11 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+from roughcontact.adhesion.adhesive_curve_dataset import LOOP_POINTS, LOOP_SCALES
 from roughcontact.adhesion.attraction import Adhesion, Law
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.adhesion.state_dataset import JUMPS
-from roughcontact.contact.adhesive_branches import AdhesiveCurve
-from roughcontact.contact.adhesive_loop_dataset import LOOP_POINTS, LOOP_SCALES
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened

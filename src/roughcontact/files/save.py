@@ -13,9 +13,9 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import on_host
-from roughcontact.contact.adhesive_branches import AdhesiveCurve
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import numbers_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable

@@ -11,10 +11,10 @@ import numpy as np
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.quasi_static import Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
     from roughcontact.halfspace.operators.geometry import Geometry
 
 __all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughcontact.contact.adhesive_branches import AdhesiveCurve
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written

@@ -10,9 +10,9 @@ from io import BytesIO
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.adhesive_branches import AdhesiveCurve
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop

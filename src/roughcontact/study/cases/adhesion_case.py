@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
+from roughcontact.adhesion.adhesive_loop import adhesive_loop
 from roughcontact.adhesion.attraction import Adhesion, Law
-from roughcontact.contact.adhesive_loop import adhesive_loop
 from roughcontact.labels.labelled import described, variable
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.study.case import Case, EnergyPerArea, Length, Positive, Pressure
@@ -17,7 +17,7 @@ from roughcontact.study.cases.shared_parameters import RoughSquare
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.validation import Array
 
 __all__ = ["CASE", "AdhesionParameters", "run"]

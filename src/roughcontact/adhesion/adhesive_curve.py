@@ -178,7 +178,7 @@ class AdhesiveCurve:
             Points along ``load``, of which ``branch`` says whether they are of the approach or the retreat; jumps along
             ``jump``. Each variable has its unit and a long name.
         """
-        from roughcontact.contact.adhesive_loop_dataset import adhesive_curve_dataset
+        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_dataset
 
         return adhesive_curve_dataset(self)
 
@@ -190,7 +190,7 @@ class AdhesiveCurve:
         dict
             Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
         """
-        from roughcontact.contact.adhesive_loop_dataset import adhesive_curve_record
+        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_record
 
         return adhesive_curve_record(self)
 

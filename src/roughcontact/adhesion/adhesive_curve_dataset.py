@@ -18,7 +18,7 @@ from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.adhesive_branches import AdhesiveCurve
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 
 __all__ = ["LOOP_POINTS", "LOOP_SCALES", "adhesive_curve_dataset", "adhesive_curve_record"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve, collect_states
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.path_states import states_along
-from roughcontact.contact.adhesive_branches import AdhesiveCurve, collect_states
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.problem import Body, require_memory_for, separation_of
 from roughcontact.halfspace.operators.build import body_on

@@ -7,11 +7,11 @@ from itertools import islice
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve, collect_states
+from roughcontact.adhesion.adhesive_loading import states_under
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import REACH, Adhesion
-from roughcontact.contact.adhesive_branches import AdhesiveCurve, collect_states
 from roughcontact.contact.problem import Body
-from roughcontact.contact.sticking import states_under
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
 from roughcontact.solver.loads import Loads
