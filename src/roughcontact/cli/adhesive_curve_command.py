@@ -10,7 +10,7 @@ import typer
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import AdhesionLaw, note_unresolved
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.load_options import AdhesiveLoads
+from roughcontact.cli.load_options import AdhesiveLoads, unit_of_loads
 from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
@@ -79,8 +79,9 @@ def curve(
     States depend on the history: approach and retreat differ. Ctrl-C keeps what is done; a path cannot be resumed.
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
-        wanted, unit = loads.values(reading.profile)
-        control = f"{wanted.kind}s {', '.join(f'{load:g}' for load in wanted.values)} {unit}"
+        wanted = loads.values(reading.profile)
+        values = ", ".join(f"{load:g}" for load in wanted.values)
+        control = f"{wanted.kind}s {values} {unit_of_loads(wanted, reading.profile)}"
         _answer("curve", reading, elasticity, law.adhesion(), answer, wanted, control)
 
 

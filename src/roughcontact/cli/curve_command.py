@@ -16,12 +16,11 @@ from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
-from roughcontact.cli.load_options import RisingLoads
+from roughcontact.cli.load_options import RisingLoads, unit_of_loads
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.table_options import InterfaceTables
@@ -30,13 +29,11 @@ from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
+    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "curve"]
@@ -88,14 +85,14 @@ def curve(
             }
         )
         in_slabs = slabs_of_job() is not None
-        name, loads = given.values(reading.profile)
+        loads = given.values(reading.profile)
         if in_slabs and loads is None:
             raise UsageError(
                 "several processes do not look for loads: name them, such as --pressures 1kPa:1MPa:20"
             )
         chosen = units.chosen()
         modulus, hardness = bodies.elasticity.reduced_modulus(), plastic.hardness(bodies)
-        plastic.check(name, errors)
+        plastic.check(loads, errors)
         conductors = materials.conductors()
         if reading.profile is not None:
             part = None if conductors is None else materials.of.value
@@ -113,27 +110,27 @@ def curve(
             laws, taken, refused = theories.laws(surface, modulus, hardness)
             if loads is None:
                 loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
-            elif name != "depths" and not in_slabs:
-                _look_ahead(surface, modulus, name, loads, operator)
-            largest = {name.removesuffix("s"): float(loads.max())}
-            require_memory_for_load(surface, modulus, largest, curve=True)
-            path = {
+            elif loads.kind != "depth" and not in_slabs:
+                _look_ahead(surface, modulus, loads, operator)
+            values, option = loads.values, f"--{loads.kind}s"
+            require_memory_for_load(surface, modulus, {loads.kind: float(values.max())}, curve=True)
+            limits = {
                 "tolerance": tolerance,
                 "hardness": hardness,
                 "operator": operator,
                 "flow": plastic.reading,
             }
-            path[name] = plastic.up_and_down(loads)
-            computed, notes, outer, loop = _load(surface, modulus, path, loads.size)
-            left = loads[len(computed) :]
+            path = plastic.up_and_down(loads)
+            computed, notes, outer, loop = _load(surface, modulus, path, values.size, limits)
+            left = values[len(computed) :]
             if left.size:
                 rest = ",".join(f"{load:.12g}" for load in left)
                 elsewhere = "" if folder is None else ", and a new --out: this folder would be replaced"
                 notes += (
-                    f"stopped: {len(computed)} of {loads.size} loads are computed; compute the others with "
-                    f"--{name} {rest}{elsewhere}",
+                    f"stopped: {len(computed)} of {values.size} loads are computed; compute the others with "
+                    f"{option} {rest}{elsewhere}",
                 )
-            per_area = name == "pressures" or all(surface.grid.periodic) or bool(chosen)
+            per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(chosen)
             if errors.errors and not outer:
                 note("no errors: no load is resolved")
             if plastic.loop and loop is None:
@@ -141,8 +138,10 @@ def curve(
             joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
             answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
             if out is not None:
-                unit, done = kinds_of(reading.profile)[name.removesuffix("s")].unit, loads[: len(computed)]
-                source = answer.source(f"{name} from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them")
+                unit, done = unit_of_loads(loads, reading.profile), values[: len(computed)]
+                source = answer.source(
+                    f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
+                )
             if folder is not None:
                 with doing("Writing files"):
                     answer.write(folder, source, ending)
@@ -160,11 +159,12 @@ def curve(
 
 def _suggested(
     surface: Surface, modulus: float, pressed: Pressed, *, operator: Operator | None, hardness: float | None
-) -> npt.NDArray[np.float64]:
+) -> Loads:
     """Return the forces [N] that suit a surface, and say which they are."""
     from roughcontact.contact.load_outlook import load_outlook
     from roughcontact.contact.load_range import load_range
     from roughcontact.halfspace.operators.operator import geometry_of
+    from roughcontact.solver.loads import Loads
 
     with doing("Looking for the loads that suit this surface"):
         found = load_range(surface, modulus, operator=operator, hardness=hardness)
@@ -180,16 +180,15 @@ def _suggested(
     )
     for line in found.notes:
         note(line)
-    return loads
+    return Loads("force", loads)
 
 
-def _look_ahead(
-    surface: Surface, modulus: float, name: str, loads: npt.NDArray[np.float64], operator: Operator | None
-) -> None:
+def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operator | None) -> None:
     """Say before the work if the grid resolves none of the named loads, or too few for a power law."""
     from roughcontact.contact.load_outlook import load_outlook
 
-    given: dict[str, Any] = {name: loads}
+    name = f"{loads.kind}s"
+    given: dict[str, Any] = {name: loads.values}
     with doing("Looking which of these loads the grid resolves"):
         ahead = load_outlook(surface, modulus, operator=operator, **given)
     if ahead.resolved >= min(_FEWEST, ahead.count):
@@ -203,7 +202,7 @@ def _look_ahead(
 
 
 def _load(
-    surface: Surface, modulus: float, given: dict[str, Any], count: int
+    surface: Surface, modulus: float, loads: Loads, count: int, limits: dict[str, Any]
 ) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
@@ -214,8 +213,8 @@ def _load(
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loop import closed_loop
 
-    path = rc.loading_path(surface, modulus, **given)
-    total = max(len(loads) for name, loads in given.items() if name in ("forces", "depths", "pressures"))
+    given: dict[str, Any] = {f"{loads.kind}s": loads.values, **limits}
+    path, total = rc.loading_path(surface, modulus, **given), loads.values.size
     notes: list[tuple[str, ...]] = []
     ends: list[Solution] = []
     turn: list[Solution] = []

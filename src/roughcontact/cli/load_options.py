@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -9,7 +10,7 @@ from roughcontact.cli import options
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import flag, option
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
-from roughcontact.cli.unit_options import parse, parse_load, parse_loads, parse_path
+from roughcontact.cli.unit_options import Kind, parse, parse_load, parse_loads, parse_path
 
 if TYPE_CHECKING:
     import numpy as np
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     from roughcontact.solver.loads import Loads
 
-__all__ = ["AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad", "RisingLoads"]
+__all__ = ["AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad", "RisingLoads", "unit_of_loads"]
 
 _PULLS = ("force", "pressure")  # of which a negative value is a tension
 
@@ -51,19 +52,15 @@ class RisingLoads:
     pressures: str | None = option("Nominal pressures, likewise.", "1kPa:1MPa:100")
     depths: str | None = option("Indentation depths since first touch, likewise.", "1nm:1um:100")
 
-    def values(self, body: ProfileBody | None) -> tuple[str, npt.NDArray[np.float64] | None]:
-        """Return what the loads are, and their values in SI units; None where they were left out.
+    def values(self, body: ProfileBody | None) -> Loads | None:
+        """Return the loads; None where they were left out.
 
         Raises
         ------
         UsageError
             If several are named, or their text is none.
         """
-        given = asdict(self)
-        if not any(text is not None for text in given.values()):
-            return "forces", None
-        name = options.only_one(given, "the loads")
-        return name, parse_loads(given[name], kinds_of(body)[name.removesuffix("s")], f"--{name}")
+        return None if _left_out(self) else _loads(self, parse_loads, body)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,20 +112,15 @@ class AdhesiveLoads:
         "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9"
     )
 
-    def values(self, body: ProfileBody | None) -> tuple[Loads, str]:
-        """Return the loads, and their SI unit.
+    def values(self, body: ProfileBody | None) -> Loads:
+        """Return the loads.
 
         Raises
         ------
         UsageError
-            If not one kind is named: no search finds them.
+            If not one kind is named, or its text is none.
         """
-        from roughcontact.solver.loads import Loads
-
-        given = asdict(self)
-        name = options.only_one(given, "the loads")
-        kind = kinds_of(body)[name.removesuffix("s")]
-        return Loads.of(**{name: parse_path(given[name], kind, flag(name))}), kind.unit
+        return _loads(self, parse_path, body)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,16 +135,34 @@ class FallingLoads:
     )
     forces: str | None = option("Falling normal forces, likewise.", "1mN,0N,-1mN")
 
-    def values(self, body: ProfileBody | None) -> dict[str, npt.NDArray[np.float64]]:
-        """Return the loads in SI units by their name; nothing where they were left out.
+    def values(self, body: ProfileBody | None) -> Loads | None:
+        """Return the loads; None where they were left out.
 
         Raises
         ------
         UsageError
             If both are named, or their text is none.
         """
-        given = {name: text for name, text in asdict(self).items() if text is not None}
-        if not given:
-            return {}
-        name = options.only_one(given, "the loads")
-        return {name: parse_path(given[name], kinds_of(body)[name.removesuffix("s")], flag(name))}
+        return None if _left_out(self) else _loads(self, parse_path, body)
+
+
+def unit_of_loads(loads: Loads, body: ProfileBody | None) -> str:
+    """Return the SI unit of loads."""
+    return kinds_of(body)[loads.kind.replace(" ", "_")].unit
+
+
+def _left_out(given: RisingLoads | FallingLoads) -> bool:
+    return all(text is None for text in asdict(given).values())
+
+
+def _loads(
+    group: RisingLoads | AdhesiveLoads | FallingLoads,
+    parsed: Callable[[str, Kind, str], npt.NDArray[np.float64]],
+    body: ProfileBody | None,
+) -> Loads:
+    """Return the loads of the one kind that is named."""
+    from roughcontact.solver.loads import Loads
+
+    given = asdict(group)
+    name = options.only_one(given, "the loads")
+    return Loads.of(**{name: parsed(given[name], kinds_of(body)[name.removesuffix("s")], flag(name))})

@@ -16,13 +16,11 @@ from roughcontact.cli.report import doing, quantity
 from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
     from roughcontact.cli.error_options import Errors
     from roughcontact.cli.options import TwoBodies
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
+    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
 __all__ = ["AfterLoad", "LoopLoads", "write_loop"]
@@ -149,7 +147,7 @@ class LoopLoads:
         """
         return _hardness(bodies, "--loop" if self.loop else None, self.flow)
 
-    def check(self, name: str, errors: Errors) -> None:
+    def check(self, loads: Loads | None, errors: Errors) -> None:
         """Refuse loads that no loop has, and errors of a surface that rises.
 
         Raises
@@ -161,16 +159,15 @@ class LoopLoads:
             raise UsageError(
                 "--errors presses other maps by the same load alone: leave it out with --flow raised"
             )
-        if name == "depths" and (self.loop or self.flow is FlowChoice.RAISED):
+        if loads is not None and loads.kind == "depth" and (self.loop or self.flow is FlowChoice.RAISED):
             asked = "--loop" if self.loop else "--flow raised"
             raise UsageError(f"{asked} goes by forces or pressures: the depth is what is found")
 
-    def up_and_down(self, loads: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def up_and_down(self, loads: Loads) -> Loads:
         """Return the loads in the order in which they come."""
         from roughcontact.contact.loop import loads_of_loop
-        from roughcontact.solver.loads import Loads
 
-        return loads_of_loop(Loads("force", loads)).values if self.loop else loads
+        return loads_of_loop(loads) if self.loop else loads
 
 
 def write_loop(loop: Loop, folder: Path, source: Mapping[str, Any], ending: str) -> tuple[str, ...]:
