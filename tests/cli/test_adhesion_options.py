@@ -27,6 +27,14 @@ def rough(tmp_path):
     return tmp_path / "rough.npz"
 
 
+@pytest.fixture
+def whole(tmp_path):
+    """Return the file of a small periodic surface on which the attraction is resolved."""
+    grid = rc.Grid((16, 16), 1e-6, periodic=True)
+    rc.write(rc.self_affine(grid, 0.8, rms=1e-7, rng=np.random.default_rng(5)), tmp_path / "whole.npz")
+    return tmp_path / "whole.npz"
+
+
 def test_the_laws_are_those_of_the_library():
     assert [law.value for law in LawChoice] == list(get_args(Law))
 
@@ -48,7 +56,19 @@ def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     assert json.loads((tmp_path / "out" / "press.json").read_text())["provenance"]["input_sha256"]
 
 
-def test_a_press_tells_tension_jumps_and_stability(invoke, rough):
+def test_a_press_takes_a_pressure_and_a_mean_gap(invoke, whole):
+    words = ("adhesion", "press", whole, *MODULUS, *STICKS, "--json")
+    surface = rc.read(whole)
+    pressed = rc.adhesive_state(surface, 10e6, ADHESION, pressure=1e3)
+    record = json.loads(invoke(*words, "--pressure", "1kPa").stdout)
+    assert record["force"] == pressed.force == pytest.approx(1e3 * surface.grid.area)
+    near = rc.adhesive_state(surface, 10e6, ADHESION, mean_gap=2e-7)
+    record = json.loads(invoke(*words, "--mean-gap", "2e-7m").stdout)
+    assert record["force"] == near.force
+    assert record["mean_gap"] == pytest.approx(2e-7)
+
+
+def test_a_press_tells_tension_and_stability(invoke, rough):
     told = invoke("adhesion", "press", rough, "--force", "0N", *MODULUS, *STICKS).stdout
     for words in ("largest tension", "Irwin's length", "stability", "jump", "certificate", "10 mJ/m²"):
         assert words in told
@@ -106,26 +126,21 @@ def test_forces_go_up_and_down(invoke, rough):
     assert record["branch"] == ["approach"] * 3 + ["retreat"]
 
 
-def test_mean_gaps_are_those_of_the_library(invoke, tmp_path):
-    surface = rc.self_affine(
-        rc.Grid((16, 16), 1e-6, periodic=True), 0.8, rms=1e-7, rng=np.random.default_rng(5)
-    )
-    rc.write(surface, tmp_path / "whole.npz")
-    words = (
-        "adhesion",
-        "curve",
-        tmp_path / "whole.npz",
-        *MODULUS,
-        *STICKS,
-        "--mean-gaps",
-        "0.5um:0.2um:3,0.4um",
-    )
+def test_pressures_go_up_and_down(invoke, rough):
+    words = ("adhesion", "curve", rough, "--pressures", "0Pa:2kPa:3,-1kPa", *MODULUS, *STICKS, "--json")
+    record = json.loads(invoke(*words).stdout)
+    area = rc.read(rough).grid.area
+    np.testing.assert_allclose(record["force"], [0, 1e3 * area, 2e3 * area, -1e3 * area], atol=1e-12)
+    assert record["branch"] == ["approach"] * 3 + ["retreat"]
+
+
+def test_mean_gaps_are_those_of_the_library(invoke, whole):
+    gaps = ("--mean-gaps", "0.5um:0.2um:3,0.4um")
+    words = ("adhesion", "curve", whole, *MODULUS, *STICKS, *gaps)
     answer = invoke(*words, "--json")
     assert answer.exit_code == 0, answer.stderr
     record = json.loads(answer.stdout)
-    curve = rc.adhesive_curve(
-        rc.read(tmp_path / "whole.npz"), 10e6, ADHESION, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7]
-    )
+    curve = rc.adhesive_curve(rc.read(whole), 10e6, ADHESION, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7])
     # Texts and numbers are of the last digit apart, and the tolerance of the states is 1e-8.
     np.testing.assert_allclose(record["mean_gap"], [5e-7, 3.5e-7, 2e-7, 4e-7], rtol=1e-9)
     np.testing.assert_allclose(record["force"], curve.force, rtol=1e-8)
@@ -175,9 +190,12 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
     assert "give --allow-unresolved" in answer.stderr
     longer = answer.stderr.split("a range of at least ")[1].split(" m")[0]
     assert invoke(*words, "--range", longer).exit_code == 0
-    marked = invoke(*words, "--range", "20nm", "--allow-unresolved")
-    assert marked.exit_code == 0
-    assert "the lattice traps every state" in marked.stderr
+    path = ("adhesion", "curve", rough, "--depths", "-10nm,10nm", *MODULUS, "--work", "10mJ/m^2")
+    for command in (words, path):
+        marked = invoke(*command, "--range", "20nm", "--allow-unresolved")
+        assert marked.exit_code == 0
+        assert "the lattice traps every state" in marked.stderr
+        assert "the lattice traps" not in invoke(*command, "--range", longer).stderr
 
 
 @pytest.mark.parametrize(
