@@ -14,13 +14,20 @@ PARAMETERS = {
     "roughcontact.loading_curve": 12,
     "roughcontact.loading_path": 12,
 }
-OPTIONS = {"curve": 43, "press": 31, "surface prepare": 22}
+OPTIONS = {
+    "curve": 37,
+    "press": 27,
+    "adhesion press": 26,
+    "adhesion curve": 26,
+    "adhesion loop": 24,
+    "surface prepare": 22,
+}
 FILES = {
     "files": 58,
     "thesis": 53,
     "theory": 47,
     "contact": 43,
-    "cli": 42,
+    "cli": 44,
     "surface": 30,
     "page": 28,
     "mdr": 27,
