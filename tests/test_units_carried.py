@@ -111,6 +111,10 @@ MORE = [
     *((function, {"surface": ROUGH, "modulus": 1e8, "adhesion": rc.Adhesion(1e-4, 5e-8), f"{name}s": [value]})
       for function in (rc.adhesive_path, rc.adhesive_curve) for name, value in STICKING.items()),
     (rc.adhesive_loop, {"surface": SOFT, "modulus": 1e8, "adhesion": STICKY, "depth": 1e-8, "points": 5}),
+    (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
+    (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
+    (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
+    (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
     (rc.below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),

@@ -13,7 +13,6 @@ from sticking import rough, sticky
 RINGS = rc.RadialGrid.uniform(45, radius=6e-7)
 BALL = rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS)
 SOFT = rc.Adhesion(work=10e-3, range=4e-9)
-SHARP = rc.Adhesion(work=10e-3, law="sharp")
 # Both are within the tolerance of the extremum.
 SAME = 2 * FORCE_TOLERANCE
 
@@ -84,17 +83,6 @@ def test_under_forces_it_is_the_tension_that_pulls_the_body_off():
     )
     held = rc.adhesive_curve(BALL, 1e8, SOFT, forces=[1e-7, -1e-7, -3e-7])
     assert held.pull_off_force == 3e-7
-
-
-def test_with_the_sharp_law_it_is_the_tension_before_the_event_where_it_is_largest():
-    few = rc.adhesive_curve(BALL, 1e8, SHARP, depths=[20e-9, -20e-9])
-    _, off = rc.adhesive_path(BALL, 1e8, SHARP, depths=[20e-9, -20e-9])
-    tensions = [-event.force_before for event in off.detachments]
-    assert few.pull_off_force == max(tensions)
-    assert max(tensions) > tensions[-1]  # the last ring comes off under less
-    assert off.lowest_force == -few.pull_off_force
-    by_force = rc.adhesive_curve(BALL, 1e8, SHARP, forces=[1e-6, -1e-6])
-    assert by_force.pull_off_force == pytest.approx(few.pull_off_force, rel=1e-9)
 
 
 def test_each_retreat_has_its_own_and_an_approach_has_none():

@@ -165,3 +165,48 @@ def test_facts_name_the_jumps_that_lost_most(loop):
     assert jump_facts((), loop.geometry) == [("jumps", "none")]
     facts = dict(adhesive_curve_facts(loop))
     assert facts["pull-off force"] == written(loop.pull_off_force, "N", digits=4)
+
+
+def test_a_detachment_is_drawn_through_its_events():
+    """Two units, and a line on which the force falls between events and rises at them."""
+    pressed = rc.press(BALL, 1e9, depth=20e-9)
+    curve = rc.detachment_curve(pressed, 0.1, depths=[20e-9, 5e-9, -80e-9])
+    axes = curve.plot(Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [nm]", "force [µN]")
+    _, line, marks = (each.get_xydata() for each in axes.lines)
+    np.testing.assert_allclose(marks, np.stack([curve.depth * NM, curve.force * UN], 1))
+    events = curve.detachments
+    assert len(line) == 2 * len(events) + len(curve)
+    for event in events:
+        before = (event.depth * NM, event.force_before * UN)
+        at = int(np.argmin(np.abs(line - before).sum(axis=1)))
+        np.testing.assert_allclose(line[at], before)
+        np.testing.assert_allclose(line[at + 1], (event.depth_after * NM, event.force_after * UN))
+    assert (
+        axes.get_title() == f"pull-off force {written(curve.pull_off_force, 'N')}, {len(events)} detachments"
+    )
+    held = rc.detachment_curve(pressed, 0.1, depths=[5e-9])
+    assert "largest tension" in held.plot(Figure().subplots()).get_title()
+    small = rc.detachment_curve(rc.press(BALL, 1e9, depth=1e-9), 0.1)
+    assert "(preload too small)" in small.plot(Figure().subplots()).get_title()
+
+
+def test_a_body_that_a_force_pulls_off_leaves_the_line():
+    curve = rc.detachment_curve(rc.press(BALL, 1e9, force=1e-6), 0.1, forces=[0.0, -1e-3])
+    assert np.isneginf(curve.depth[-1])
+    assert all(np.isfinite(line.get_xydata()).all() for line in curve.plot(Figure().subplots()).lines[:2])
+
+
+def test_the_map_of_stuck_cells_is_theirs():
+    surface = rc.Surface(rough(24, periodic=False, slope=0.2, seed=0).heights[:16], rc.Grid((16, 24), 1.0))
+    (state,) = rc.detachment_path(rc.press(surface, 1.0, depth=0.5), 0.01, depths=[0.0])
+    axes = state.plot(Figure().subplots())
+    image = np.asarray(axes.images[0].get_array())
+    np.testing.assert_allclose(image, state.pressure * 1e3)  # in mPa
+    (edges,) = [each for each in axes.collections if isinstance(each, LineCollection)]
+    ringed = np.pad(state.contact, 1)
+    count = sum(int((np.diff(ringed.astype(int), axis=axis) != 0).sum()) for axis in (0, 1))
+    assert len(edges.get_segments()) == count > 0
+    title = rc.plot.state_figure(state).axes[0].get_title()
+    assert "stability" not in title
+    assert written(state.force, "N") in title

@@ -135,10 +135,7 @@ class AdhesiveCurve:
 
     @property
     def lost(self) -> float:
-        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed.
-
-        With the sharp law cells let go without a jump, and what they lose stands in the detachments of the states.
-        """
+        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed."""
         return math.fsum(jump.lost for jump in self.jumps)
 
     @property

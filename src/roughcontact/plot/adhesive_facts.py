@@ -24,7 +24,7 @@ _JUMPS = 12  # that are told one by one: those that lost most
 
 
 def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
-    """Return the law of adhesion, and over how many cells the attraction varies beside a contact, if it has a range."""
+    """Return the law of adhesion, and over how many cells the attraction varies beside a contact."""
     zone = adhesion.process_zone(modulus)
     work = (
         "the work of each cell"
@@ -32,8 +32,6 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
         else quantity("work_of_adhesion", float(adhesion.work))
     )
     stiff = ("reduced modulus E*", quantity("modulus", modulus))
-    if adhesion.law == "sharp":  # no range, and so no largest attraction and no length of Irwin's
-        return [stiff, ("adhesion", f"sharp, {work}")]
     length = quantity("adhesion_range", adhesion.range)
     strength = quantity("pressure", adhesion.strength)
     return [
