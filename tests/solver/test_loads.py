@@ -23,14 +23,14 @@ def test_loads_are_given_or_not():
 
 
 def test_a_pressure_is_a_force_over_an_area():
-    loads = Loads("pressure", [2.0, 3.0])
-    assert loads.controls(4.0) == [rc.Force(8.0), rc.Force(12.0)]
-    assert (loads.as_forces(4.0).kind, loads.as_forces(4.0).values.tolist()) == ("force", [8.0, 12.0])
+    loads, grid = Loads("pressure", [2.0, 3.0]), rc.Grid((2, 2), 1.0)
+    assert loads.controls(grid) == [rc.Force(8.0), rc.Force(12.0)]
+    assert (loads.as_forces(grid).kind, loads.as_forces(grid).values.tolist()) == ("force", [8.0, 12.0])
     depths = Loads("depth", [2.0])
-    assert depths.as_forces(4.0) is depths
-    assert depths.controls(4.0) == [rc.Depth(2.0)]
+    assert depths.as_forces(grid) is depths
+    assert depths.controls(grid) == [rc.Depth(2.0)]
     with pytest.raises(ValueError, match="pressure must be positive and finite"):
-        Loads("pressure", [0.0]).controls(4.0)
+        Loads("pressure", [0.0]).controls(grid)
 
 
 def test_bodies_approach_as_their_mean_gap_falls():

@@ -221,7 +221,7 @@ def states_under(
             "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
             "for bodies of revolution see mdr.adhesion"
         )
-    goals = loads.as_forces(float(surface.grid.area))
+    goals = loads.as_forces(surface.grid)
     return states_along(
         body,
         separation_of(surface),

@@ -88,7 +88,7 @@ def load_outlook(
     >>> load_outlook(ball, 1e9, forces=[1e-6, 1e-5, 1e-2])
     LoadOutlook(count=3, below=2, above=0)
     """
-    controls = Loads.of(forces=forces, pressures=pressures).controls(grid_of(surface).area)
+    controls = Loads.of(forces=forces, pressures=pressures).controls(grid_of(surface))
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=1e-8)
     pilot = pilot_of(problem)
     rough = problem if pilot is None else pilot

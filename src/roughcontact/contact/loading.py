@@ -172,7 +172,7 @@ def solutions_along(
     loads = loads or suitable(surface, modulus, operator, hardness)
     if not keeps:
         loads.rising("only under a hardness and in adhesive_path do loads go up and down")
-    controls = loads.controls(grid_of(surface).area)
+    controls = loads.controls(grid_of(surface))
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
     if operator is None:
         largest = max(controls, key=lambda control: control.value)

@@ -79,5 +79,5 @@ def memory_needed(
             )
         if not is_numpy(surface.heights):
             raise ValueError("how much touches is asked of heights of NumPy alone: leave out the load")
-        touch = touch_of(surface, as_modulus(modulus), control_of(*exactly_one(**loads), grid.area))
+        touch = touch_of(surface, as_modulus(modulus), control_of(*exactly_one(**loads), grid))
     return MemoryModel.of(grid).peak(touch, curve=curve)

@@ -89,7 +89,7 @@ def press(
     >>> solution.status.value
     'converged'
     """
-    control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface).area)
+    control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
     if operator is None:
         require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(

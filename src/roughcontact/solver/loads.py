@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from roughcontact.grid import AnyGrid
 from roughcontact.solver.control import Control, Depth, Force
 from roughcontact.validation import Array, exactly_one, number, require, scalar
 
@@ -34,9 +35,10 @@ class Loads:
 
     Examples
     --------
+    >>> import roughcontact as rc
     >>> from roughcontact.solver.loads import Loads
     >>> loads = Loads.of(forces=None, depths=[1e-9, 2e-9])
-    >>> loads.kind, loads.controls(area=1.0)
+    >>> loads.kind, loads.controls(rc.Grid((4, 4), 1e-6))
     ('depth', [Depth(value=1e-09), Depth(value=2e-09)])
     """
 
@@ -87,19 +89,19 @@ class Loads:
             )
         return self
 
-    def controls(self, area: float) -> list[Control]:
-        """Return the force or the depth of each load on a nominal area [m^2].
+    def controls(self, grid: AnyGrid) -> list[Control]:
+        """Return the force or the depth of each load on the cells of a grid.
 
         Raises
         ------
         ValueError
             If a load is not one that a contact without adhesion can carry.
         """
-        return [control_of(self.kind, value, area) for value in self.values.tolist()]
+        return [control_of(self.kind, value, grid) for value in self.values.tolist()]
 
-    def as_forces(self, area: float) -> Loads:
-        """Return nominal pressures as forces on a nominal area [m^2]; other loads as they are."""
-        return Loads("force", self.values * area) if self.kind == "pressure" else self
+    def as_forces(self, grid: AnyGrid) -> Loads:
+        """Return nominal pressures as forces on all cells of a grid; other loads as they are."""
+        return Loads("force", self.values * grid.area) if self.kind == "pressure" else self
 
     @property
     def approach(self) -> Array:
@@ -107,8 +109,8 @@ class Loads:
         return -self.values if self.kind == "mean gap" else self.values
 
 
-def control_of(kind: str, value: float, area: float) -> Control:
-    """Return the control that a force [N], a depth [m] or a nominal pressure [Pa] over an area [m^2] states.
+def control_of(kind: str, value: float, grid: AnyGrid) -> Control:
+    """Return the control that a force [N], a depth [m] or a nominal pressure [Pa] over all cells of a grid states.
 
     Raises
     ------
@@ -122,4 +124,4 @@ def control_of(kind: str, value: float, area: float) -> Control:
         return Depth(value)
     if not 0 < value < math.inf:
         raise ValueError(f"the pressure must be positive and finite [Pa], not {value}")
-    return Force(value * area)
+    return Force(value * grid.area)
