@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
+from roughcontact.adhesion.adhesive_state import AdhesiveProblem, AdhesiveState, state_of
 from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
@@ -116,10 +116,12 @@ def states_along(
     resolved = is_resolved(adhesion, operator, modulus)
     if forces is not None:
         control = ForceControl.of(by_depth)
-        blank = Blank(operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved)
+        problem = AdhesiveProblem(
+            operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved
+        )
         cell = float(np.min(operator.weights))
         bracket = BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
-        return _walk(blank, _checked_forces(forces), bracket)
+        return _walk(problem, _checked_forces(forces), bracket)
     if mean_gaps is not None:
         depths = _depths_of(mean_gaps, form, separation)
     goals = [float(d) for d in (() if depths is None else depths)]
@@ -128,8 +130,10 @@ def states_along(
             f"a depth of {max(goals):.6g} m is not below the mean separation {full:.6g} m: there a periodic surface is "
             "in full contact; give a smaller depth"
         )
-    blank = Blank(operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved)
-    return _walk(blank, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
+    problem = AdhesiveProblem(
+        operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved
+    )
+    return _walk(problem, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
 
 
 def _depths_of(mean_gaps: Array, form: ElasticForm, separation: Array) -> Array:
@@ -177,20 +181,20 @@ def _sharpened(walk: QuasiStatic, station: Station) -> Station:
     return replace(station, point=better.point, residual=better.residual)
 
 
-def _walk(blank: Blank, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
-    walk = QuasiStatic(blank.control, bracket)
+def _walk(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
+    walk = QuasiStatic(problem.control, bracket)
     station: Station | None = None
     for goal in goals:
         before = walk.counter.products
         with one_blas_thread():
             if station is None or (
-                released(blank.control.energy_at(station.value), station.point) and goal >= 0
+                released(problem.control.energy_at(station.value), station.point) and goal >= 0
             ):
                 # From afar. Where nothing pulls any more, the bodies draw near again.
-                station = walk.start(goal, _apart(blank.control, goal, walk.counter))
+                station = walk.start(goal, _apart(problem.control, goal, walk.counter))
             else:
                 station = walk.go(station, goal)
-            if isinstance(blank.control, ForceControl):
+            if isinstance(problem.control, ForceControl):
                 station = _sharpened(walk, station)
-            state = state_of(blank, station, walk.counter.products - before)
+            state = state_of(problem, station, walk.counter.products - before)
         yield state
