@@ -13,7 +13,7 @@ from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.load_options import FallingLoads, OneLoad
 from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.path_progress import collected
+from roughcontact.cli.path_answer import collected
 from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import (
