@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.solution import Solution
+    from roughcontact.solver.control import Status
 
 __all__ = ["ConvergenceError"]
 
 
+class Certified(Protocol):
+    """An answer with a certificate, to a problem with a tolerance."""
+
+    @property
+    def status(self) -> Status: ...
+
+    @property
+    def residual(self) -> float: ...
+
+    @property
+    def problem(self) -> Any: ...
+
+
 class ConvergenceError(RuntimeError):
-    """A solve that missed its tolerance; `solution` is the best that was reached, with adhesion an `AdhesiveState`.
+    """A solve that missed its tolerance; `solution` is the best answer that was reached.
 
     Examples
     --------
@@ -25,16 +37,10 @@ class ConvergenceError(RuntimeError):
     The solver ran out of steps above the tolerance; allow it more steps.
     """
 
-    def __init__(self, solution: Solution | AdhesiveState) -> None:
+    def __init__(self, solution: Certified) -> None:
         super().__init__(solution)  # in `args`, so that the error can be pickled
-        self.solution: Any = solution  # which of the two, whoever pressed knows
+        self.solution: Any = solution  # the caller has asked for its type
 
     def __str__(self) -> str:
-        from roughcontact.adhesion.adhesive_state import AdhesiveState
-
-        solution = self.solution
-        if isinstance(solution, AdhesiveState):
-            tolerance, words = solution.blank.tolerance, "the path"
-        else:
-            tolerance, words = solution.problem.tolerance, f"{solution.steps} steps"
-        return f"residual {solution.residual:.1e} after {words}, tolerance {tolerance:.1e}: {solution.status.message}"
+        solution, tolerance = self.solution, self.solution.problem.tolerance
+        return f"residual {solution.residual:.1e}, tolerance {tolerance:.1e}: {solution.status.message}"

@@ -11,20 +11,20 @@ import numpy as np
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.quasi_static import Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
     from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["ADHESIVE_COLUMNS", "adhesive_facts", "adhesive_loop_facts", "jump_facts", "law_facts"]
+__all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
 
 ADHESIVE_COLUMNS = (*("branch", "depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual"),)
 _JUMPS = 12  # that are told one by one: those that lost most
 
 
 def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
-    """Return the law of adhesion, and over how many cells the attraction varies beside a contact, if it has a range."""
+    """Return the law of adhesion, and over how many cells the attraction varies beside a contact."""
     zone = adhesion.process_zone(modulus)
     work = (
         "the work of each cell"
@@ -32,8 +32,6 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
         else quantity("work_of_adhesion", float(adhesion.work))
     )
     stiff = ("reduced modulus E*", quantity("modulus", modulus))
-    if adhesion.law == "sharp":  # no range, and so no largest attraction and no length of Irwin's
-        return [stiff, ("adhesion", f"sharp, {work}")]
     length = quantity("adhesion_range", adhesion.range)
     strength = quantity("pressure", adhesion.strength)
     return [
@@ -45,14 +43,14 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
 
 def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     """Return what a state of surfaces that stick is worth telling, line by line."""
-    blank, kind = state.blank, state.geometry
-    grid = blank.operator.grid
+    problem, kind = state.problem, state.geometry
+    grid = problem.operator.grid
     met = "met" if state.status.converged else "MISSED"
     tension = float(np.maximum(-state.pressure, 0.0).max())
     energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
     return [
         ("surface", size_of(grid)),
-        *law_facts(blank.adhesion, blank.modulus, grid.spacing),
+        *law_facts(problem.adhesion, problem.modulus, grid.spacing),
         ("force", quantity("force", state.force, kind)),
         ("nominal pressure", quantity("pressure", state.force / grid.area, kind)),
         ("largest pressure", quantity("pressure", float(state.pressure.max()), kind)),
@@ -69,11 +67,11 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
             f"at most {state.stability:.3g}, residual {state.stability_residual:.0e} "
             "(1 without attraction, 0 at a jump)",
         ),
-        ("certificate", f"{state.residual:.1e} (tolerance {blank.tolerance:.0e}: {met})"),
+        ("certificate", f"{state.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
 
 
-def adhesive_loop_facts(loop: AdhesiveLoop) -> list[tuple[str, str]]:
+def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
     """Return what a path of surfaces that stick is worth telling, line by line."""
     kind = loop.geometry
     facts = []
