@@ -10,13 +10,21 @@ from roughcontact.kernels import loader
 
 CODE = 47_850  # lines of code under src, without docstrings and comments
 PARAMETERS = {"roughcontact.self_affine": 13}
-OPTIONS = {"curve": 43, "press": 31, "surface prepare": 22}
+OPTIONS = {
+    "curve": 37,
+    "press": 27,
+    "adhesion press": 26,
+    "adhesion curve": 26,
+    "adhesion loop": 24,
+    "adhesion detach": 23,
+    "surface prepare": 22,
+}
 FILES = {
     "files": 59,
     "thesis": 53,
     "theory": 47,
     "contact": 38,
-    "cli": 42,
+    "cli": 45,
     "surface": 30,
     "page": 28,
     "mdr": 27,

@@ -155,7 +155,7 @@ def _checked_forces(forces: Array) -> list[float]:
     if forces[0] < 0:
         raise ValueError(
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
-            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
+            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)"
         )
     return [float(force) for force in forces]
 
