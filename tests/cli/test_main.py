@@ -35,6 +35,7 @@ def test_version():
         (("curve",), ["--forces", "--pressures", "--depths", "--tolerance", "--json", "--channel", "--size"]),
         (("adhesion", "press"), ["--work", "--range", "--law", "--mean-gap", "--allow-unresolved"]),
         (("adhesion", "curve"), ["--depths", "--forces", "--pressures", "--mean-gaps", "--young", "--level"]),
+        (("adhesion", "detach"), ["--force", "--depths", "--forces", "--work", "--tolerance"]),
         (("adhesion", "loop"), ["--depth", "--points", "--format", "--profile"]),
         (("surface", "info"), ["--json", "--unit"]),
         (
@@ -192,7 +193,7 @@ def test_help_of_a_group_holds_the_first_words_of_its_commands(group, invoke):
     told = invoke(*group, "--help").stdout
     lines = [line.strip("│|* ") for line in told.partition("Commands")[2].splitlines()[1:]]
     names = [line.split()[0] for line in lines if line and line[0].isalpha() and "  " in line]
-    assert len(names) >= 3
+    assert len(names) >= 4
     for name in set(names) - {"adhesion", "surface", "study"}:
         summary = next(line for line in lines if line.startswith(f"{name} ")).removeprefix(name).strip()
         assert summary[:40] in invoke(*group, name, "--help").stdout

@@ -9,6 +9,7 @@ FORCE = "press rough.npz --force 1mN"
 BARE = "press bare.npy --force 1mN --modulus 1GPa"
 PROFILE = "press profile.txt --unit m --modulus 1GPa --force 1N/m"
 FAR = "adhesion press rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm"
+DETACH = "adhesion detach rough.npz --modulus 1GPa --work 1mJ/m^2"
 NEAR = "adhesion press rough.npz --modulus 1GPa --work 50mJ/m^2"
 FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
@@ -250,6 +251,28 @@ $ {FAR} --force 1uN --hardness 1GPa
 > {PRESS} --force 1uN --hardness 1GPa
 """
 
+STUCK = f"""
+$ {DETACH} --depth 0nm
+! nothing is in contact in this solution: press to a force or a depth above zero
+> {DETACH} --depth 10nm
+> {DETACH} --force 1uN
+
+$ {DETACH} --depth 10nm --depths 20nm
+! press to that depth, or begin with 1e-08 or less
+> {DETACH} --depth 20nm --depths 20nm
+> {DETACH} --depth 10nm --depths 1e-08
+
+$ {DETACH} --depth 10nm --depths=-5nm,5nm
+! leave it out, or use 'roughcontact adhesion curve', with which surfaces come together again
+> {DETACH} --depth 10nm --depths=-5nm
+> adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --depths=-5nm,5nm
+
+$ {DETACH} --depth 10nm --depths 5nm --forces 0N
+! --depths and --forces exclude each other: give one of them
+> {DETACH} --depth 10nm --depths 5nm
+> {DETACH} --depth 10nm --forces 0N
+"""
+
 FLOW = f"""
 $ {PRESS} --force 1mN --after 2mN
 ! --after is about what flows: give a --hardness, or both bodies by --materials
@@ -307,6 +330,6 @@ $ {PRESS} --force 1mN --short-cutoff 10um
 """
 
 
-@pytest.mark.parametrize("refusal", commands(LOADS, BODIES, READING, ADHESION, FLOW, WRITING))
+@pytest.mark.parametrize("refusal", commands(LOADS, BODIES, READING, ADHESION, STUCK, FLOW, WRITING))
 def test_press(command, refusal):
     follow_command(command, refusal)

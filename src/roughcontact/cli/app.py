@@ -16,6 +16,7 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         averages_command as averages_command,
         conductance_command as conductance_command,
         curve_command as curve_command,
+        detachment_command as detachment_command,
         prepare_command as prepare_command,
         press_command as press_command,
         serve_command as serve_command,
@@ -33,6 +34,7 @@ _ADHESION = {
     "press": "adhesive_press_command",
     "curve": "adhesive_curve_command",
     "loop": "adhesive_curve_command",
+    "detach": "detachment_command",
 }
 _SURFACE = {
     "info": "surface_command",
@@ -66,7 +68,7 @@ app = typer.Typer(
 app.add_typer(
     typer.Typer(
         cls=late_group(_ADHESION),
-        help="Press surfaces that attract each other, elastic and without friction: states, paths up and down, loops.",
+        help="Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
         no_args_is_help=True,
     ),
     name="adhesion",
