@@ -103,7 +103,7 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
 
     def missed(*given, **named):
         solution = whole(*given, **named)
-        raise rc.ConvergenceError(replace(solution, status=Status.STAGNATED), 1e-8)
+        raise rc.ConvergenceError(replace(solution, status=Status.STAGNATED))
 
     monkeypatch.setattr(rc, "press", missed)
     answer = invoke("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--json")
