@@ -85,12 +85,12 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
     assert not last_jump().ambiguous
     flow = quasi_static.flow
 
-    def one_stays(energy, start, convex, counter, *, even=False):
-        landing = flow(energy, start, convex, counter)
+    def one_stays(energy, start, convex, counter, *, uniform=False):
+        result = flow(energy, start, convex, counter)
         return (
-            replace(landing, equilibrium=replace(landing.equilibrium, point=energy.at(start)))
-            if even
-            else landing
+            replace(result, equilibrium=replace(result.equilibrium, point=energy.at(start)))
+            if uniform
+            else result
         )
 
     monkeypatch.setattr(quasi_static, "flow", one_stays)

@@ -12,9 +12,9 @@ from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
-from roughcontact.adhesion.gradient_flow import released
-from roughcontact.adhesion.quasi_static import Jump, Station
-from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
+from roughcontact.adhesion.gradient_flow import detached
+from roughcontact.adhesion.quasi_static import Jump, PathPoint
+from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
@@ -268,12 +268,12 @@ class AdhesiveState:
 
     @cached_property
     def _ritz(self) -> tuple[float, float]:
-        free = self._loose(self.contact & ~self.weakly_active)
+        free = self._free_cells(self.contact & ~self.weakly_active)
         form = self.problem.control.form
         curvature = self._energy.attraction.curvature(self._point.gap)
         found = [smallest_ratio(form, free, curvature, Counter(), seed=seed) for seed in (0, 1)]
         least = min(found, key=lambda ritz: ritz.value)
-        return least.value, least.bound if form is self.problem.form else sharp_bound(form, free, least)
+        return least.value, least.bound if form is self.problem.form else solved_bound(form, free, least)
 
     @cached_property
     def _energy(self) -> GapEnergy:
@@ -287,14 +287,14 @@ class AdhesiveState:
         pressure = self.problem.form.extended(self.pressure, 0.0)
         return Point(gap, pressure, gap, pressure, 0.0)
 
-    def _loose(self, held: Mask) -> Mask:
+    def _free_cells(self, at_wall: Mask) -> Mask:
         """Return the cells of the computation that may move."""
         free = np.ones(self.problem.form.shape, bool)
-        free[self.problem.form.inside] = ~held
+        free[self.problem.form.inside] = ~at_wall
         return free
 
     def _slope(self, curvature: Array) -> float:
-        free = self._loose(self.contact)
+        free = self._free_cells(self.contact)
         return force_slope(self.problem.form, free, np.where(free, curvature, 0.0), Counter())
 
     @property
@@ -302,17 +302,17 @@ class AdhesiveState:
         return self.problem.operator.weights
 
 
-def state_of(problem: AdhesiveProblem, station: Station, products: int) -> AdhesiveState:
-    """Return the state of a station, certified on an exact product."""
-    control, point, value = problem.control, station.point, station.value
+def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> AdhesiveState:
+    """Return the state at a point of a path, certified on an exact product."""
+    control, point, value = problem.control, reached.point, reached.value
     energy = control.energy_at(value)
     inside = energy.form.inside
     law = energy.attraction.on(inside)
-    if released(energy, point):
+    if detached(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
-        lowest = min(0.0, station.lowest_force)
+        lowest = min(0.0, reached.lowest_force)
         return AdhesiveState(
-            problem, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest
+            problem, law, -math.inf, nothing, nothing > 0, 0.0, reached.jumps, products, lowest
         )
     depth = control.depth(value, point)
     gap = point.gap[inside]
@@ -329,5 +329,5 @@ def state_of(problem: AdhesiveProblem, station: Station, products: int) -> Adhes
     force = float(weighted.sum())
     if isinstance(control, ForceControl):
         residual = max(residual, abs(force - value) / float(np.abs(weighted).sum()))
-    lowest = min(force, station.lowest_force)
-    return AdhesiveState(problem, law, depth, pressure, contact, residual, station.jumps, products, lowest)
+    lowest = min(force, reached.lowest_force)
+    return AdhesiveState(problem, law, depth, pressure, contact, residual, reached.jumps, products, lowest)

@@ -85,7 +85,7 @@ def _curve_variables(curve: DetachmentCurve) -> dict[str, Any]:
     scales = {name: getattr(curve, name) for name in (*DETACHMENT_SCALES, "pull_off_force", "lost")}
     data = {name: adhesive_variable(name, ("load",), values, kind) for name, values in points.items()}
     data["status"] = variable("status", ("load",), [each.value for each in curve.status])
-    data["detached"] = variable("detached", ("detachment",), np.array(curve.detached, np.int64))
+    data["detached_at"] = variable("detached_at", ("detachment",), np.array(curve.detached_at, np.int64))
     return data | _numbers(scales, curve.work, curve.detachments, kind)
 
 

@@ -13,9 +13,9 @@ from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
 from roughcontact.adhesion.exponential_law import ExponentialLaw
-from roughcontact.adhesion.gradient_flow import released
+from roughcontact.adhesion.gradient_flow import detached
 from roughcontact.adhesion.law_on_cells import law_on
-from roughcontact.adhesion.quasi_static import QuasiStatic, Station
+from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.solver.loads import Loads
@@ -30,7 +30,7 @@ __all__ = ["is_resolved", "states_along"]
 # is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
 BRACKET = 1e-8
 HARD = 1e-3  # residual of the contact without attraction, from which the attraction draws
-SHARP, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
+POLISHED, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
 CELLS = 1.5  # that Irwin's length must span
 
 
@@ -121,7 +121,7 @@ def states_along(
     problem = AdhesiveProblem(
         operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved
     )
-    return _walk(problem, goals, BRACKET * scale)
+    return _states(problem, goals, BRACKET * scale)
 
 
 def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[float]:
@@ -157,41 +157,41 @@ def _checked_forces(forces: Array) -> list[float]:
     return [float(force) for force in forces]
 
 
-def _apart(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
+def _initial_displacement(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
     """Return the displacement at which bodies from afar would rest if there were no attraction."""
     form, law = control.form, control.attraction
     hard = replace(control, attraction=ExponentialLaw(0.0, law.range)).energy_at(value)
     if isinstance(control, ForceControl) and value <= 0:
-        return form.extended(np.full(control.separation.shape, law.near), 0.0)
+        return form.extended(np.full(control.separation.shape, law.start_gap), 0.0)
     if isinstance(control, DepthControl) and not hard.obstacle.max() > 0:
         return np.zeros(form.shape)
     return minimise(hard, np.zeros(form.shape), counter, tolerance=HARD).point.displacement
 
 
-def _sharpened(walk: QuasiStatic, station: Station) -> Station:
+def _polished(path: QuasiStatic, reached: PathPoint) -> PathPoint:
     """Return a state with as little residual as rounding allows: over all cells its sum is an error of the force."""
-    energy = walk.control.energy_at(station.value)
-    if not station.converged or released(energy, station.point):
-        return station
-    start = station.point.displacement
-    better = minimise(energy, start, walk.counter, tolerance=SHARP, iterations=STEPS, convex_only=True)
-    return replace(station, point=better.point, residual=better.residual)
+    energy = path.control.energy_at(reached.value)
+    if not reached.converged or detached(energy, reached.point):
+        return reached
+    start = reached.point.displacement
+    better = minimise(energy, start, path.counter, tolerance=POLISHED, iterations=STEPS, convex_only=True)
+    return replace(reached, point=better.point, residual=better.residual)
 
 
-def _walk(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
-    walk = QuasiStatic(problem.control, bracket)
-    station: Station | None = None
+def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
+    path = QuasiStatic(problem.control, bracket)
+    reached: PathPoint | None = None
     for goal in goals:
-        before = walk.counter.products
+        before = path.counter.products
         with one_blas_thread():
-            if station is None or (
-                released(problem.control.energy_at(station.value), station.point) and goal >= 0
+            if reached is None or (
+                detached(problem.control.energy_at(reached.value), reached.point) and goal >= 0
             ):
                 # From afar. Where nothing pulls any more, the bodies draw near again.
-                station = walk.start(goal, _apart(problem.control, goal, walk.counter))
+                reached = path.start(goal, _initial_displacement(problem.control, goal, path.counter))
             else:
-                station = walk.go(station, goal)
+                reached = path.continue_to(reached, goal)
             if isinstance(problem.control, ForceControl):
-                station = _sharpened(walk, station)
-            state = state_of(problem, station, walk.counter.products - before)
+                reached = _polished(path, reached)
+            state = state_of(problem, reached, path.counter.products - before)
         yield state

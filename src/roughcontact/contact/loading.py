@@ -41,6 +41,8 @@ def loading_path(
 ) -> Iterator[Solution]:
     """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
 
+    For surfaces that attract each other see `adhesive_path`.
+
     Parameters
     ----------
     surface : Surface or RadialProfile
@@ -102,6 +104,8 @@ def loading_curve(
     flow: FlowReading = "removed",
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
+
+    For surfaces that attract each other see `adhesive_curve`.
 
     Parameters
     ----------

@@ -47,6 +47,8 @@ def press(
 ) -> Solution:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
+    For surfaces that attract each other see `adhesive_state`.
+
     Parameters
     ----------
     surface : Surface or RadialProfile
