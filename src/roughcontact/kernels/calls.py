@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.distributed import local
-
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
     from roughcontact.kernels.team import Team
@@ -25,13 +23,12 @@ class Operand:
     Attributes
     ----------
     field : array
-        Of one in slabs the address is that of its rows on this process.
     """
 
     __slots__ = ("address", "dtype", "field")
 
-    def __init__(self, field: Any) -> None:
-        self.field, self.dtype, self.address = field, field.dtype, _begin(local(field))
+    def __init__(self, field: npt.NDArray[Any]) -> None:
+        self.field, self.dtype, self.address = field, field.dtype, _begin(field)
 
     def __reduce__(self) -> tuple[type[Operand], tuple[Any]]:
         """Return what makes a copy, which lies elsewhere."""
