@@ -103,7 +103,7 @@ class Optimality:
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     passes : Passes, optional
-        Over the fields, in machine code.
+        Over the fields, in machine code: it knows no hardness, and cells of one size alone.
     """
 
     terms: Terms
@@ -115,7 +115,8 @@ class Optimality:
     def of(cls, operator: Operator, terms: Terms, separation: Array) -> Optimality:
         """Return the conditions for an operator and what is asked, on fields like the separation of the bodies."""
         measure = Measure(operator.weights, namespace(separation))
-        return cls(terms, measure, self_influence(operator), passes_over(separation))
+        passes = None if terms.plastic or measure.varies else passes_over(separation)
+        return cls(terms, measure, self_influence(operator), passes)
 
     def feasible_start(self, separation: Array, initial: Array) -> Array:
         """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
@@ -124,7 +125,7 @@ class Optimality:
         them alone by the depth.
         """
         measure, passes, control = self.measure, self.passes, self.terms.control
-        if passes is not None and not measure.varies and passes.fit(initial, separation):
+        if passes is not None and passes.fit(initial, separation):
             total = float(measure.weights) * passes.positive_total(initial, separation)
             if total > 0:
                 scale = control.value / total if isinstance(control, Force) else 1.0
@@ -141,8 +142,8 @@ class Optimality:
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
-        terms, measure, passes = self.terms, self.measure, self._passes_for(iterate)
-        if passes is not None and not measure.varies:
+        terms, measure, passes = self.terms, self.measure, self.passes
+        if passes is not None and passes.fit(*iterate):
             return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
@@ -193,8 +194,8 @@ class Optimality:
         on them. Cells at the hardness are free where their gap is more than is allowed.
         """
         (pressure, displacement, separation), terms = iterate, self.terms
-        own, passes = self.self_influence if projected else math.inf, self._passes_for(iterate)
-        if passes is not None:
+        own, passes = self.self_influence if projected else math.inf, self.passes
+        if passes is not None and passes.fit(*iterate):
             free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, own=own)
             return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
         xp, carrying = self.measure.xp, pressure > 0
@@ -207,11 +208,6 @@ class Optimality:
             tensile = free & (pressure * own < gap)
             free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
         return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)
-
-    def _passes_for(self, iterate: Iterate) -> Passes | None:
-        """Return the passes where they take the fields as they lie in memory; they know no hardness."""
-        passes = None if self.terms.plastic else self.passes
-        return passes if passes is not None and passes.fit(*iterate) else None
 
     def _evaluate_in_one_pass(self, iterate: Iterate, passes: Passes) -> Evaluation:
         seen, depth = passes.extremes(*iterate), self.terms.depth
