@@ -102,11 +102,11 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
 def test_stability_under_a_force_is_the_smallest_eigenvalue_with_the_depth_free(kind):
     surface, adhesion = rough(16, periodic=kind == "periodic", slope=0.3, seed=2), sticky(3.0)
     state = rc.adhesive_state(surface, 1.0, adhesion, force=1.0)
-    free = np.ones(state.blank.form.shape, bool)
-    free[state.blank.form.inside] = ~state.contact
+    free = np.ones(state.problem.form.shape, bool)
+    free[state.problem.form.inside] = ~state.contact
     curvature = np.zeros(free.shape)
-    curvature[state.blank.form.inside] = state.attraction.curvature(np.maximum(state.gap, 0.0))
-    values = eigenvalues_by_matrices(state.blank.control.form, free, curvature)
+    curvature[state.problem.form.inside] = state.attraction.curvature(np.maximum(state.gap, 0.0))
+    values = eigenvalues_by_matrices(state.problem.control.form, free, curvature)
     wanted = values[0]
     assert wanted - 1e-9 <= state.stability <= wanted + 1e-3
     assert np.abs(values - state.stability).min() <= state.stability_residual <= 1e-3

@@ -60,6 +60,13 @@ def test_it_goes_by_forces(invoke, rough):
     np.testing.assert_allclose(record["force"], [5e-6, 0], atol=1e-12)
 
 
+def test_it_goes_by_pressures(invoke, rough):
+    words = ("adhesion", "detach", rough, "--pressure", "60kPa", *GIVEN, "--pressures", "30kPa,0Pa", "--json")
+    record = json.loads(invoke(*words).stdout)
+    assert record["control"] == "force"
+    np.testing.assert_allclose(record["force"], [3e4 * rc.read(rough).grid.area, 0], atol=1e-12)
+
+
 def test_a_small_preload_is_told(invoke, rough):
     words = ("adhesion", "detach", rough, *GIVEN)
     assert "The preload was too small" in invoke(*words, "--depth", "10nm").stdout
@@ -77,7 +84,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    assert "stopped: 1 of 4 loads are kept" in answer.stderr
+    assert "stopped: 1 of 4 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
     assert len(rc.read_detachment_curve(tmp_path / "out" / "detachment.nc")) == 1
 
 
@@ -96,7 +103,7 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
 
     def missed(*given, **named):
         solution = whole(*given, **named)
-        raise rc.ConvergenceError(replace(solution, status=Status.STAGNATED), 1e-8)
+        raise rc.ConvergenceError(replace(solution, status=Status.STAGNATED))
 
     monkeypatch.setattr(rc, "press", missed)
     answer = invoke("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--json")

@@ -101,7 +101,7 @@ def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveSt
     """Yield the states of a loop along `loop_depths` but the first, until its body is off on the retreat."""
     for k, state in enumerate(islice(path, 1, None)):
         yield state
-        reach = state.blank.adhesion.range
+        reach = state.problem.adhesion.range
         off = not state.contact.any() and float(state.gap.min()) > NEAR * reach
         if k > points and (off or state.depth < -50 * REACH * reach):
             break

@@ -2,36 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import typer
+from typing import TYPE_CHECKING
 
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import AdhesionLaw, note_unresolved
-from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.load_options import AdhesiveLoads, unit_of_loads
-from roughcontact.cli.messages import note, plain, reported
+from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
-from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.path_progress import collected
-from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import (
-    ADHESIVE_COLUMNS,
-    adhesive_curve_facts,
-    doing,
-    emit,
-    law_facts,
-    load_table,
-    note_files,
-    print_facts,
-    print_table,
-    size_of,
-)
+from roughcontact.cli.output import output
+from roughcontact.cli.path_answer import PathAnswer, collected
+from roughcontact.cli.report import ADHESIVE_COLUMNS, adhesive_curve_facts, law_facts
 from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
-    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.solver.loads import Loads
 
@@ -122,77 +105,30 @@ def _answer(
     from roughcontact.adhesion.adhesive_curve import collect_states
     from roughcontact.adhesion.adhesive_loading import states_under
     from roughcontact.adhesion.adhesive_loop import until_off
+    from roughcontact.plot.jumps import jump_figure
     from roughcontact.solver.loads import Loads
 
-    modulus, tolerance = elasticity.reduced_modulus(), asked.residual
     with output(asked.out) as folder:
-        surface = reading.surface()
-        pressed = Pressed.of(surface, modulus, None)
-        states = states_under(surface, modulus, adhesion, loads, reading.body(surface, modulus), tolerance)
+        surface, modulus = reading.surface(), elasticity.reduced_modulus()
+        states = states_under(
+            surface, modulus, adhesion, loads, reading.body(surface, modulus), asked.residual
+        )
         if points is not None:
             states, loads = until_off(states, points), Loads("depth", loads.values[1:])
+        total = loads.values.size if points is None else None
         found, whole = collected(
-            states,
-            lambda states: collect_states(states, loads),
-            "Approach and retreat",
-            len(loads.values) if points is None else None,
+            states, lambda states: collect_states(states, loads), "Approach and retreat", total
         )
-        record = {
-            "command": f"adhesion {command}",
-            "file": plain(str(reading.source.file)),
-            "surface": list(surface.provenance),
-            "kind": pressed.kind.value,
-            **found.to_record(),
-            "converged": found.converged,
-            "whole": whole,
-        }
+        file = reading.source.file
+        path = PathAnswer(command, file, surface, found, whole, "curve", "jump", found.converged)
         if folder is not None:
-            with doing("Writing files"):
-                _write(found, record, surface, folder, control, asked.ending)
-    if asked.json:
-        emit(record)
-    else:
-        size = ("surface", size_of(surface.grid))
-        print_facts([size, *pressed.facts(), *law_facts(adhesion, modulus, surface.grid.spacing)])
-        print_table(*load_table(found.to_dataset(), ADHESIVE_COLUMNS))
-        print_facts(adhesive_curve_facts(found))
-    if missed := sum(not status.converged for status in found.status):
-        note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
+            path.write(folder, control, jump_figure, asked.ending)
+    law = law_facts(adhesion, modulus, surface.grid.spacing)
+    path.tell(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found), json=asked.json)
     note_unresolved(found.unresolved)
     if found.ambiguous:
         note(
             "a jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
             "given"
         )
-    if folder is not None:
-        note_files(folder, ("curve.csv", "jumps.csv", "curve.json", "curve.nc", f"curve.{asked.ending}"))
-    if not whole:
-        kept = f"{len(found)} of {len(loads.values)} loads are kept"
-        note(
-            f"stopped: {kept if points is None else 'the loop is not closed'}; a path of surfaces that stick "
-            "cannot be resumed, because its states depend on the history"
-        )
-        raise typer.Exit(INTERRUPTED)
-    if not found.converged:
-        raise typer.Exit(MISSED)
-
-
-def _write(
-    found: AdhesiveCurve, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
-) -> None:
-    """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.canvas import save
-    from roughcontact.plot.jumps import jump_figure
-
-    source = provenance(
-        surface, modulus=found.modulus, control=control, tolerance=found.tolerance, command=command_line()
-    )
-    dataset = found.to_dataset()
-    with all_or_none(folder) as aside:
-        write_netcdf(dataset, aside / "curve.nc", source)
-        write_csv(dataset, aside / "curve.csv", source)
-        write_csv(dataset, aside / "jumps.csv", source, dimension="jump")
-        save(jump_figure(found), aside / f"curve.{ending}")
-        write_json(record, aside / "curve.json", source)
+    path.end(folder, asked.ending, total)

@@ -2,31 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import typer
+from typing import TYPE_CHECKING, Any, Literal
 
 from roughcontact.cli import options
 from roughcontact.cli.adhesion_options import WORK, parse_work
-from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.load_options import FallingLoads, OneLoad
-from roughcontact.cli.messages import note, plain, reported
-from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.path_progress import collected
-from roughcontact.cli.pressed import Pressed, best_state
+from roughcontact.cli.messages import note, reported
+from roughcontact.cli.output import output
+from roughcontact.cli.path_answer import PathAnswer, collected
+from roughcontact.cli.pressed import best_state
 from roughcontact.cli.profile_options import kinds_of
-from roughcontact.cli.report import (
-    doing,
-    emit,
-    load_table,
-    note_files,
-    print_facts,
-    print_table,
-    size_of,
-)
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
 
 __all__ = ["EXAMPLES", "detach"]
@@ -59,86 +48,35 @@ def detach(
 
     file, body = reading.source.file, reading.profile
     with reported(file, answer.out, as_json=answer.json):
-        given, loads = load.value(body), retreat.values(body)
+        given, loads, energy = load.value(body), retreat.values(body), parse_work(work)
         falling: dict[str, Any] = {} if loads is None else {f"{loads.kind}s": loads.values}
-        modulus, energy = elasticity.reduced_modulus(), parse_work(work)
+        kind: Literal["depth", "force"] = "force" if falling.keys() & {"forces", "pressures"} else "depth"
+        total = 1 if loads is None else loads.values.size
         with output(answer.out) as folder:
-            surface = reading.surface()
-            pressed = Pressed.of(surface, modulus, None)
+            surface, modulus = reading.surface(), elasticity.reduced_modulus()
             limits = {"operator": reading.body(surface, modulus), "tolerance": answer.residual}
             preload = best_state(rc.press, surface, modulus, **given, **limits)
             states = rc.detachment_path(preload, energy, **falling)
-            count = 1 if loads is None else loads.values.size
             found, whole = collected(
-                states,
-                lambda states: collect_detachments(
-                    states, by_force=loads is not None and loads.kind == "force"
-                ),
-                "Drawing back",
-                count,
+                states, lambda states: collect_detachments(states, kind), "Drawing back", total
             )
             converged = preload.status.converged and found.converged
-            record = {
-                "command": "adhesion detach",
-                "file": plain(str(file)),
-                "surface": list(surface.provenance),
-                "kind": pressed.kind.value,
-                **found.to_record(),
-                "converged": converged,
-                "whole": whole,
-            }
+            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachment", converged)
             if folder is not None:
                 [(name, value)] = given.items()
                 control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
-                with doing("Writing files"):
-                    _write(found, record, surface, folder, control, answer.ending)
-        if answer.json:
-            emit(record)
-        else:
-            print_facts([("surface", size_of(surface.grid)), *pressed.facts()])
-            print_table(*load_table(found.to_dataset(), DETACHMENT_COLUMNS))
-            print_facts(detachment_facts(found))
+                path.write(folder, control, _drawn, answer.ending)
+        path.tell(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
         if not preload.status.converged:
             note("the preload missed the tolerance")
-        if missed := sum(not status.converged for status in found.status):
-            note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
-        note_files(
-            folder,
-            (
-                "detachment.csv",
-                "detachments.csv",
-                "detachment.json",
-                "detachment.nc",
-                f"detachment.{answer.ending}",
-            ),
-        )
-        if not whole:
-            note(f"stopped: {len(found)} of {count} loads are kept; run the command again for all of them")
-            raise typer.Exit(INTERRUPTED)
-        if not converged:
-            raise typer.Exit(MISSED)
+        path.end(folder, answer.ending, total)
 
 
-def _write(
-    found: DetachmentCurve, record: dict[str, Any], surface: Any, folder: Path, control: str, ending: str
-) -> None:
-    """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
+def _drawn(found: DetachmentCurve) -> Figure:
     from matplotlib.figure import Figure
 
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.canvas import save
     from roughcontact.plot.detachment_plot import detachment_force
 
-    source = provenance(
-        surface, modulus=found.modulus, control=control, tolerance=found.tolerance, command=command_line()
-    )
-    dataset = found.to_dataset()
     figure = Figure(figsize=(5.6, 4.2), layout="constrained")
     detachment_force(found, figure.subplots())
-    with all_or_none(folder) as aside:
-        write_netcdf(dataset, aside / "detachment.nc", source)
-        write_csv(dataset, aside / "detachment.csv", source)
-        write_csv(dataset, aside / "detachments.csv", source, dimension="detachment")
-        save(figure, aside / f"detachment.{ending}")
-        write_json(record, aside / "detachment.json", source)
+    return figure

@@ -78,11 +78,8 @@ def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
         *_of_the_bodies(state.work, problem.modulus),
         ("force", quantity("force", state.force, kind)),
         ("nominal pressure", quantity("pressure", state.force / problem.grid.area, kind)),
-        ("largest pressure", quantity("pressure", float(state.pressure.max()), kind)),
-        (
-            "largest tension",
-            quantity("pressure", float(np.maximum(-state.pressure, 0.0).max()), kind),
-        ),
+        ("largest pressure", quantity("pressure", state.largest_pressure, kind)),
+        ("largest tension", quantity("pressure", state.largest_tension, kind)),
         ("depth", quantity("depth", state.depth, kind)),
         ("stiffness", quantity("stiffness", state.stiffness, kind)),
         ("contact area", quantity("contact_area", state.contact_area, kind)),
