@@ -10,7 +10,6 @@ import roughcontact as rc
 from roughcontact.cli import run_memory
 from roughcontact.contact.memory_model import share_peak
 from roughcontact.contact.spots import find_spots
-from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
 from roughcontact.contact.touch import ERROR, require_memory_for_load
 from roughcontact.kernels import buffers
 from roughcontact.memory import SMALL
@@ -20,7 +19,7 @@ from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import complementarity
 from roughcontact.solver.complementarity import added_stiffness
 from roughcontact.solver.inner_product import Measure
-from roughcontact.surface import waves_in_slabs
+from roughcontact.surface import random_heights
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]
@@ -171,7 +170,7 @@ def test_whole_levels_leave_no_memory_to_those_in_slabs(monkeypatch):
     rc.press(rough((128, 128)), 1e9, pressure=1e6)
     assert buffers._total[0] > 0
     together(1, lambda one: rc.press(in_slabs(rough((256, 256)), one), 1e9, pressure=1e6))
-    assert buffers._total[0] == 0
+    assert (128, 128) not in {shape for shape, _ in buffers._kept}
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -188,7 +187,7 @@ def test_spots_are_those_of_one_process(size, shape, filled):
     def work(communicator):
         slabs = rc.Slabs(communicator)
         there = slabs.array(pressure[slabs.rows(shape[0])])
-        spots = find_spots_in_slabs(there > 0, there, cell)
+        spots = find_spots(there > 0, there, grid, Measure(cell))
         return spots.count, spots.labels.gathered(), spots.areas, spots.loads
 
     for count, labels, areas, loads in together(size, work):
@@ -325,7 +324,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
     Those of one process without slabs have another common factor: its sum rounds otherwise.
     """
     monkeypatch.setattr(exchange, "FEWEST", 2 * shape[0])  # two columns at once
-    monkeypatch.setattr(waves_in_slabs, "BLOCK", 30)
+    monkeypatch.setattr(random_heights, "POWERS", 30)
     grid = rc.Grid(shape, (1e-6, 1.2e-6), periodic=True)
     if way == "of a band" and shape == (3, 40):
         return  # no such grid has this band
@@ -342,7 +341,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
 
         return real(kept, shape, functions)
 
-    monkeypatch.setattr(waves_in_slabs, "plane_of_waves", watched)
+    monkeypatch.setattr(random_heights, "plane_of_waves", watched)
 
     def work(communicator):
         slabs = rc.Slabs(communicator)

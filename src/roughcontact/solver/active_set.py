@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
@@ -30,7 +29,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.projection import elastic_control, feasible_start, project
+from roughcontact.solver.projection import elastic_control, project
 from roughcontact.solver.subdomain import prolong
 from roughcontact.validation import Array, Mask, require_numbers, whole
 
@@ -102,10 +101,8 @@ class ActiveSet:
         """
         if terms.plastic:
             return self._run_plastic(operator, separation, terms, initial)
-        conditions = Optimality.of(operator, terms, namespace(separation))
-        start = [  # A1
-            feasible_start(conditions.measure, separation, terms.control, initial, conditions.self_influence)
-        ]
+        conditions = Optimality.of(operator, terms, separation)
+        start = [conditions.feasible_start(separation, initial)]  # A1
         del initial  # planes are large: each is held by the one who needs it
         state = self._iterate(operator, separation, conditions, start.pop())
         if state.status.converged:
@@ -118,7 +115,7 @@ class ActiveSet:
 
         Where there is none at the depth that is prescribed, from the one at the largest depth.
         """
-        conditions = Optimality.of(operator, terms, namespace(separation))
+        conditions = Optimality.of(operator, terms, separation)
         measure, xp = conditions.measure, conditions.measure.xp
         control = elastic_control(operator, separation, terms.control, xp)
         unlimited = replace(terms, control=control, hardness=math.inf)
