@@ -109,26 +109,28 @@ class PolonskyKeer:
             elif singular and bool(xp.all(free)):
                 p = _to_bound(p, terms, float(xp.mean(g)), xp)
                 free = (p > 0) & (p < hardness)
-            r = optimality.residual(p, u, g)
-            idle = 0 if r < best else idle + 1
-            best = min(best, r)
-            if r <= terms.tolerance:
-                return State(p, d, r, steps, Status.CONVERGED, displacement=u)
+            rho = optimality.residual(p, u, g)
+            idle = 0 if rho < best else idle + 1
+            best = min(best, rho)
+            if rho <= terms.tolerance:
+                return State(p, d, rho, steps, Status.CONVERGED, displacement=u)
             if steps >= self.max_steps:
-                return State(p, d, r, steps, Status.MAX_STEPS)
+                return State(p, d, rho, steps, Status.MAX_STEPS)
             if idle > self.patience or not bool(xp.all(xp.isfinite(p))):
-                return State(p, d, r, steps, Status.STAGNATED)
+                return State(p, d, rho, steps, Status.STAGNATED)
             wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
             some_wrong, between = bool(xp.any(wrong)), free
             # Too long a step for those that were wrong: one that suits them too. On the same cells as before
             # the residual of conjugate gradients may leap.
             if (some_wrong and idle > tuning.CYCLING) or (
-                r > tuning.LEAP * best and bool(xp.any(between != before))
+                rho > tuning.LEAP * best and bool(xp.any(between != before))
             ):
                 free, delta = free | wrong, 0.0
-            errors = xp.where(free, g, 0.0)
-            norm = measure.dot(errors, errors)
-            tau = 1 / self_influence  # the step of a single cell, which at given force has no error to reduce
+            g_free = xp.where(free, g, 0.0)
+            norm = measure.dot(g_free, g_free)
+            alpha = (
+                1 / self_influence
+            )  # the step of a single cell, which at given force has no error to reduce
             if norm > 0 and norm_old > 0:
                 s = xp.where(free, g + delta * (norm / norm_old) * s, 0.0)
                 q = operator.apply(s)
@@ -137,12 +139,12 @@ class PolonskyKeer:
                     q -= measure.mean(q, free)
                 curvature = measure.dot(q, s)
                 if curvature > 0:
-                    tau = measure.dot(errors, s) / curvature
+                    alpha = measure.dot(g_free, s) / curvature
             else:
                 s = xp.zeros_like(p)
             norm_old = norm if norm > 0 else 1.0
-            p = xp.where(free, xp.clip(p - tau * s, 0.0, hardness), p)
-            p = xp.where(wrong, xp.clip(p - tau * g, 0.0, hardness), p)
+            p = xp.where(free, xp.clip(p - alpha * s, 0.0, hardness), p)
+            p = xp.where(wrong, xp.clip(p - alpha * g, 0.0, hardness), p)
             delta, before = 0.0 if some_wrong else 1.0, between
             if given is None and 0 < measure.total(p) < np.inf:
                 p = project(measure, p, g, terms)
