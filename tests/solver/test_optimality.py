@@ -114,7 +114,7 @@ def test_both_guess_the_same_region(given_fields, allowed, own):
     conditions, projected = Optimality.of(operator, FORCE), own != math.inf
     if own is not None:
         conditions = replace(conditions, self_influence=own)
-    named = {"depth": 0.4, "allowed": allowed, "projected": projected}
+    named = {"depth": 0.4, "allowed": allowed, "first": projected}
     one = conditions.predict_free_set(Iterate(p, u, s), **named)
     two = generic(conditions.predict_free_set, Iterate(p, u, s), **named)
     gap = u + s - 0.4
@@ -257,7 +257,7 @@ def test_what_lies_otherwise(kind):
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
     conditions = replace(Optimality.of(operator, DEPTH, namespace(there[0])), self_influence=0.3)
-    guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, projected=True)
+    guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, first=True)
     assert (guess.count, guess.dropped) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
 

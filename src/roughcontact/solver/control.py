@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -95,21 +95,26 @@ class Terms:
         Largest residual of a solution, see ``roughcontact.solver.optimality``.
     hardness : float or array, shape of the cells
         Pressure that no cell exceeds [Pa]; a cell that reaches it is perfectly plastic.
+
+    Attributes
+    ----------
+    depth : float or None
+        The prescribed depth [m]; None under a prescribed force.
+    plastic : bool
+        Whether there is an upper bound of the pressure.
     """
 
     control: Control
     tolerance: float = 1e-8
     hardness: float | Array = math.inf
+    depth: float | None = field(init=False)
+    plastic: bool = field(init=False)
 
-    @property
-    def depth(self) -> float | None:
-        """The prescribed depth [m]; None under a prescribed force."""
-        return None if isinstance(self.control, Force) else self.control.value
-
-    @property
-    def plastic(self) -> bool:
-        """Whether any pressure reaches a limit."""
-        return not isinstance(self.hardness, int | float) or self.hardness < math.inf
+    def __post_init__(self) -> None:
+        depth = None if isinstance(self.control, Force) else self.control.value
+        object.__setattr__(self, "depth", depth)
+        limited = not isinstance(self.hardness, int | float) or self.hardness < math.inf
+        object.__setattr__(self, "plastic", limited)
 
     @property
     def largest_hardness(self) -> float:

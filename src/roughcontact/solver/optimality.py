@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,12 +16,13 @@ import numpy as np
 from roughcontact.arrays import largest
 from roughcontact.halfspace.operators.operator import Operator, self_influence
 from roughcontact.kernels import planes
+from roughcontact.solver import tuning
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 from roughcontact.validation import Array, Mask
 
-__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet"]
+__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
 
 
 # Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
@@ -72,6 +74,14 @@ class Evaluation(NamedTuple):
     extremes: planes.Extremes | None = None
 
 
+class Quality(Enum):
+    """What is to be expected of a predicted free set (docs/method.md, "The first prediction")."""
+
+    GOOD = "predicted by an outer step or from a similar load, or of few cells"
+    GUESSED = "predicted from a pressure on less than half as many cells, as of summits"
+    BAD = "more than one cell in a hundred was left out"
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class PredictedSet:
     """A prediction of the free set F from an iterate.
@@ -86,12 +96,15 @@ class PredictedSet:
         How many with pressure or penetration were left out, since a projected step of one cell leaves them none.
     support : bool array
         F and all cells with pressure.
+    quality : Quality
+        Of the first prediction of a run; those of its own iterates are good.
     """
 
     free: Mask
     count: int
     dropped: int
     support: Mask
+    quality: Quality = Quality.GOOD
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,28 +175,40 @@ class Optimality:
         return min(relative, UNITS) if violation <= floor else relative
 
     def predict_free_set(
-        self, iterate: Iterate, *, depth: float, allowed: float, projected: bool = False
+        self, iterate: Iterate, *, depth: float, allowed: float, first: bool = False
     ) -> PredictedSet:
         """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
 
-        If `projected`, those with ``A_ii p < g`` are left out: one projected step of the cell alone leaves no pressure
-        on them. Cells at the hardness are free where their gap is more than is allowed.
+        Cells at the hardness are free where their gap is more than is allowed. The `first` prediction comes from
+        another grid or load: cells with ``A_ii p < g`` are left out, since one projected step of such a cell alone
+        leaves no pressure on it.
         """
         (pressure, displacement, separation), terms = iterate, self.terms
-        own = self.self_influence if projected else math.inf
+        a_ii = self.self_influence if first else math.inf
         if iterate.fits_machine_code(terms.plastic):
-            free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=own)
-            return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
-        xp, carrying = self.measure.xp, pressure > 0
-        gap = displacement + separation - depth
-        free, dropped = carrying | (gap < -allowed), 0
-        if terms.plastic:
-            upper = pressure >= terms.hardness
-            free = (free & ~upper) | (upper & (gap > allowed))
-        if projected:
-            tensile = free & (pressure * own < gap)
-            free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
-        return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)
+            free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=a_ii)
+            support = free | (pressure > 0) if dropped else free
+        else:
+            xp, carrying = self.measure.xp, pressure > 0
+            gap = displacement + separation - depth
+            free, dropped = carrying | (gap < -allowed), 0
+            if terms.plastic:
+                upper = pressure >= terms.hardness
+                free = (free & ~upper) | (upper & (gap > allowed))
+            if first:
+                tensile = free & (pressure * a_ii < gap)
+                free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
+            count, support = int(xp.count_nonzero(free)), free | carrying
+        quality = self._quality(count, dropped, pressure) if first else Quality.GOOD
+        return PredictedSet(free, count, dropped, support, quality)
+
+    def _quality(self, count: int, dropped: int, pressure: Array) -> Quality:
+        if count <= tuning.SCREENING_CELLS:
+            return Quality.GOOD
+        if dropped > count / 100 and not self.measure.varies:
+            return Quality.BAD
+        few = self.measure.on_host and 2 * int(np.count_nonzero(pressure)) < count
+        return Quality.GUESSED if few else Quality.GOOD
 
     def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
         seen, depth = planes.extremes(*iterate), self.terms.depth
