@@ -1,9 +1,13 @@
-"""Two hundred contact problems over all operators, and what they were answered: `python tests/references.py` stores it.
+"""Three hundred contact problems, and what they were answered: `python tests/references.py` stores it.
 
-A change of method must not change an answer. Surfaces are made here, by NumPy alone, so that no change of how the
-library makes surfaces moves them.
+Two hundred loads over all operators, forty loops under a hardness and sixty paths of surfaces that stick. A change of
+method must not change an answer. Surfaces are made here, by NumPy alone, so that no change of how the library makes
+surfaces moves them.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +17,8 @@ from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
 
 STORE = Path(__file__).with_name("references.npz")
-COUNT = 200
-TOLERANCE = 1e-12
+LOADS, LOOPS, PATHS = range(200), range(200, 240), range(240, 300)
+TOLERANCE = 1e-12  # of the loads; loops and paths have that of the library
 MODULUS = 2.5
 
 
@@ -102,8 +106,76 @@ def answer(number):
     return np.array(numbers), np.packbits(solution.contact)
 
 
+def loop(number):
+    """Return depths, forces, areas and stiffness of a loop under a hardness, and how many spots there are."""
+    rng = np.random.default_rng([21, number])
+    n, periodic = int(rng.integers(20, 48)), bool(number % 2)
+    surface = rc.Surface(-rough((n, n + 4), rng.uniform(0.3, 1.2), rng), rc.Grid((n, n + 4), 1.0, periodic))
+    largest = rng.uniform(0.02, 0.1) * MODULUS * n
+    forces = largest * np.array([0.05, 0.2, 0.5, 1.0])
+    flow = "removed" if rng.random() < 0.5 else "raised"
+    given = {"forces": forces, "hardness": rng.uniform(0.1, 0.6) * MODULUS, "flow": flow}
+    answered = rc.loading_loop(surface, MODULUS, **given)
+    branches = answered.loading, answered.unloading, answered.reloading
+    assert all(status is rc.Status.CONVERGED for branch in branches for status in branch.status), number
+    rows = [[each.depth, each.force, each.contact_area, each.stiffness] for each in branches]
+    return np.array(rows), np.array([each.spots for each in branches])
+
+
+def path(number):
+    """Return depths, forces and energies of a path of a surface that sticks; of its jumps direction, depth, bracket."""
+    states = list(adhesive_path(number))
+    assert all(state.status.converged for state in states), number
+    jumps = [jump for state in states for jump in state.jumps]
+    numbers = [[state.depth, state.force, state.energy, state.contact_area] for state in states]
+    return np.array(numbers).T, np.array(
+        [[jump.approach, jump.depth, jump.bracket] for jump in jumps]
+    ).reshape(-1, 3)
+
+
+def adhesive_path(number) -> Iterator[rc.AdhesiveState]:
+    """Yield the states of an approach and a retreat, under depths or, in one path of four, forces."""
+    rng = np.random.default_rng([22, number])
+    law = ["exponential", "dugdale"][number % 2]
+    reach = rng.uniform(0.2, 0.4)
+    adhesion = rc.Adhesion(work=MODULUS * reach**2 / (np.pi * rng.uniform(1.5, 2.2)), range=reach, law=law)
+    if number % 3 == 0:
+        rings = rc.RadialGrid.uniform(int(rng.integers(20, 50)), radius=20.0)
+        surface = rc.RadialProfile(-(rings.radii**2) / rng.uniform(60, 300), rings)
+    else:
+        n = int(rng.integers(16, 28))
+        heights = smooth(n, rng) * rng.uniform(0.1, 0.6)
+        surface = rc.Surface(heights - heights.max(), rc.Grid((n, n), 1.0, number % 3 == 1))
+    deepest = rng.uniform(0.1, 0.6) * (0.5 if surface.grid.ndim == 1 else -surface.heights.mean())
+    if number % 4 == 0:
+        loads = {"forces": np.array([0.0, 0.5, 2.0, 0.5, 0.0, -0.05, -1.0]) * MODULUS}
+    else:
+        near = np.linspace(-10 * reach, deepest, 6)
+        loads = {"depths": np.r_[near, near[-2::-1]]}
+    yield from states_of(surface, adhesion, loads)
+
+
+def smooth(n, rng):
+    """Return heights of rms 1 with waves down to eight cells."""
+    q = np.hypot(*np.meshgrid(np.fft.fftfreq(n), np.fft.fftfreq(n), indexing="ij"))
+    gain = np.where((q > 0) & (q < 1 / 8), np.maximum(q, 2 / n) ** -1.8, 0.0)
+    heights = np.fft.ifft2(gain * np.fft.fft2(rng.standard_normal((n, n)))).real
+    return heights / heights.std()
+
+
+def states_of(surface, adhesion, loads):
+    """Yield the states of a path, by whatever name the library has for it."""
+    if hasattr(rc, "adhesive_path"):
+        return rc.adhesive_path(surface, MODULUS, adhesion, **loads)
+    return rc.loading_path(surface, MODULUS, adhesion=adhesion, **loads)
+
+
+KINDS = [(LOADS, answer), (LOOPS, loop), (PATHS, path)]
+
+
 if __name__ == "__main__":
     fields = {}
-    for place in range(COUNT):
-        fields[f"numbers{place}"], fields[f"contact{place}"] = answer(place)
+    for numbers, answered in KINDS:
+        for place in numbers:
+            fields[f"numbers{place}"], fields[f"contact{place}"] = answered(place)
     np.savez_compressed(STORE, **fields)

@@ -1,0 +1,140 @@
+"""How large the house is: `python tests/house_sizes.py` prints what tests/test_budgets.py keeps in bounds.
+
+Lines of code are lines of the syntax tree's statements and of what they hold: no blank line, no comment, no docstring.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import inspect
+import io
+import sys
+import tokenize
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import scipy.sparse
+
+import roughcontact
+from public_names import public_names
+
+SOURCE = Path(roughcontact.__file__).parent
+ROOT = Path(__file__).parents[1]
+QUIET = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENCODING}
+
+
+def code_lines(text: str) -> int:
+    """Return the number of lines of code of a module."""
+    documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+    strings = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
+            strings |= set(range(node.body[0].lineno, (node.body[0].end_lineno or 0) + 1))
+    lines = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in QUIET and token.type != tokenize.ENDMARKER:
+            lines |= set(range(token.start[0], token.end[0] + 1))
+    return len(lines - strings)
+
+
+def sizes(folder: Path) -> tuple[int, int, int]:
+    """Return the number of files, of lines, and of lines of code below a folder."""
+    texts = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
+    return len(texts), sum(len(text.splitlines()) for text in texts), sum(map(code_lines, texts))
+
+
+def files_in_folders() -> dict[str, int]:
+    """Return the number of modules that each folder of the package has of its own."""
+    homes = (path.parent for path in SOURCE.rglob("*.py") if path.name != "__init__.py")
+    return dict(Counter(str(home.relative_to(SOURCE)) for home in homes).most_common())
+
+
+def widths() -> dict[str, int]:
+    """Return the number of parameters of each public function and method."""
+    found = {}
+    for name in public_names():
+        if inspect.isfunction(name.value):
+            parameters = list(inspect.signature(name.value).parameters)
+            found[name.path] = len(parameters) - (parameters[:1] == ["self"])
+    return dict(sorted(found.items(), key=lambda item: -item[1]))
+
+
+def options() -> dict[str, int]:
+    """Return the number of options and arguments of each command."""
+    from typer.main import get_command
+
+    from roughcontact.cli.app import app
+
+    def walk(words: str, command: object) -> Iterator[tuple[str, int]]:
+        below = getattr(command, "commands", None)
+        if below is None:
+            yield words, len(command.params)  # type: ignore[attr-defined]
+            return
+        for name in command.list_commands(None):  # type: ignore[attr-defined]
+            yield from walk(f"{words} {name}".strip(), command.get_command(None, name))  # type: ignore[attr-defined]
+
+    return dict(sorted(walk("", get_command(app)), key=lambda item: -item[1]))
+
+
+def imports(tree: ast.AST, *, typed: bool) -> Iterator[str]:
+    """Yield the names of what a module imports, in functions too; with `typed` also what is for type checkers alone."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield from (node.module or "", *(f"{node.module}.{alias.name}" for alias in node.names))
+        elif typed or not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)):
+            yield from imports(node, typed=typed)
+
+
+def circles(*, typed: bool = False) -> list[list[str]]:
+    """Return the modules that import each other, in a circle each, the largest first."""
+    trees = {
+        ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts): ast.parse(path.read_text("utf-8"))
+        for path in SOURCE.rglob("*.py")
+        if path.name != "__init__.py"
+    }
+    place = {name: number for number, name in enumerate(trees)}
+    arrows = [(place[a], place[b]) for a in trees for b in imports(trees[a], typed=typed) if b in place]
+    rows, columns = np.array(arrows).T
+    graph = scipy.sparse.coo_array((np.ones(len(arrows)), (rows, columns)), shape=(len(trees),) * 2)
+    _, parts = scipy.sparse.csgraph.connected_components(graph, connection="strong")
+    members: dict[int, list[str]] = defaultdict(list)
+    for name, part in zip(trees, parts, strict=True):
+        members[part].append(name)
+    return sorted((names for names in members.values() if len(names) > 1), key=len, reverse=True)
+
+
+def ways(n: int) -> dict[str, tuple[int, int]]:
+    """Return the changes of file and the calls of a press and of a curve, see benchmarks/path.py."""
+    path = _script("path")
+    traced = {name: path.traced(task) for name, task in path.tasks(n).items()}
+    return {name: (len(path.changes_of_file(files)), len(files)) for name, files in traced.items()}
+
+
+def _script(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, ROOT / "benchmarks" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+if __name__ == "__main__":
+    write = sys.stdout.write
+    for part in ("src", "reproduction", "tests", "benchmarks", "docs", "examples"):
+        if (ROOT / part).exists():
+            write(f"{part:14s} files, lines, lines of code: {sizes(ROOT / part)}\n")
+    write(f"files in a folder: {list(files_in_folders().items())[:8]}\n")
+    write(f"parameters: {list(widths().items())[:8]}\n")
+    write(f"options: {list(options().items())[:12]}\n")
+    write(
+        f"circles: {[len(circle) for circle in circles()]}, with types {[len(c) for c in circles(typed=True)]}\n"
+    )
+    for cells in (64, 256):
+        write(f"changes of file and calls, {cells} cells a side: {ways(cells)}\n")
