@@ -157,15 +157,17 @@ def prescribe(
         raise ValueError("the initial pressure must be finite [Pa]")
     subdomain = _subdomain(operator, region)
     part, inside, wanted = operator, region, target
-    start = None if initial is None else xp.where(region, initial, 0.0)
     if subdomain is not None:
         part = _part(operator, subdomain)
         inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
-        start = None if start is None else restrict(start, subdomain)
+
+    def start() -> Array | None:
+        """Return the pressure to start from. Fields are large: the solve alone holds it."""
+        begun = None if initial is None else xp.where(region, initial, 0.0)
+        return begun if begun is None or subdomain is None else restrict(begun, subdomain)
+
     with one_blas_thread():
-        begun = [start]
-        del start  # whoever needs a plane is the only one to hold it, here and below
-        pressure, residual, steps = _solve(part, inside, wanted, begun.pop(), tolerance * size, max_steps, xp)
+        pressure, residual, steps = _solve(part, inside, wanted, start(), tolerance * size, max_steps, xp)
         # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
         work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
@@ -216,7 +218,7 @@ def _solve(
     operator: Operator,
     region: Mask,
     wanted: Array,
-    start: Array | None,
+    pressure: Array | None,
     limit: float,
     max_steps: int,
     xp: Any,
@@ -225,10 +227,9 @@ def _solve(
     before = math.inf
     inner: InnerOperator | None = None
     exact, steps = True, 0
-    if start is not None:
-        pressure, inner, steps = start, inner_operator_on(operator, region), 1
-        u, exact = first_product(operator, start, inner)
-        del start
+    if pressure is not None:
+        inner, steps = inner_operator_on(operator, region), 1
+        u, exact = first_product(operator, pressure, inner)
     elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
         # The matrix may differ from that of the products.
@@ -252,7 +253,7 @@ def _solve(
             inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
         part = inner.scaled(inner.gather(r), error)  # so that single precision holds all numbers
-        del u, r
+        del u, r  # fields are large, here and below
         vectors = vectors_on(
             inner, Measure(inner.weights, xp), inner.gather(region), part, xp.zeros_like(part)
         )
