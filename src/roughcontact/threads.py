@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from contextvars import ContextVar
-from functools import cache, update_wrapper
+from functools import cache, wraps
 from queue import SimpleQueue
 from threading import Lock, RLock, Thread, get_ident
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, TypeVarTuple
+from typing import TYPE_CHECKING, Any, TypeVar, TypeVarTuple, cast
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
@@ -43,28 +43,27 @@ _limit: ContextVar[int | None] = ContextVar("threads", default=None)
 no_fork = RLock()
 
 
-class once(Generic[*Ts, T]):  # noqa: N801  # a decorator
+def once(function: Callable[[*Ts], T]) -> Callable[[*Ts], T]:
     """Keep what a function returns, as `functools.cache` does; one thread computes it, and others and forks wait.
 
     For what takes long, or takes locks that a fork must not catch, as an import does.
     """
+    computed = cache(function)
 
-    def __init__(self, function: Callable[[*Ts], T]) -> None:
-        self._function = function
-        self._kept: dict[tuple[*Ts], T] = {}
-        update_wrapper(self, function)
+    def waiting(*arguments: *Ts) -> T:
+        with no_fork:
+            return computed(*arguments)
 
-    def __call__(self, *arguments: *Ts) -> T:
-        """Return what the function does."""
-        if arguments not in self._kept:
-            with no_fork:
-                if arguments not in self._kept:
-                    self._kept[arguments] = self._function(*arguments)
-        return self._kept[arguments]
+    # What is kept is found without a lock, and without a frame of Python's.
+    kept: Any = wraps(function)(cache(waiting))
+    clear = kept.cache_clear
 
-    def cache_clear(self) -> None:
-        """Forget it all."""
-        self._kept.clear()
+    def cache_clear() -> None:
+        clear()
+        computed.cache_clear()
+
+    kept.cache_clear = cache_clear
+    return cast(Callable[[*Ts], T], kept)
 
 
 def threads() -> int:

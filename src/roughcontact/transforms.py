@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import Placed, is_numpy, namespace, require_floating
-from roughcontact.kernels import loader
+from roughcontact.kernels import buffers, loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution
 from roughcontact.kernels.plane_plan import fits
 from roughcontact.slabs.exchange import filtered_in_slabs, is_in_slabs
@@ -82,6 +82,7 @@ class Convolution:
         return ready
 
     def _in_slabs(self, field: Any) -> Array:
+        buffers.give_back()  # planes in slabs are large, and memory is short while columns go round
         kind = field.edges, field.functions.rank, field.dtype
         if kind not in self._dealt:
             self._dealt[kind] = self._deal(field)

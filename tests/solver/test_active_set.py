@@ -50,7 +50,7 @@ def followed(monkeypatch):
 
 def first(quality, solved):
     p = STARTS[quality](solved)
-    conditions = Optimality.of(BODY, TERMS)
+    conditions = Optimality.of(BODY, TERMS, GAP)
     iterate = Iterate(
         p * (TERMS.control.value / p.sum()), BODY.apply(p * (TERMS.control.value / p.sum())), GAP
     )
@@ -81,7 +81,7 @@ def test_each_way_leads_to_the_same_answer(quality, cheap, solved, followed, mon
     state = rc.ActiveSet().run(BODY, GAP, TERMS, STARTS[quality](solved))
     assert state.status.converged
     # Both displacements meet the tolerance, so that pressures differ by a few times that, see method.md, section 1.
-    assert np.abs(state.pressure - solved).max() * Optimality.of(BODY, TERMS).self_influence <= 10 * (
+    assert np.abs(state.pressure - solved).max() * Optimality.of(BODY, TERMS, GAP).self_influence <= 10 * (
         TERMS.tolerance * BODY.apply(solved).max()
     )
     predicted = first(quality, solved)[0].count

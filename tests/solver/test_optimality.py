@@ -10,9 +10,8 @@ from hypothesis import given, settings, strategies as st
 
 import roughcontact as rc
 from libraries import Strict
-from roughcontact.arrays import namespace
 from roughcontact.kernels import loader, planes
-from roughcontact.solver import optimality
+from roughcontact.slabs import passes
 from roughcontact.solver.control import Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
@@ -31,7 +30,7 @@ PLANES = {periodic: plane(periodic=periodic) for periodic in (False, True)}
 
 
 def judged(operator, terms, p, u, s):
-    return Optimality.of(operator, terms, namespace(p)).evaluate(Iterate(p, u, s))
+    return Optimality.of(operator, terms, s).evaluate(Iterate(p, u, s))
 
 
 def generic(function, *given, **named):
@@ -100,7 +99,7 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
     if not p.any():
         return
     before = [f.copy() for f in (p, u, s)]
-    judge, measure = Optimality.of(operator, terms), Measure(operator.weights)
+    judge, measure = Optimality.of(operator, terms, s), Measure(operator.weights)
     for found in (judged(operator, terms, p, u, s), generic(judged, operator, terms, p, u, s)):
         agrees(found, judge, measure, terms, p, u, s)
     for one, other in zip(before, (p, u, s), strict=True):
@@ -111,12 +110,12 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
 @given(givens(), st.sampled_from([0.0, 0.1]), st.sampled_from([math.inf, None, 1e-3]))
 def test_both_guess_the_same_region(given_fields, allowed, own):
     operator, p, u, s = given_fields
-    conditions, projected = Optimality.of(operator, FORCE), own != math.inf
+    conditions, projected = Optimality.of(operator, FORCE, s), own != math.inf
     if own is not None:
         conditions = replace(conditions, self_influence=own)
     named = {"depth": 0.4, "allowed": allowed, "first": projected}
     one = conditions.predict_free_set(Iterate(p, u, s), **named)
-    two = generic(conditions.predict_free_set, Iterate(p, u, s), **named)
+    two = replace(conditions, passes=None).predict_free_set(Iterate(p, u, s), **named)
     gap = u + s - 0.4
     wrong = (p * conditions.self_influence < gap) if projected else np.zeros(p.shape, bool)
     asked = (p > 0) | (gap < -allowed)
@@ -139,7 +138,7 @@ def test_a_solution_is_one_both_ways(control, periodic, missing):
     terms = Terms(Force(0.5) if control == "force" else Depth(0.3), 1e-8)
     state = rc.ActiveSet().run(operator, s, terms, np.zeros_like(s))
     assert state.status.converged
-    u, judge = operator.apply(state.pressure), Optimality.of(operator, terms)
+    u, judge = operator.apply(state.pressure), Optimality.of(operator, terms, s)
     for found in (
         judged(operator, terms, state.pressure, u, s),
         generic(judged, operator, terms, state.pressure, u, s),
@@ -186,10 +185,10 @@ def test_no_cell_in_contact_at_a_given_depth(depth):
         generic(judged, operator, terms, nothing, nothing, s),
     ):
         assert found[:3] == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
-    predict = Optimality.of(operator, terms).predict_free_set
+    conditions = Optimality.of(operator, terms, s)
     for guess in (
-        predict(Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
-        generic(predict, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
+        asked.predict_free_set(Iterate(nothing, nothing, s), depth=depth, allowed=0.0)
+        for asked in (conditions, replace(conditions, passes=None))
     ):
         np.testing.assert_array_equal(guess.free, s < depth)
         assert guess.count == (s < depth).sum()
@@ -213,7 +212,7 @@ def test_varying_weights(control):
     p, s = rng.random(30) * (rng.random(30) < 0.5), rng.random(30)
     u, measure = operator.apply(p), Measure(operator.weights)
     assert measure.varies
-    agrees(judged(operator, terms, p, u, s), Optimality.of(operator, terms), measure, terms, p, u, s)
+    agrees(judged(operator, terms, p, u, s), Optimality.of(operator, terms, s), measure, terms, p, u, s)
 
 
 @pytest.mark.usefixtures("without_machine_code")
@@ -225,7 +224,7 @@ def test_a_hardness(control):
     p, s = np.minimum(rng.random((5, 7)), 0.5) * (rng.random((5, 7)) < 0.7), rng.random((5, 7))
     u = operator.apply(p)
     found = judged(operator, terms, p, u, s)
-    conditions = Optimality.of(operator, terms)
+    conditions = Optimality.of(operator, terms, s)
     agrees(found, conditions, Measure(operator.weights), terms, p, u, s)
     held, gap = p >= 0.5, u + s - found.depth
     assert held.any()
@@ -251,12 +250,12 @@ def test_what_lies_otherwise(kind):
     there = [ways[kind](f) for f in (p, u, s)]
     found = judged(operator, DEPTH, *there)
     _, residual, scale, _ = literally(
-        Optimality.of(operator, DEPTH), Measure(operator.weights), DEPTH, p, u, s
+        Optimality.of(operator, DEPTH, s), Measure(operator.weights), DEPTH, p, u, s
     )
     # Levels, gaps and their ratio are rounded: numbers below three, of which the worst is above a third.
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
-    conditions = replace(Optimality.of(operator, DEPTH, namespace(there[0])), self_influence=0.3)
+    conditions = replace(Optimality.of(operator, DEPTH, there[2]), self_influence=0.3)
     guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, first=True)
     assert (guess.count, guess.dropped) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
@@ -273,8 +272,8 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
             asked.append("predict_active") or planes.predict_active(*given, **named)
         ),
     )
-    monkeypatch.setattr(optimality, "planes", seen)
-    conditions = Optimality.of(plane((5, 7)), FORCE)
+    monkeypatch.setattr(passes, "planes", seen)
+    conditions = Optimality.of(plane((5, 7)), FORCE, s)
     conditions.evaluate(Iterate(p, u, s))
     conditions.predict_free_set(Iterate(p, u, s), depth=0.4, allowed=0.1)
     assert asked == ["extremes", "predict_active"]

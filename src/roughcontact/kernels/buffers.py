@@ -3,7 +3,7 @@
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
 cores. That costs 9 % of a press of half of 512 x 512 periodic cells on two threads (benchmarks/pairs.py, "flat-half").
 So what an array leaves is kept for the next one like it. What very large planes leave is kept within a loop that takes
-the same ones in every step, and not beyond; that of planes in slabs never is, since memory is short there.
+the same ones in every step, and not beyond.
 """
 
 from __future__ import annotations
@@ -18,10 +18,9 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.kernels.calls import address
-from roughcontact.kernels.distributed import local
 from roughcontact.threads import no_fork
 
-__all__ = ["aligned", "empty", "empty_like", "give_back", "large_ones_kept", "zeros", "zeros_like"]
+__all__ = ["aligned", "empty", "give_back", "large_ones_kept", "zeros"]
 
 Array = npt.NDArray[Any]
 Kind = tuple[tuple[int, ...], str]
@@ -52,6 +51,10 @@ class _Loop:
     def keep(self, block: Block) -> None:
         if self._left is not None:
             self._left.append(block[1])
+
+    def clear(self) -> None:
+        if self._left is not None:
+            self._left.clear()
 
     def end(self) -> None:
         self._left = None
@@ -100,20 +103,11 @@ def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     return array
 
 
-def empty_like(field: Any, precision: npt.DTypeLike) -> Any:
-    """Return an array where another lies, of which no number is set."""
-    here = local(field)
-    return empty(here.shape, precision) if field is here else field.like(np.empty(here.shape, precision))
-
-
-def zeros_like(field: Any, precision: npt.DTypeLike) -> Any:
-    """Return an array of zeros where another lies."""
-    here = local(field)
-    return zeros(here.shape, precision) if field is here else field.like(np.zeros(here.shape, precision))
-
-
 def give_back() -> None:
     """Keep nothing any more of what has been left so far."""
+    loop = _loop.get()
+    if loop is not None:
+        loop.clear()
     with no_fork:
         _kept.clear()
         _total[0] = 0

@@ -11,6 +11,8 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -52,13 +54,15 @@ class Team:
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_child=self._begin_again)
 
-    def run(self, kernel: int, packed: bytes, workers: int) -> None:
-        """Run the kernel at an address on packed arguments, by this thread and those of others that come."""
-        if workers > 1:
-            missing = workers - 1 - self._box[SERVING] - others_called()
-            if missing > 0:
-                call_others(self._join, missing)
-        self._lead(self._place, kernel, packed, workers)
+    def running(self, kernel: int) -> Callable[[bytes, int], None]:
+        """Return the run of a kernel at an address, on packed arguments, by this thread and others that come."""
+        return partial(self._lead, self._place, kernel)
+
+    def gather(self, workers: int) -> None:
+        """Call so many threads, this one among them, of which those that do not serve already come."""
+        missing = workers - 1 - self._box[SERVING] - others_called()
+        if missing > 0:
+            call_others(self._join, missing)
 
     def _join(self, _: int) -> None:
         self._serve(self._place, PAUSES, NAPS, *self._nap)

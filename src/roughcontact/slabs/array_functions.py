@@ -153,6 +153,16 @@ class SlabFunctions:
         before = sum(back[: self.rank])
         return taken[:before], taken[before:]
 
+    def with_rows_beside(self, x: SlabArray, count: int) -> tuple[Local, int]:
+        """Return the rows of this process with so many before and after them, and which row is the first of all these.
+
+        They are fewer where the whole begins or ends.
+        """
+        row = math.prod(x.shape[1:])
+        before, after = self.beyond(x, count * row)
+        rows = np.concatenate([before, x.local.reshape(-1), after]).reshape(-1, *x.shape[1:])
+        return rows, x.edges[self.rank] - before.size // row
+
     # --- of the whole ---
 
     def combined(self, totals: list[float], largest: int) -> list[float]:

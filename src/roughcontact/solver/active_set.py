@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
@@ -30,7 +29,7 @@ from roughcontact.solver.inner_operator import (
 from roughcontact.solver.optimality import Evaluation, Iterate, Optimality, PredictedSet, Quality
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.projection import elastic_control, feasible_start, project
+from roughcontact.solver.projection import elastic_control, project
 from roughcontact.solver.subdomain import prolong
 from roughcontact.validation import Array, require_numbers, whole
 
@@ -102,15 +101,10 @@ class ActiveSet:
         """
         if terms.plastic:
             return self._run_plastic(operator, separation, terms, initial)
-        conditions = Optimality.of(operator, terms, namespace(separation))
-        measure, a_ii = conditions.measure, conditions.self_influence
-        outer = self._outer(
-            operator,
-            separation,
-            conditions,
-            feasible_start(measure, separation, terms.control, initial, a_ii),  # A1
-        )
-        del initial  # fields are large: the outer iteration alone holds its pressure
+        conditions = Optimality.of(operator, terms, separation)
+        start = conditions.feasible_start(separation, initial)  # A1
+        outer = self._outer(operator, separation, conditions, start)
+        del initial, start  # fields are large: the outer iteration alone holds its pressure
         state = outer.run()
         if state.status.converged:
             return state
@@ -122,7 +116,7 @@ class ActiveSet:
 
         Where there is none at the depth that is prescribed, from the one at the largest depth.
         """
-        conditions = Optimality.of(operator, terms, namespace(separation))
+        conditions = Optimality.of(operator, terms, separation)
         measure, xp = conditions.measure, conditions.measure.xp
         control = elastic_control(operator, separation, terms.control, xp)
         unlimited = replace(terms, control=control, hardness=math.inf)

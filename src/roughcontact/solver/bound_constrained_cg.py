@@ -15,8 +15,8 @@ from roughcontact.kernels import buffers
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Force
 from roughcontact.solver.inner_operator import InnerOperator
-from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
+from roughcontact.solver.rows_operator import on_own_rows
 from roughcontact.solver.vectors import Vectors, scaled_vectors
 from roughcontact.validation import Array, Mask
 
@@ -116,11 +116,12 @@ def inner_system(
         Largest residual on F [m].
     """
     pressure, displacement, separation = iterate
-    measure = Measure(inner.weights, conditions.measure.xp)
+    if not conditions.terms.plastic:  # machine code knows no hardness
+        inner = on_own_rows(inner, pressure)
     # Cells that were not measured never touch, nor does what lies beyond the edge.
     part = Iterate(inner.gather(pressure), inner.gather(displacement), inner.gather(separation, math.inf))
     free = inner.gather(free)
-    vectors, unit = scaled_vectors(inner, measure, conditions.terms, free, part, otherwise=limit)
+    vectors, unit = scaled_vectors(inner, conditions.measure, conditions.terms, free, part, otherwise=limit)
     return InnerSystem(inner, vectors, part.pressure, unit, limit / unit)
 
 
@@ -163,12 +164,14 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
     p = vectors.pressure(start, unit)
     if vectors.upper is not None:
         p = conditions.measure.xp.where(vectors.upper, terms.hardness, p)
-    elif isinstance(terms.control, Force):
-        total = Measure(inner.weights, conditions.measure.xp).total(p)
+        return InnerSolution(inner.scatter(p), steps)
+    p = inner.scatter(p)
+    if isinstance(terms.control, Force):
+        total = conditions.measure.total(p)
         if not total > 0:
             return InnerSolution(inner.scatter(start), steps)
         p *= terms.control.value / total
-    return InnerSolution(inner.scatter(p), steps)
+    return InnerSolution(p, steps)
 
 
 def bound_constrained_cg(

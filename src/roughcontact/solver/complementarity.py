@@ -21,8 +21,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import beside, largest, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
-from roughcontact.kernels import planes
-from roughcontact.kernels.distributed import local, of_all, with_rows_beside
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver.control import Force, Solver, Start, State, Status, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
@@ -53,7 +52,7 @@ def _pressed_by_rounding(pressure: Array, own: Any, allowed: float) -> Mask:
     return (pressure > 0) & (pressure * own <= AMPLIFIED * allowed)  # type: ignore[no-any-return]
 
 
-def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
+def added_stiffness(operator: Operator, pressed: Any, weak: Any) -> float:
     """Return by how much the stiffness grows at most where weakly active cells join those that are pressed [N/m].
 
     The stiffness of a region is a capacity, which is submodular: a cell adds no more to the whole than to those pressed
@@ -61,19 +60,32 @@ def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
     """
     if int(namespace(weak).count_nonzero(weak)) > MANY:
         return math.inf
-    # In slabs each process sees to its own cells: no other has room for all.
-    pressed, weak = (f if local(f) is not f else on_host(f) > 0 for f in (pressed, weak))
-    rows, begin, own = with_rows_beside(pressed, NEAR)
+    if isinstance(pressed, SlabArray):  # each process sees to its own cells: no other has room for all
+        functions, edges = pressed.functions, pressed.edges
+        rows, begin = functions.with_rows_beside(pressed, NEAR)
+        places = np.argwhere(weak.local)
+        places[:, 0] += edges[functions.rank]
+        return functions.combined([_added_at(operator, places, rows, begin, pressed.shape)], 0)[0]
+    here = on_host(pressed) > 0
+    return _added_at(operator, np.argwhere(on_host(weak) > 0), here, 0, here.shape)
+
+
+def _added_at(
+    operator: Operator, places: npt.NDArray[np.intp], rows: Mask, begin: int, shape: tuple[int, ...]
+) -> float:
+    """Return by how much the stiffness grows with the cells at some places [N/m].
+
+    Of the pressed cells of a field of some shape, `rows` from `begin` on are at hand.
+    """
     total, shift = 0.0, np.zeros(rows.ndim, np.intp)
     shift[0] = begin
-    for place in np.argwhere(local(weak)):
-        place[0] += own
+    for place in places:
         start = np.maximum(place - NEAR, 0)
         box = tuple(map(slice, start - shift, place + NEAR + 1 - shift))
-        near = np.ravel_multi_index(tuple((np.argwhere(rows[box]) + start).T), pressed.shape)
-        cells = np.append(near, np.ravel_multi_index(tuple(place), pressed.shape))
+        near = np.ravel_multi_index(tuple((np.argwhere(rows[box]) + start).T), shape)
+        cells = np.append(near, np.ravel_multi_index(tuple(place), shape))
         total += _stiffness(operator, cells) - (_stiffness(operator, near) if len(near) else 0.0)
-    return of_all(pressed, [total], 0)[0]
+    return total
 
 
 def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
@@ -96,7 +108,7 @@ def resolve_contact(
         The pressure to begin with is handed over.
     """
     exact = exact_of(operator)
-    conditions = Optimality.of(exact, terms, namespace(separation))
+    conditions = Optimality.of(exact, terms, separation)
 
     def run(terms: Terms, start: Start) -> State:
         if exact is operator:
@@ -109,7 +121,7 @@ def resolve_contact(
         return replace(state, displacement=None)
     iterated = state.residual > FINEST and terms.tolerance <= LOOSE
     known = UNITS + (state.residual if iterated or state.residual <= FINEST else 0.0)
-    weak = _weak(exact, separation, state, known, conditions.measure.xp)
+    weak = _weak(exact, separation, conditions, state, known)
     if weak is not None and iterated and _matter(exact, conditions.measure, state, weak):
         finer = run(replace(terms, tolerance=FINEST), Start(state.pressure, state.depth))
         steps = state.steps + finer.steps
@@ -123,16 +135,17 @@ def resolve_contact(
     return replace(state, displacement=None, extremes=None)
 
 
-def _weak(operator: Operator, separation: Array, state: State, known: float, xp: Any) -> Mask | None:
+def _weak(
+    operator: Operator, separation: Array, conditions: Optimality, state: State, known: float
+) -> Mask | None:
     """Return the cells whose pressure or gap is known to nothing; None without any.
 
     Displacements are `known` to so much of the largest.
     """
     p, u, own = state.pressure, _displacement(operator, state), _own(operator, state.pressure)
-    iterate = Iterate(p, u, separation)
-    seen = state.extremes
-    if seen is None and iterate.fits_machine_code():
-        seen = planes.extremes(*iterate)
+    seen, passes = state.extremes, conditions.passes
+    if seen is None and passes is not None and passes.fit(p, u, separation):
+        seen = passes.extremes(p, u, separation)
     if (  # nearly always there is no such cell
         isinstance(own, float)
         and seen is not None
@@ -141,7 +154,7 @@ def _weak(operator: Operator, separation: Array, state: State, known: float, xp:
         return None
     allowed = known * largest(u)
     weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, own, allowed)
-    return weak if bool(xp.any(weak)) else None
+    return weak if bool(conditions.measure.xp.any(weak)) else None
 
 
 def _matter(operator: Operator, measure: Measure, state: State, weak: Mask) -> bool:

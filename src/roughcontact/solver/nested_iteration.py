@@ -10,9 +10,8 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.kernels import buffers, planes
-from roughcontact.kernels.distributed import agreed, local
 from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
+from roughcontact.slabs.passes import passes_over
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
 from roughcontact.solver.projection import elastic_control
@@ -46,8 +45,6 @@ def nested_start(
     terms = Terms(control, tuning.COARSE_TOLERANCE)
     state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
     coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
-    if small is not blocks:
-        buffers.give_back()  # planes of whole levels, which finer ones in slabs have no use for
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 
@@ -134,9 +131,10 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 
 
 def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
-    even = not any(n % 2 for n in local(separation).shape)
-    if factors == (2, 2) and planes.fit(separation) and agreed(separation, even):
-        return planes.raise_blocks(separation, tuning.SUMMITS)
+    passes = passes_over(separation) if factors == (2, 2) and divides(separation, factors) else None
+    even = separation.shape[0] % 2 == separation.shape[-1] % 2 == 0
+    if passes is not None and even and passes.fit(separation):
+        return passes.raise_blocks(separation, tuning.SUMMITS)
     low = block_minimum(separation, factors)
     if factors != (2, 2):
         return low

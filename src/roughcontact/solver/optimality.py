@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import largest, namespace
 from roughcontact.halfspace.operators.operator import Operator, self_influence
-from roughcontact.kernels import planes
+from roughcontact.kernels.planes import Extremes
+from roughcontact.slabs.passes import Passes, passes_over
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Force, Terms
 from roughcontact.solver.inner_product import Measure
@@ -48,10 +49,6 @@ class Iterate(NamedTuple):
     displacement: Array
     separation: Array
 
-    def fits_machine_code(self, plastic: bool = False) -> bool:
-        """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
-        return not plastic and planes.fit(*self)
-
 
 class Evaluation(NamedTuple):
     """The residual of an iterate, and the depth at which it was found.
@@ -71,7 +68,7 @@ class Evaluation(NamedTuple):
     depth: float
     residual: float
     scale: float
-    extremes: planes.Extremes | None = None
+    extremes: Extremes | None = None
 
 
 class Quality(Enum):
@@ -118,22 +115,48 @@ class Optimality:
         It carries the array library.
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
+    passes : Passes, optional
+        Over the fields, in machine code.
     """
 
     terms: Terms
     measure: Measure
     self_influence: float
+    passes: Passes | None = None
 
     @classmethod
-    def of(cls, operator: Operator, terms: Terms, xp: Any = np) -> Optimality:
-        """Return the conditions for an operator and what is asked, on fields of an array library."""
-        return cls(terms, Measure(operator.weights, xp), self_influence(operator))
+    def of(cls, operator: Operator, terms: Terms, separation: Array) -> Optimality:
+        """Return the conditions for an operator and what is asked, on fields like the separation of the bodies."""
+        measure = Measure(operator.weights, namespace(separation))
+        return cls(terms, measure, self_influence(operator), passes_over(separation))
+
+    def feasible_start(self, separation: Array, initial: Array) -> Array:
+        """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
+
+        Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
+        them alone by the depth.
+        """
+        measure, passes, control = self.measure, self.passes, self.terms.control
+        if passes is not None and not measure.varies and passes.fit(initial, separation):
+            total = float(measure.weights) * passes.positive_total(initial, separation)
+            if total > 0:
+                scale = control.value / total if isinstance(control, Force) else 1.0
+                return passes.positive_part(initial, separation, scale)
+        xp = measure.xp
+        p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
+        if not bool(xp.any(p > 0)):
+            lowest = separation == xp.min(separation)
+            lone = 1.0 if isinstance(control, Force) else control.value / self.self_influence
+            p = xp.where(lowest, lone, p)
+        if isinstance(control, Force):
+            p *= control.value / measure.total(p)
+        return p  # type: ignore[no-any-return]
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
-        terms, measure = self.terms, self.measure
-        if not measure.varies and iterate.fits_machine_code(terms.plastic):
-            return self._evaluate_in_one_pass(iterate)
+        terms, measure, passes = self.terms, self.measure, self._passes_for(iterate)
+        if passes is not None and not measure.varies:
+            return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
         between = (pressure > 0) & (pressure < terms.hardness)
@@ -184,9 +207,9 @@ class Optimality:
         leaves no pressure on it.
         """
         (pressure, displacement, separation), terms = iterate, self.terms
-        a_ii = self.self_influence if first else math.inf
-        if iterate.fits_machine_code(terms.plastic):
-            free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=a_ii)
+        a_ii, passes = self.self_influence if first else math.inf, self._passes_for(iterate)
+        if passes is not None:
+            free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, own=a_ii)
             support = free | (pressure > 0) if dropped else free
         else:
             xp, carrying = self.measure.xp, pressure > 0
@@ -210,8 +233,13 @@ class Optimality:
         few = self.measure.on_host and 2 * int(np.count_nonzero(pressure)) < count
         return Quality.GUESSED if few else Quality.GOOD
 
-    def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
-        seen, depth = planes.extremes(*iterate), self.terms.depth
+    def _passes_for(self, iterate: Iterate) -> Passes | None:
+        """Return the passes where they take the fields as they lie in memory; they know no hardness."""
+        passes = None if self.terms.plastic else self.passes
+        return passes if passes is not None and passes.fit(*iterate) else None
+
+    def _evaluate_in_one_pass(self, iterate: Iterate, passes: Passes) -> Evaluation:
+        seen, depth = passes.extremes(*iterate), self.terms.depth
         if seen is None or (not seen.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:

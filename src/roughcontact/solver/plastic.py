@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Depth, State, Terms
@@ -33,7 +32,7 @@ def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Ar
 
 def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: PolonskyKeer) -> tuple[Array, int]:
     """Return a pressure whose force is nearly the one prescribed, and the products that it took."""
-    conditions = Optimality.of(operator, terms, namespace(separation))
+    conditions = Optimality.of(operator, terms, separation)
     measure, force = conditions.measure, terms.control.value
     pressure, steps = measure.xp.zeros_like(separation), 0
 

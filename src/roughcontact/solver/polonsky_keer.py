@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.control import State, Status, Terms
 from roughcontact.solver.optimality import Optimality
-from roughcontact.solver.projection import feasible_start, force_multiplier, project
+from roughcontact.solver.projection import force_multiplier, project
 from roughcontact.validation import Array, require_numbers, whole
 
 __all__ = ["PolonskyKeer"]
@@ -83,12 +82,11 @@ class PolonskyKeer:
         >>> state.status.converged, f"{state.depth * 1e9:.0f} nm"
         (True, '175 nm')
         """
-        xp = namespace(separation)
-        optimality = Optimality.of(operator, terms, xp)
-        measure = optimality.measure
+        optimality = Optimality.of(operator, terms, separation)
+        measure, xp = optimality.measure, optimality.measure.xp
         self_influence, hardness, given = optimality.self_influence, terms.hardness, terms.depth
         if not terms.plastic:
-            p = feasible_start(measure, separation, terms.control, initial, self_influence)
+            p = optimality.feasible_start(separation, initial)
         else:  # projected, not scaled: cells at the hardness stay there
             p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
             p = project(measure, p, separation, terms)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import is_array, is_numpy, largest, namespace
+from roughcontact.arrays import is_array, is_numpy, largest, namespace, times
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
@@ -23,6 +23,7 @@ from roughcontact.solver.inner_operator import (
     inner_operator_on,
 )
 from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.rows_operator import on_own_rows
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
@@ -252,20 +253,20 @@ def _solve(
                 return pressure, r, steps
             inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
-        part = inner.scaled(inner.gather(r), error)  # so that single precision holds all numbers
+        rows = on_own_rows(inner, r)
+        part = rows.scaled(rows.gather(r), error)  # so that single precision holds all numbers
         del u, r  # fields are large, here and below
-        vectors = vectors_on(
-            inner, Measure(inner.weights, xp), inner.gather(region), part, xp.zeros_like(part)
-        )
+        none = namespace(part).zeros_like(part)
+        vectors = vectors_on(rows, Measure(inner.weights, xp), rows.gather(region), part, none)
         _, done = conjugate_gradients(  # D3
-            inner,
+            rows,
             vectors,
             limit=max(0.5 * limit / error, inner.contraction),
             max_steps=max_steps - steps - 1,
         )
         correction = vectors.correction
         del vectors, part
-        pressure = pressure + inner.scatter(error * xp.astype(correction, xp.float64))  # D4
+        pressure = pressure + rows.scatter(times(correction, error))  # D4
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 

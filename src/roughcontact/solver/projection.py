@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
-from roughcontact.kernels import planes
 from roughcontact.solver.control import Control, Depth, Force, Terms
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
@@ -19,7 +18,6 @@ __all__ = [
     "bearing_force",
     "bearing_level",
     "elastic_control",
-    "feasible_start",
     "force_multiplier",
     "project",
 ]
@@ -50,29 +48,6 @@ def elastic_control(operator: Operator, separation: Array, control: Control, xp:
         return control
     mean = float(xp.mean(separation))  # infinite with missing cells, which may bulge
     return control if control.value <= mean else Depth(mean)
-
-
-def feasible_start(
-    measure: Measure, separation: Array, control: Control, initial: Array, self_influence: float
-) -> Array:
-    """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
-
-    Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
-    them alone by the depth.
-    """
-    xp = measure.xp
-    if not measure.varies and planes.fit(initial, separation):
-        total = float(measure.weights) * planes.positive_total(initial, separation)
-        if total > 0:
-            scale = control.value / total if isinstance(control, Force) else 1.0
-            return planes.positive_part(initial, separation, scale)
-    p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
-    if not bool(xp.any(p > 0)):
-        lowest = separation == xp.min(separation)
-        p = xp.where(lowest, 1.0 if isinstance(control, Force) else control.value / self_influence, p)
-    if isinstance(control, Force):
-        p *= control.value / measure.total(p)
-    return p  # type: ignore[no-any-return]
 
 
 def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:

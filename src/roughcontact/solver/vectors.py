@@ -213,9 +213,8 @@ def vectors_on(
 ) -> Vectors:
     """Return the vectors of a solve, in machine code where there is some; parameters as of `ArrayVectors`."""
     if _has_machine_code(residual, measure, bound):
-        return CompiledVectors(
-            inner, float(measure.weights), with_margins(free, residual.dtype), residual, base
-        )
+        free = with_margins(free, residual.dtype)
+        return CompiledVectors(inner, float(measure.weights), free, residual, base)
     return ArrayVectors(inner, measure, free, residual, base, upper, bound)
 
 

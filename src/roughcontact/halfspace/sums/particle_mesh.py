@@ -121,6 +121,7 @@ class TileOperator:
     contraction: float = 3e-5
     diagonal_correction: ClassVar[float] = DIAGONAL_CORRECTION
     local_inverse: ClassVar[None] = None  # `inverse` is that of the tiles
+    combine: ClassVar[None] = None
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return a field of the plane on the tiles, another value beyond the edge."""
