@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import beside, largest, namespace, on_host
+from roughcontact.arrays import as_like, max_abs, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver.control import Force, Solver, Start, State, Status, Terms
@@ -152,7 +152,7 @@ def _weak(
         and min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement
     ):
         return None
-    allowed = known * largest(u)
+    allowed = known * max_abs(u)
     weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, own, allowed)
     return weak if bool(conditions.measure.xp.any(weak)) else None
 
@@ -172,7 +172,7 @@ def _floored(
 ) -> State:
     """Return the state without pressures whose own displacement is no more than is `known` of the largest."""
     p, terms, measure, xp = state.pressure, conditions.terms, conditions.measure, conditions.measure.xp
-    allowed = known * largest(_displacement(operator, state))
+    allowed = known * max_abs(_displacement(operator, state))
     weak = _pressed_by_rounding(p, _own(operator, p), allowed)
     if not bool(xp.any(weak)):
         return state
@@ -195,4 +195,4 @@ def _displacement(operator: Operator, state: State) -> Array:
 
 def _own(operator: Operator, pressure: Array) -> Any:
     own = self_influences(operator)
-    return own if isinstance(own, float) else beside(own, pressure)
+    return own if isinstance(own, float) else as_like(own, pressure)

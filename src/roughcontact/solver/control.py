@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.validation import Array, require_numbers, scalar
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ class Terms:
     @property
     def largest_hardness(self) -> float:
         """The hardness of the hardest cell [Pa]."""
-        return self.hardness if isinstance(self.hardness, int | float) else largest(self.hardness)
+        return self.hardness if isinstance(self.hardness, int | float) else max_abs(self.hardness)
 
 
 def checked_tolerance(tolerance: Any) -> float:

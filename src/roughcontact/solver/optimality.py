@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import max_abs, namespace
 from roughcontact.halfspace.operators.operator import Operator, self_influence
 from roughcontact.kernels.planes import Extremes
 from roughcontact.slabs.passes import Passes, passes_over
@@ -162,7 +162,7 @@ class Optimality:
         between = (pressure > 0) & (pressure < terms.hardness)
         depth = force_multiplier(measure, gap, pressure, between) if terms.depth is None else terms.depth
         gap -= depth
-        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
@@ -180,7 +180,7 @@ class Optimality:
             return math.inf
         open_under_pressure = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
         lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.terms.plastic else gap))
-        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return self.relative(max(-lowest, open_under_pressure), scale, strongest)
 
     def relative(self, violation: float, scale: float, strongest: float) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import is_array, is_numpy, largest, namespace, times
+from roughcontact.arrays import is_array, is_numpy, max_abs, multiply, namespace
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
@@ -151,7 +151,7 @@ def prescribe(
         target = xp.where(
             region, xp.zeros(region.shape, dtype=xp.float64, device=region.device) + displacement, 0.0
         )
-    size = largest(target)
+    size = max_abs(target)
     if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
@@ -173,7 +173,7 @@ def prescribe(
         work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
     return Prescribed(
-        whole, Measure(operator.weights, xp).total(whole), work, largest(residual) / size, steps
+        whole, Measure(operator.weights, xp).total(whole), work, max_abs(residual) / size, steps
     )
 
 
@@ -234,13 +234,13 @@ def _solve(
     elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
         # The matrix may differ from that of the products.
-        if largest(xp.where(region, wanted - u, 0.0)) > limit:
+        if max_abs(xp.where(region, wanted - u, 0.0)) > limit:
             u, steps = operator.apply(pressure), 1
     else:
         pressure, u = (xp.zeros(wanted.shape, dtype=wanted.dtype, device=wanted.device) for _ in range(2))
     while True:
         r = xp.where(region, wanted - u, 0.0)  # D2
-        error = largest(r)
+        error = max_abs(r)
         if not error > limit or steps >= max_steps:
             if exact:
                 return pressure, r, steps
@@ -266,7 +266,7 @@ def _solve(
         )
         correction = vectors.correction
         del vectors, part
-        pressure = pressure + rows.scatter(times(correction, error))  # D4
+        pressure = pressure + rows.scatter(multiply(correction, error))  # D4
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
 from roughcontact.kernels.constants import NEVER, ROUNDINGS
@@ -86,11 +86,11 @@ class ArrayVectors:
     def residual_max(self) -> float:
         """Return the largest size of r on F."""
         self._r_free = self.r * self.free
-        return largest(self._r_free)
+        return max_abs(self._r_free)
 
     def bound_violation(self) -> float:
         """Return how far a pressure is out of its bounds at most, or that of an active cell from its bound."""
-        return largest(self._out_of_bounds())
+        return max_abs(self._out_of_bounds())
 
     def constraint_direction(self) -> float:
         """Make w = M^-1 1 on F; return its sum 1.w (B4)."""
@@ -170,7 +170,7 @@ class ArrayVectors:
         if not bool(xp.any(freed)):
             return 0.0
         self._set_free(self._free | freed, self._upper & ~freed)
-        return largest(xp.where(freed, r, 0.0))
+        return max_abs(xp.where(freed, r, 0.0))
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure on F that began as `start` and was corrected, in a `unit`; nowhere negative."""
@@ -250,7 +250,7 @@ def scaled_vectors(
     xp = measure.xp
     level = separation + displacement
     depth = measure.mean(level, free) if terms.depth is None else terms.depth
-    unit = largest((depth - level)[free]) or otherwise or 1.0
+    unit = max_abs((depth - level)[free]) or otherwise or 1.0
     there = xp.isfinite(separation)
     residual = inner.scaled((depth - xp.where(there, level, 0.0)) / unit)
     residual = xp.where(there, residual, NEVER)
