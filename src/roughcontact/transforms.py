@@ -82,7 +82,7 @@ class Convolution:
         return ready
 
     def _in_slabs(self, field: Any) -> Array:
-        buffers.give_back()  # planes in slabs are large, and memory is short while columns go round
+        buffers.release()  # planes in slabs are large, and memory is short while columns go round
         kind = field.edges, field.functions.rank, field.dtype
         if kind not in self._dealt:
             self._dealt[kind] = self._deal(field)

@@ -141,7 +141,7 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
     """
     (inner, vectors, start, unit, goal), terms = system, conditions.terms
     target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
-    with buffers.large_ones_kept():
+    with buffers.keep_large_buffers():
         while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
             residual, done, estimate = bound_constrained_cg(
                 inner,
