@@ -8,14 +8,14 @@ import pytest
 import roughcontact as rc
 from roughcontact.kernels import loader
 from roughcontact.solver import active_set
-from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.control import Force, Specification
 from roughcontact.solver.optimality import Iterate, Optimality, Quality
 
 GRID = rc.Grid((40, 40), 1.0)
 BODY = rc.half_space(GRID, 1.0)
 GAP = -rc.shapes.paraboloid(GRID, radius=200.0).heights
 GAP -= GAP.min()
-TERMS = Terms(Force(12.0))  # of which some 450 cells come into contact
+TERMS = Specification(Force(12.0))  # of which some 450 cells come into contact
 LIMIT = 300  # cells up to which any prediction is good, and which are always factorised
 STARTS = {
     Quality.GOOD: lambda solved: solved**0.95,  # as of a similar load

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.flow import FlowReading, flow_reading
+from roughcontact.contact.flow import FlowModel, flow_reading
 from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.load_range import load_range
 from roughcontact.contact.mean_gaps import refuse_gaps
@@ -48,7 +48,7 @@ def loading_path(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
     adhesion: None = None,
     mean_gaps: None = None,
 ) -> Iterator[Solution]: ...
@@ -80,7 +80,7 @@ def loading_path(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
     adhesion: Adhesion | None = None,
     mean_gaps: Loads | None = None,
 ) -> Iterator[Solution] | Iterator[AdhesiveState]:
@@ -183,7 +183,7 @@ def loading_curve(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
     adhesion: None = None,
     mean_gaps: None = None,
 ) -> Curve: ...
@@ -215,7 +215,7 @@ def loading_curve(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
     adhesion: Adhesion | None = None,
     mean_gaps: Loads | None = None,
 ) -> Curve | AdhesiveLoop:

@@ -294,7 +294,7 @@ class Solution:
         return notes_on(self)
 
     @property
-    def above_cells(self) -> bool:
+    def resolved_from_below(self) -> bool:
         """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell

@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.operator import Operator, capabilities, is
 from roughcontact.kernels import loader
 from roughcontact.solver import tuning
 from roughcontact.solver.bound_constrained_cg import InnerSystem, inner_solve, inner_system
-from roughcontact.solver.control import State, Status, Tangent, Terms
+from roughcontact.solver.control import Specification, State, Status, Tangent
 from roughcontact.solver.direct import Cells, press_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
@@ -69,7 +69,7 @@ class ActiveSet:
         require_numbers(self)
         whole(self.max_steps, "max_steps")
 
-    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+    def run(self, operator: Operator, separation: Array, spec: Specification, initial: Array) -> State:
         """Solve for the pressure.
 
         Parameters
@@ -78,7 +78,7 @@ class ActiveSet:
             Displacement [m] from pressure [Pa].
         separation : array, shape ``operator.grid.shape``
             Undeformed gap at first touch [m], infinite where nothing was measured.
-        terms : Terms
+        spec : Specification
             Prescribed force or depth, tolerance and hardness.
         initial : array, shape ``operator.grid.shape``
             Pressure to start from [Pa]; zeros will do.
@@ -95,48 +95,50 @@ class ActiveSet:
         >>> grid = rc.Grid((32, 32), 1e-6)
         >>> gap = -rc.shapes.paraboloid(grid, radius=1e-4).heights
         >>> problem = rc.ContactProblem(gap - gap.min(), rc.half_space(grid, 1e9), rc.Force(1e-3))
-        >>> state = rc.ActiveSet().run(problem.operator, problem.separation, problem.terms, np.zeros(grid.shape))
+        >>> state = rc.ActiveSet().run(problem.operator, problem.separation, problem.spec, np.zeros(grid.shape))
         >>> state.status.converged, f"{state.depth * 1e9:.0f} nm"
         (True, '175 nm')
         """
-        if terms.plastic:
-            return self._run_plastic(operator, separation, terms, initial)
-        conditions = Optimality.of(operator, terms, separation)
+        if spec.plastic:
+            return self._run_plastic(operator, separation, spec, initial)
+        conditions = Optimality.of(operator, spec, separation)
         start = conditions.feasible_start(separation, initial)  # A1
         outer = self._outer(operator, separation, conditions, start)
         del initial, start  # fields are large: the outer iteration alone holds its pressure
         state = outer.run()
         if state.status.converged:
             return state
-        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, state.pressure)
+        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, spec, state.pressure)
         return replace(rest, steps=rest.steps + state.steps)
 
-    def _run_plastic(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+    def _run_plastic(
+        self, operator: Operator, separation: Array, spec: Specification, initial: Array
+    ) -> State:
         """Solve under a hardness, from the elastic answer.
 
         Where there is none at the depth that is prescribed, from the one at the largest depth.
         """
-        conditions = Optimality.of(operator, terms, separation)
+        conditions = Optimality.of(operator, spec, separation)
         measure, xp = conditions.measure, conditions.measure.xp
-        control = elastic_control(operator, separation, terms.control, xp)
-        unlimited = replace(terms, control=control, hardness=math.inf)
+        control = elastic_control(operator, separation, spec.control, xp)
+        unlimited = replace(spec, control=control, hardness=math.inf)
         elastic = self.run(operator, separation, unlimited, initial)
-        if control == terms.control and bool(xp.all(elastic.pressure <= terms.hardness)):
+        if control == spec.control and bool(xp.all(elastic.pressure <= spec.hardness)):
             return elastic
-        excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
-        start, steps = project(measure, elastic.pressure, separation, terms), elastic.steps
-        uniform = isinstance(terms.hardness, int | float)  # inner solves take one upper bound for all cells
+        excess = xp.where(elastic.pressure > spec.hardness, elastic.pressure - spec.hardness, 0.0)
+        start, steps = project(measure, elastic.pressure, separation, spec), elastic.steps
+        uniform = isinstance(spec.hardness, int | float)  # inner solves take one upper bound for all cells
         if uniform and measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
             state = self._outer(operator, separation, conditions, start).run()
             if state.status.converged:
                 return replace(state, steps=steps + state.steps)
             start, steps = state.pressure, steps + state.steps
-        state = press_plastic(operator, separation, terms, start, self.max_steps)
+        state = press_plastic(operator, separation, spec, start, self.max_steps)
         return replace(state, steps=steps + state.steps)
 
     def _outer(self, operator: Operator, separation: Array, conditions: Optimality, p: Array) -> _Outer:
         # Factorisations are made on the host, and know no hardness.
-        direct = conditions.measure.on_host and not conditions.terms.plastic
+        direct = conditions.measure.on_host and not conditions.spec.plastic
         dense_limit = self.dense_limit if direct else 0
         return _Outer(operator, separation, conditions, self.max_steps, dense_limit, p)
 
@@ -182,7 +184,7 @@ class _Outer:
 
     def run(self) -> State:
         """Iterate A2 to A10: converged, or stagnated."""
-        tolerance = self.conditions.terms.tolerance
+        tolerance = self.conditions.spec.tolerance
         self.displacement, self.exact = first_product(self.operator, self.pressure)  # A2
         self.steps = 1
         while True:
@@ -209,21 +211,21 @@ class _Outer:
 
         The prediction and its system are gone when this returns, and before the projection: fields are large.
         """
-        terms = self.conditions.terms
+        spec = self.conditions.spec
         solved = self._solve(self._reduced(found))
-        if solved and terms.plastic:
+        if solved and spec.plastic:
             gap = self.displacement + self.separation
             self.pressure, self.displacement = (
-                project(self.conditions.measure, self.pressure, gap, terms),
+                project(self.conditions.measure, self.pressure, gap, spec),
                 None,
             )
         return solved
 
     def _reduced(self, found: Evaluation) -> Cells | InnerSystem:
         """Return the problem on the predicted free set: its cells, if they are solved directly, or a system for B."""
-        operator, conditions, terms = self.operator, self.conditions, self.conditions.terms
+        operator, conditions, spec = self.operator, self.conditions, self.conditions.spec
         iterate = Iterate(self.pressure, self.displacement, self.separation)
-        allowed = 0.5 * terms.tolerance * found.scale
+        allowed = 0.5 * spec.tolerance * found.scale
         predicted = conditions.predict_free_set(  # A6
             iterate, depth=found.depth, allowed=allowed, first=self.first
         )
@@ -232,13 +234,13 @@ class _Outer:
         rough = predicted.quality is not Quality.GOOD and self._rough_steps_pay()
         if rough:
             self.dense_limit = min(self.dense_limit, tuning.DIRECT_ROUGHLY)
-        pays = factorisation_pays(operator, predicted.count, self.dense_limit, terms.tolerance)
+        pays = factorisation_pays(operator, predicted.count, self.dense_limit, spec.tolerance)
         direct = pays and not rough
         if direct and predicted.quality is Quality.BAD:
             limit = tuning.SCREENING_RESIDUAL * found.residual * found.scale
             predicted = _screened(operator, iterate, conditions, predicted, limit)
         if predicted.count == math.prod(predicted.free.shape) and is_semidefinite(operator):
-            if terms.depth is None:
+            if spec.depth is None:
                 direct = False  # the matrix is singular
             else:
                 predicted = _all_but_one(predicted, self.pressure, conditions.measure.xp)
@@ -251,21 +253,21 @@ class _Outer:
             FullGrid(operator) if stuck else inner_operator_on(operator, predicted.support, self.inner)
         )
         factor = max(inner.contraction, tuning.SCREENING_RESIDUAL if rough else 0.0)
-        limit = found.scale * max(tuning.INNER_TOLERANCE * terms.tolerance, factor * found.residual)
+        limit = found.scale * max(tuning.INNER_TOLERANCE * spec.tolerance, factor * found.residual)
         return inner_system(inner, iterate, conditions, predicted.free, limit=limit)
 
     def _solve(self, reduced: Cells | InnerSystem) -> bool:
         """Solve a reduced problem: few cells directly (A8), more by algorithm B (A9), none by zero pressure."""
-        conditions, terms, shape = self.conditions, self.conditions.terms, self.pressure.shape
+        conditions, spec, shape = self.conditions, self.conditions.spec, self.pressure.shape
         if isinstance(reduced, InnerSystem):
-            if not terms.plastic:
+            if not spec.plastic:
                 self.displacement = None  # the system has what it needs of it
             left = self.max_steps - self.steps
             self.pressure, steps = inner_solve(reduced, conditions, max_steps=left)
             self.tangent, self.steps = None, self.steps + steps
         elif len(reduced):
             try:
-                solved = press_cells(self.operator, self.separation, terms.control, reduced)
+                solved = press_cells(self.operator, self.separation, spec.control, reduced)
             except np.linalg.LinAlgError:  # not definite to working precision: the next round iterates
                 self.dense_limit = 0
                 return True
@@ -274,7 +276,7 @@ class _Outer:
             self.tangent = Tangent(prolong(solved.tangent, solved.cells, shape), solved.error)
         else:
             xp = self.conditions.measure.xp
-            if terms.plastic and bool(xp.any(self.pressure >= terms.hardness)):
+            if spec.plastic and bool(xp.any(self.pressure >= spec.hardness)):
                 return False
             # The depth is too small for this grid.
             self.pressure, self.displacement = xp.zeros_like(self.pressure), xp.zeros_like(self.pressure)
@@ -282,7 +284,7 @@ class _Outer:
 
     def _rough_steps_pay(self) -> bool:
         """Whether some tens of steps in machine code cost less than a matrix of many cells and its factorisation."""
-        operator, depth = self.operator, self.conditions.terms.depth
+        operator, depth = self.operator, self.conditions.spec.depth
         few = operator.grid.size <= tuning.SCREENING_GRID and loader.is_available()
         if not few or (depth is not None and is_semidefinite(operator)):
             return False

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from roughcontact.kernels.planes import Extremes
 
 __all__ = [
-    *("Control", "Depth", "Force", "Solver", "Start", "State", "Status", "Tangent", "Terms"),
+    *("Control", "Depth", "Force", "Solver", "Start", "State", "Status", "Tangent", "Specification"),
     "checked_tolerance",
 ]
 
@@ -84,7 +84,7 @@ Control = Force | Depth
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class Specification:
     """What is asked of a solver, whatever the bodies.
 
     Parameters
@@ -187,19 +187,19 @@ _MESSAGES = {
 
 @dataclass(slots=True, eq=False)
 class Start:
-    """Where a solve begins: a pressure [Pa], which is handed over, and a depth [m].
+    """Where a solve begins: a pressure [Pa] and a depth [m]; it owns the pressure until that is moved to the solve.
 
-    Planes are large: whoever takes the pressure is the only one to hold it, and lets go of it when there is another.
+    Fields are large: one that has been replaced is held by nobody, so that its memory is free.
     """
 
-    pressure: Any  # an array, until it is taken
+    pressure: Any  # an array; None once it is moved
     depth: float
 
-    def take(self) -> Array:
-        """Return the pressure; the next one to ask gets none."""
-        taken: Array
-        taken, self.pressure = self.pressure, None
-        return taken
+    def move(self) -> Array:
+        """Return the pressure, which the caller owns from now on."""
+        moved: Array
+        moved, self.pressure = self.pressure, None
+        return moved
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -230,6 +230,6 @@ class State:
 class Solver(Protocol):
     """Frozen settings with one method; everything that changes during a run stays inside the run."""
 
-    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-        """Solve for the pressure from an `initial` one, on the given terms."""
+    def run(self, operator: Operator, separation: Array, spec: Specification, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given spec."""
         ...

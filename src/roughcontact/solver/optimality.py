@@ -18,7 +18,7 @@ from roughcontact.halfspace.operators.operator import Operator, self_influence
 from roughcontact.kernels.planes import Extremes
 from roughcontact.slabs.passes import Passes, passes_over
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Force, Terms
+from roughcontact.solver.control import Force, Specification
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 from roughcontact.validation import Array, Mask
@@ -110,7 +110,7 @@ class Optimality:
 
     Parameters
     ----------
-    terms : Terms
+    spec : Specification
     measure : Measure
         It carries the array library.
     self_influence : float
@@ -119,16 +119,16 @@ class Optimality:
         Over the fields, in machine code.
     """
 
-    terms: Terms
+    spec: Specification
     measure: Measure
     self_influence: float
     passes: Passes | None = None
 
     @classmethod
-    def of(cls, operator: Operator, terms: Terms, separation: Array) -> Optimality:
+    def of(cls, operator: Operator, spec: Specification, separation: Array) -> Optimality:
         """Return the conditions for an operator and what is asked, on fields like the separation of the bodies."""
         measure = Measure(operator.weights, namespace(separation))
-        return cls(terms, measure, self_influence(operator), passes_over(separation))
+        return cls(spec, measure, self_influence(operator), passes_over(separation))
 
     def feasible_start(self, separation: Array, initial: Array) -> Array:
         """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
@@ -136,7 +136,7 @@ class Optimality:
         Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
         them alone by the depth.
         """
-        measure, passes, control = self.measure, self.passes, self.terms.control
+        measure, passes, control = self.measure, self.passes, self.spec.control
         if passes is not None and not measure.varies and passes.fit(initial, separation):
             total = float(measure.weights) * passes.positive_total(initial, separation)
             if total > 0:
@@ -154,13 +154,13 @@ class Optimality:
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
-        terms, measure, passes = self.terms, self.measure, self._passes_for(iterate)
+        spec, measure, passes = self.spec, self.measure, self._passes_for(iterate)
         if passes is not None and not measure.varies:
             return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
-        between = (pressure > 0) & (pressure < terms.hardness)
-        depth = force_multiplier(measure, gap, pressure, between) if terms.depth is None else terms.depth
+        between = (pressure > 0) & (pressure < spec.hardness)
+        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth
         gap -= depth
         scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
@@ -172,14 +172,14 @@ class Optimality:
         is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It measures the error of
         the algebra, not that of the grid.
         """
-        xp, hardness = self.measure.xp, self.terms.hardness
+        xp, hardness = self.measure.xp, self.spec.hardness
         # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
         strongest = float(xp.max(pressure))
         limited = bool(xp.all(pressure <= hardness))
         if not (float(xp.min(pressure)) >= 0 and limited and strongest < math.inf):
             return math.inf
         open_under_pressure = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
-        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.terms.plastic else gap))
+        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.spec.plastic else gap))
         scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return self.relative(max(-lowest, open_under_pressure), scale, strongest)
 
@@ -194,7 +194,7 @@ class Optimality:
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        floor = UNITS * self.self_influence * strongest if isinstance(self.terms.control, Force) else 0.0
+        floor = UNITS * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
         return min(relative, UNITS) if violation <= floor else relative
 
     def predict_free_set(
@@ -206,17 +206,17 @@ class Optimality:
         another grid or load: cells with ``A_ii p < g`` are left out, since one projected step of such a cell alone
         leaves no pressure on it.
         """
-        (pressure, displacement, separation), terms = iterate, self.terms
+        (pressure, displacement, separation), spec = iterate, self.spec
         a_ii, passes = self.self_influence if first else math.inf, self._passes_for(iterate)
         if passes is not None:
-            free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, own=a_ii)
+            free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, a_ii=a_ii)
             support = free | (pressure > 0) if dropped else free
         else:
             xp, carrying = self.measure.xp, pressure > 0
             gap = displacement + separation - depth
             free, dropped = carrying | (gap < -allowed), 0
-            if terms.plastic:
-                upper = pressure >= terms.hardness
+            if spec.plastic:
+                upper = pressure >= spec.hardness
                 free = (free & ~upper) | (upper & (gap > allowed))
             if first:
                 tensile = free & (pressure * a_ii < gap)
@@ -235,17 +235,17 @@ class Optimality:
 
     def _passes_for(self, iterate: Iterate) -> Passes | None:
         """Return the passes where they take the fields as they lie in memory; they know no hardness."""
-        passes = None if self.terms.plastic else self.passes
+        passes = None if self.spec.plastic else self.passes
         return passes if passes is not None and passes.fit(*iterate) else None
 
     def _evaluate_in_one_pass(self, iterate: Iterate, passes: Passes) -> Evaluation:
-        seen, depth = passes.extremes(*iterate), self.terms.depth
-        if seen is None or (not seen.count and depth is None):
+        extremes, depth = passes.extremes(*iterate), self.spec.depth
+        if extremes is None or (not extremes.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:
-            depth = seen.level / seen.count
+            depth = extremes.level / extremes.count
         residual = math.inf
-        if seen.weakest >= 0:
-            violation = max(depth - seen.lowest, seen.highest - depth)
-            residual = self.relative(violation, seen.displacement, seen.strongest)
-        return Evaluation(depth, residual, seen.displacement, seen)
+        if extremes.weakest >= 0:
+            violation = max(depth - extremes.lowest, extremes.highest - depth)
+            residual = self.relative(violation, extremes.displacement, extremes.strongest)
+        return Evaluation(depth, residual, extremes.displacement, extremes)
