@@ -40,7 +40,7 @@ def steps(number: int) -> bool:
     found = []
     for finer in STEPS:
         up = np.linspace(-10 * adhesion.range, deep, 10 * finer + 1)
-        path = list(rc.loading_path(surface, 1.0, depths=np.r_[up, up[-2::-1]], adhesion=adhesion))
+        path = list(rc.adhesive_path(surface, 1.0, adhesion, depths=np.r_[up, up[-2::-1]]))
         jumps = [jump for state in path for jump in state.jumps]
         found.append(([state.force for state in path][::finer], jumps, sum(state.products for state in path)))
     forces = np.array([one[0] for one in found])
@@ -80,8 +80,8 @@ def approach(number: int) -> tuple[str, int, float]:
         adhesion = sticky(rng.uniform(1.5, 2.5))
         depth *= float(body.heights.max() - body.heights.mean())
     far = -40 * adhesion.range
-    *_, end = rc.loading_path(body, modulus, depths=[far, depth], adhesion=adhesion)
-    once = rc.press(body, modulus, depth=depth, adhesion=adhesion)
+    *_, end = rc.adhesive_path(body, modulus, adhesion, depths=[far, depth])
+    once = rc.adhesive_state(body, modulus, adhesion, depth=depth)
     return kind, len(end.jumps), float(np.abs(once.gap - end.gap).max()) / adhesion.range
 
 
@@ -108,10 +108,10 @@ def random_problem(number: int) -> list[rc.AdhesiveState]:
     mean = float(surface.heights.max() - surface.heights.mean())
     if rng.integers(2):
         depths = rng.uniform(-3 * adhesion.range, 0.9 * mean, 3)
-        return list(rc.loading_path(surface, 1.0, depths=depths, adhesion=adhesion))
+        return list(rc.adhesive_path(surface, 1.0, adhesion, depths=depths))
     forces = rng.normal(size=3) * 0.1 * slope * cells**2
     forces[0] = abs(forces[0])
-    return list(rc.loading_path(surface, 1.0, forces=forces, adhesion=adhesion))
+    return list(rc.adhesive_path(surface, 1.0, adhesion, forces=forces))
 
 
 def main() -> int:

@@ -98,10 +98,10 @@ def by_us(heights: Field, work: float, reach: float, _: float, mean: float) -> t
     import roughcontact as rc
 
     sticky, few = rc.Adhesion(work, reach), rc.Grid((8, 8), 1.0, True)
-    rc.press(rc.Surface(np.zeros((8, 8)), few), 1.0, depth=-reach, adhesion=sticky)  # imports what is used
+    rc.adhesive_state(rc.Surface(np.zeros((8, 8)), few), 1.0, sticky, depth=-reach)  # imports what is used
     surface = rc.Surface(heights, rc.Grid(heights.shape, 1.0, True))
     start = time.perf_counter()
-    state = rc.press(surface, 1.0, depth=float(heights.max() - heights.mean()) - mean, adhesion=sticky)
+    state = rc.adhesive_state(surface, 1.0, sticky, depth=float(heights.max() - heights.mean()) - mean)
     seconds = time.perf_counter() - start
     return state.gap, seconds, f"{state.products} products; {state.status.value}"
 

@@ -1,7 +1,7 @@
 """Laws of adhesion against the theories of a sphere, as the grid gets finer.
 
     python benchmarks/adhesive_laws.py [--rings 120 240 480] [--numbers 0.01 0.1 0.5 1 2] [--cells 64 128]
-        [--only dugdale | plane | sharp]
+        [--only dugdale | plane | detachment]
 
 Dugdale's law on rings against Maugis' equations: relative error of the pull-off force under a given force, of contact
 radius and depth without load, and the largest error of the force on the curve of stable states at given depths over
@@ -11,9 +11,9 @@ The contact radius is where the gap, which grows as the distance from the edge t
 The same on planes: the contact radius without load, from the area, and the largest error of the force from there to
 the depth of the pull-off, over the pull-off force.
 
-The sharp law against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over positions of the
-sphere within a cell), from a contact larger than that at the pull-off; the same from contacts of other sizes; a flat
-disc against Kendall, and square punches along the rows and turned.
+Detachment without a range against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over
+positions of the sphere within a cell), from a contact larger than that at the pull-off; the same from contacts of other
+sizes; a flat disc against Kendall, and square punches along the rows and turned.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def row(number: float, rings: int) -> None:
     adhesion = rc.Adhesion(1.0, 1 / theory.strength, law="dugdale")
     began = time.perf_counter()
     pull = theory.pull_off_force
-    free, off = rc.loading_path(profile, 1.0, forces=[0.0, -1.2 * pull], adhesion=adhesion)
+    free, off = rc.adhesive_path(profile, 1.0, adhesion, forces=[0.0, -1.2 * pull])
     jumps = [jump for jump in off.jumps if not math.isfinite(jump.lost)]
     radius = unloaded(theory)
     # Depths of stable states: from the smallest depth of an equilibrium up to twice the radius without load.
@@ -79,7 +79,7 @@ def row(number: float, rings: int) -> None:
     depths = theory.depth(radii)
     last = int(np.argmin(depths))
     chosen = np.linspace(0, max(1, int(0.98 * last)), POINTS).astype(int)
-    states = list(rc.loading_path(profile, 1.0, depths=depths[chosen] + tip, adhesion=adhesion))
+    states = list(rc.adhesive_path(profile, 1.0, adhesion, depths=depths[chosen] + tip))
     events = [jump for state in states[1:] for jump in state.jumps]
     curve = max(
         abs(state.force - float(theory.force(radii[k]))) for state, k in zip(states, chosen, strict=True)
@@ -106,7 +106,7 @@ def plane(number: float, cells: int) -> None:
     pull_off = int(np.argmin(theory.force(radii)))
     chosen = np.linspace(0, pull_off, 6).astype(int)
     depths = theory.depth(radii[chosen]) + float(surface.heights.max())
-    states = list(rc.loading_path(surface, 1.0, depths=depths, adhesion=adhesion))
+    states = list(rc.adhesive_path(surface, 1.0, adhesion, depths=depths))
     forces = np.array([state.force for state in states])
     errors = np.abs(forces - theory.force(radii[chosen])) / theory.pull_off_force
     found = math.sqrt(states[0].contact_area / math.pi)
@@ -119,9 +119,8 @@ def plane(number: float, cells: int) -> None:
 
 def pulled(surface: rc.Surface | rc.RadialProfile, depth: float) -> tuple[float, float, int]:
     """Return the largest tension of a stuck surface drawn back under given depths, the first, and its events."""
-    sharp = rc.Adhesion(1.0, law="sharp")
-    _, off = rc.loading_path(surface, 1.0, depths=[depth, -100.0], adhesion=sharp)
-    return -off.lowest_force, -off.detachments[0].force_before, len(off.detachments)
+    (off,) = rc.detachment_path(rc.press(surface, 1.0, depth=depth), 1.0)
+    return off.pull_off_force, -off.detachments[0].force_before, len(off.detachments)
 
 
 def sphere(cells: int, place: np.ndarray) -> rc.Surface:
@@ -139,7 +138,7 @@ def punch(cells: int, turned: float) -> rc.Surface:
     return rc.Surface(np.where(np.maximum(np.abs(first), np.abs(second)) <= 1, 0.0, math.nan), grid)
 
 
-def sharp() -> None:
+def detachment() -> None:
     print("Johnson, Kendall and Roberts: cells in the radius at the pull-off, error, scatter")
     jkr, radius = 1.5 * math.pi, math.cbrt(9 * math.pi / 8)
     for rings in (50, 100, 200, 400):
@@ -180,10 +179,10 @@ def main() -> int:
     parser.add_argument("--rings", type=int, nargs="+", default=[120, 240, 480])
     parser.add_argument("--numbers", type=float, nargs="+", default=[0.01, 0.1, 0.5, 1.0, 2.0])
     parser.add_argument("--cells", type=int, nargs="+", default=[64, 128], help="of planes")
-    parser.add_argument("--only", choices=["dugdale", "plane", "sharp"])
+    parser.add_argument("--only", choices=["dugdale", "plane", "detachment"])
     options = parser.parse_args()
-    if options.only in (None, "sharp"):
-        sharp()
+    if options.only in (None, "detachment"):
+        detachment()
     if options.only in (None, "plane"):
         print("lambda  cells  radius    force    residual")
         for cells in options.cells:

@@ -67,7 +67,7 @@ def main():
         f"mean gap {plain.mean_gap * 1e9:.2f} nm"
     )
     shares = np.array([0, 0.5, 1, 0.5, 0])
-    states = rc.loading_path(surface, MODULUS, forces=shares * force, adhesion=adhesion)
+    states = rc.adhesive_path(surface, MODULUS, adhesion, forces=shares * force)
     for share, state in zip(shares, states, strict=True):
         lost = math.fsum(jump.lost for jump in state.jumps)
         print(

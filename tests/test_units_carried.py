@@ -33,6 +33,7 @@ from test_bad_input import (
 
 U = pint.UnitRegistry()
 SOFT = rc.RadialProfile(-(rc.RadialGrid.uniform(40, 6e-7).radii ** 2) / 2e-5, rc.RadialGrid.uniform(40, 6e-7))
+STICKING = {"depth": 0.0, "force": 1e-6, "pressure": 1e3, "mean_gap": 2e-7}
 STICKY = rc.Adhesion(work=10e-3, range=4e-9)
 STRETCHED = rc.StretchedSpectrum(LAW, 2.0)
 DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
@@ -93,22 +94,27 @@ MORE = [
     (rc.press, {"surface": CUT, "modulus": 1e9, "depth": 1e-8}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "pressure": 1e6}),
     (rc.press, {"surface": SCAN, "modulus": 1e9, "force": 1.0, "operator": LINE_OPERATOR}),
-    (rc.press, {"surface": ROUGH, "modulus": 1e8, "mean_gap": 2e-7, "adhesion": rc.Adhesion(1e-4, 5e-8)}),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "forces": np.array([1e-3, 2e-3])}),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "depths": [1e-8, 2e-8], "hardness": 1e9}),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "pressures": [1e6, 2e6]}),
-    (rc.loading_path, {"surface": ROUGH, "modulus": 1e8, "mean_gaps": [2e-7], "adhesion": rc.Adhesion(1e-4, 5e-8)}),
     (rc.loading_curve, {"surface": CUT, "modulus": 1e9, "forces": [1e-3, 2e-3], "hardness": 1e9}),
     (rc.loading_curve, {"surface": CUT, "modulus": 1e9, "depths": [1e-8, 2e-8]}),
     (rc.loading_curve, {"surface": CUT, "modulus": 1e9, "pressures": [1e6, 2e6]}),
-    (rc.loading_curve, {"surface": SOFT, "modulus": 1e8, "depths": [0.0, 1e-8], "adhesion": STICKY}),
     (rc.loading_loop, {"surface": CUT, "modulus": 1e9, "forces": [1e-3, 2e-3], "hardness": 1e8}),
     (rc.loading_loop, {"surface": CUT, "modulus": 1e9, "pressures": [1e6, 2e6], "hardness": 1e8}),
     (rc.load_range, {"surface": CUT, "modulus": 1e9, "count": 5, "hardness": 1e8}),
     (rc.memory_needed, {"surface": CUT, "modulus": 1e9, "force": 1e-3}),
     (rc.memory_needed, {"surface": CUT, "modulus": 1e9, "depth": 1e-8}),
     (rc.memory_needed, {"surface": CUT, "modulus": 1e9, "pressure": 1e6}),
+    *((rc.adhesive_state, {"surface": ROUGH, "modulus": 1e8, "adhesion": rc.Adhesion(1e-4, 5e-8), name: value})
+      for name, value in STICKING.items()),
+    *((function, {"surface": ROUGH, "modulus": 1e8, "adhesion": rc.Adhesion(1e-4, 5e-8), f"{name}s": [value]})
+      for function in (rc.adhesive_path, rc.adhesive_curve) for name, value in STICKING.items()),
     (rc.adhesive_loop, {"surface": SOFT, "modulus": 1e8, "adhesion": STICKY, "depth": 1e-8, "points": 5}),
+    (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
+    (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
+    (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
+    (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
     (rc.below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),

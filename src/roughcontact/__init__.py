@@ -19,12 +19,23 @@ if TYPE_CHECKING or _LATE is None:
         theory as theory,
         thesis as thesis,
     )
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
+    from roughcontact.adhesion.adhesive_loading import (
+        adhesive_curve as adhesive_curve,
+        adhesive_path as adhesive_path,
+        adhesive_state as adhesive_state,
+    )
+    from roughcontact.adhesion.adhesive_loop import adhesive_loop as adhesive_loop
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
     from roughcontact.adhesion.detachment import Detachment as Detachment
+    from roughcontact.adhesion.detachment_curve import (
+        DetachmentCurve as DetachmentCurve,
+        detachment_curve as detachment_curve,
+    )
+    from roughcontact.adhesion.detachment_path import detachment_path as detachment_path
+    from roughcontact.adhesion.detachment_state import DetachmentState as DetachmentState
     from roughcontact.adhesion.quasi_static import Jump as Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop as AdhesiveLoop
-    from roughcontact.contact.adhesive_loop import adhesive_loop as adhesive_loop
     from roughcontact.contact.below import (
         StressPeak as StressPeak,
         below as below,
@@ -55,8 +66,9 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read, read_line as read_line
-    from roughcontact.files.read_adhesive_loop import read_adhesive_loop as read_adhesive_loop
+    from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
+    from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
     from roughcontact.files.save import write as write
     from roughcontact.friction.slide import load_cycle as load_cycle, slide as slide, slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve, slide_curve as slide_curve

@@ -1,7 +1,7 @@
 """How values are drawn: the door from what is computed to the room that draws.
 
-`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState` and `AdhesiveLoop` have these functions as their methods. What
-draws is imported when they are called.
+`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState`, `AdhesiveCurve`, `DetachmentState` and `DetachmentCurve` have
+these functions as their methods. What draws is imported when they are called.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.adhesion.detachment_state import DetachmentState
     from roughcontact.contact.compare import Law
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
@@ -24,8 +26,9 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("adhesive_loop_html", "curve_html", "loop_html", "solution_html", "state_html", "surface_html"),
-    *("plot_adhesive_loop", "plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"),
+    *("adhesive_curve_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
+    *("plot_adhesive_curve", "plot_curve", "plot_detachment", "plot_loop", "plot_solution", "plot_state"),
+    *("plot_surface", "surface_html"),
 ]
 
 
@@ -195,12 +198,12 @@ def plot_loop(
     return draw[quantity](loop, ax)
 
 
-def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
+def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -> Axes:
     """Draw the pressure of surfaces that stick, tension in blue, the contact outlined; of a line or rings a curve.
 
     Parameters
     ----------
-    state : AdhesiveState
+    state : AdhesiveState or DetachmentState
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -212,21 +215,21 @@ def plot_state(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
     from roughcontact.plot.tension import tension_map, tension_profile
 
-    return tension_map(state, ax) if state.blank.operator.grid.ndim == 2 else tension_profile(state, ax)
+    return tension_map(state, ax) if state.contact.ndim == 2 else tension_profile(state, ax)
 
 
-def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+def plot_adhesive_curve(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -246,6 +249,33 @@ def plot_adhesive_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
     from roughcontact.plot.jumps import jump_loop
 
     return jump_loop(loop, ax)
+
+
+def plot_detachment(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
+    """Draw force against depth: a line through all detachments, and a mark at each load.
+
+    Parameters
+    ----------
+    curve : DetachmentCurve
+    ax : Axes, optional
+        Axes to draw on; without, those of a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> curve = rc.detachment_curve(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> curve.plot().get_ylabel()
+    'force [nN]'
+    """
+    from roughcontact.plot.detachment_plot import detachment_force
+
+    return detachment_force(curve, ax)
 
 
 def surface_html(surface: Surface) -> str | None:
@@ -276,15 +306,22 @@ def loop_html(loop: Loop) -> str:
     return notebook.of_loop(loop)
 
 
-def state_html(state: AdhesiveState) -> str:
+def state_html(state: AdhesiveState | DetachmentState) -> str:
     """Return a state of surfaces that stick as a notebook shows it."""
     from roughcontact.plot import notebook
 
     return notebook.of_state(state)
 
 
-def adhesive_loop_html(loop: AdhesiveLoop) -> str:
+def detachment_html(curve: DetachmentCurve) -> str:
+    """Return a curve of stuck surfaces that are drawn back as a notebook shows it."""
+    from roughcontact.plot import notebook
+
+    return notebook.of_detachment(curve)
+
+
+def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a path of surfaces that stick as a notebook shows it."""
     from roughcontact.plot import notebook
 
-    return notebook.of_adhesive_loop(loop)
+    return notebook.of_adhesive_curve(loop)

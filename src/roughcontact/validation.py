@@ -59,6 +59,7 @@ BODIES = {
     "Curve": "a Curve, as rc.loading_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
+    "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, grid), or a RadialProfile",
 }
 KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one

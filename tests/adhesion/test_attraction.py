@@ -44,7 +44,7 @@ def test_numbers_of_the_law():
         ((0.0, 1e-9), "zero everywhere"),
         ((0.05, 0.0), "range of the attraction"),
         ((0.05, "2nm"), "range must be one number"),
-        ((0.05, 2e-9, "jkr"), "one of 'exponential', 'dugdale', 'sharp', not 'jkr'"),
+        ((0.05, 2e-9, "jkr"), "one of 'exponential', 'dugdale', not 'jkr'"),
     ],
 )
 def test_what_is_no_law_is_refused(given, told):

@@ -67,7 +67,7 @@ def ball(number, rings):
 def pull_off_error(number, rings):
     theory, profile, adhesion = ball(number, rings)
     loads = [0.0, -1.1 * theory.pull_off_force]
-    _, off = rc.loading_path(profile, 1.0, forces=loads, adhesion=adhesion)
+    _, off = rc.adhesive_path(profile, 1.0, adhesion, forces=loads)
     return abs(-off.jumps[-1].force_before / theory.pull_off_force - 1)
 
 
@@ -83,7 +83,7 @@ def test_a_sphere_that_is_pulled_off_leaves_in_one_jump():
     theory, profile, adhesion = ball(5, 60)
     unresolved = rc.Adhesion(1.0, adhesion.range, "dugdale", allow_unresolved=True)
     loads = [0.0, -1.3 * theory.pull_off_force]
-    _, off = rc.loading_path(profile, 1.0, forces=loads, adhesion=unresolved)
+    _, off = rc.adhesive_path(profile, 1.0, unresolved, forces=loads)
     lost = np.array([jump.lost for jump in off.jumps])
     assert off.status is rc.Status.NO_CONTACT
     assert np.isinf(lost[-1])
@@ -98,7 +98,7 @@ def test_a_sphere_goes_back_on_the_way_it_came():
     theory, profile, adhesion = ball(0.5, 120)
     radii = np.linspace(1.6, 2.4, 9)
     depths = np.asarray(theory.depth(radii)) - profile.grid.radii[0] ** 2 / 2
-    first, *rest = rc.loading_path(profile, 1.0, depths=[*depths, *depths[-2::-1]], adhesion=adhesion)
+    first, *rest = rc.adhesive_path(profile, 1.0, adhesion, depths=[*depths, *depths[-2::-1]])
     states = [first, *rest]
     assert not any(state.jumps for state in rest)
     forces = np.array([state.force for state in states])
@@ -114,7 +114,7 @@ def test_on_a_plane_it_agrees_with_maugis_equations():
     adhesion = rc.Adhesion(1.0, 1 / theory.strength, "dugdale")
     radii = np.array([1.9, 1.7])
     for state, force in zip(
-        rc.loading_path(surface, 1.0, depths=np.asarray(theory.depth(radii)) - tip, adhesion=adhesion),
+        rc.adhesive_path(surface, 1.0, adhesion, depths=np.asarray(theory.depth(radii)) - tip),
         np.asarray(theory.force(radii)),
         strict=True,
     ):
@@ -130,7 +130,7 @@ def test_states_on_a_rough_surface_do_not_depend_on_the_step(periodic):
     deepest = 0.4 * float(surface.heights.max() - surface.heights.mean())
     up = np.linspace(-2 * adhesion.range, deepest, 25)
     found = [
-        list(rc.loading_path(surface, 1.0, depths=np.r_[way, way[-2::-1]], adhesion=adhesion))
+        list(rc.adhesive_path(surface, 1.0, adhesion, depths=np.r_[way, way[-2::-1]]))
         for way in (up[::4], up)
     ]
     forces = [np.array([state.force for state in states]) for states in found]
@@ -145,14 +145,14 @@ def test_an_attraction_that_no_cell_resolves_is_refused():
     grid = rc.Grid((16, 16), 1e-6)
     surface = rc.shapes.paraboloid(grid, 1e-5)
     with pytest.raises(ValueError, match="Irwin's length"):
-        rc.press(surface, 1e9, depth=1e-9, adhesion=rc.Adhesion(0.05, 2e-9, "dugdale"))
+        rc.adhesive_state(surface, 1e9, rc.Adhesion(0.05, 2e-9, "dugdale"), depth=1e-9)
 
 
 @pytest.mark.parametrize("law", ["exponential", "dugdale"])
 def test_without_work_it_is_contact_that_does_not_stick(law):
     surface = rough(24, periodic=False, slope=0.1, seed=3)
     plain = rc.press(surface, 1.0, depth=0.5)
-    sticking = rc.press(surface, 1.0, depth=0.5, adhesion=rc.Adhesion(1e-12, 0.3, law))
+    sticking = rc.adhesive_state(surface, 1.0, rc.Adhesion(1e-12, 0.3, law), depth=0.5)
     # The attraction, 3e-12 of the modulus on all cells, is 1e-9 of the force.
     assert sticking.force == pytest.approx(plain.force, rel=1e-8)
     assert (sticking.contact == plain.contact).all()

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.adhesive_branches import collect_states
+from roughcontact.adhesion.adhesive_curve import collect_states
 from roughcontact.contact.problem import separation_of
+from roughcontact.solver.loads import Loads
 from sticking import rough, sticky
 
 RINGS = rc.RadialGrid.uniform(30, radius=6e-7)
@@ -24,8 +25,8 @@ NAMES = (
 
 def test_a_curve_holds_the_numbers_of_its_path():
     depths = [-1.0, 0.2, 0.2, 0.4, 0.1, -1.0, 0.0]
-    curve = rc.loading_curve(PLANE, 1.0, depths=depths, adhesion=sticky(2.0))
-    states = list(rc.loading_path(PLANE, 1.0, depths=depths, adhesion=sticky(2.0)))
+    curve = rc.adhesive_curve(PLANE, 1.0, sticky(2.0), depths=depths)
+    states = list(rc.adhesive_path(PLANE, 1.0, sticky(2.0), depths=depths))
     for name in NAMES:
         np.testing.assert_allclose(
             getattr(curve, name), [getattr(state, name) for state in states], rtol=1e-12
@@ -39,8 +40,8 @@ def test_a_curve_holds_the_numbers_of_its_path():
 
 def test_jumps_know_the_point_that_they_led_to():
     depths = [-20e-9, 0.0, 10e-9, 0.0, -9e-9]
-    curve = rc.loading_curve(BALL, 1e8, depths=depths, adhesion=STRONG)
-    states = list(rc.loading_path(BALL, 1e8, depths=depths, adhesion=STRONG))
+    curve = rc.adhesive_curve(BALL, 1e8, STRONG, depths=depths)
+    states = list(rc.adhesive_path(BALL, 1e8, STRONG, depths=depths))
     assert [at for at, state in enumerate(states) for _ in state.jumps] == list(curve.jumped)
     assert {1, 4} <= set(curve.jumped)
     for jump, at in zip(curve.jumps, curve.jumped, strict=True):
@@ -49,7 +50,7 @@ def test_jumps_know_the_point_that_they_led_to():
 
 
 def test_a_curve_under_forces_ends_where_they_pull_the_bodies_off():
-    curve = rc.loading_curve(BALL, 1e8, forces=[0.0, 4e-7, -1e-6, 0.0], adhesion=STRONG)
+    curve = rc.adhesive_curve(BALL, 1e8, STRONG, forces=[0.0, 4e-7, -1e-6, 0.0])
     assert curve.control == "force"
     assert curve.approach.tolist() == [True, True, False, True]
     assert np.isneginf(curve.depth).tolist() == [False, False, True, False]
@@ -61,67 +62,69 @@ def test_a_curve_under_forces_ends_where_they_pull_the_bodies_off():
 def test_a_mean_gap_is_the_mean_separation_less_the_depth():
     mean = separation_of(PLANE).mean()
     gaps = [0.9 * mean, 0.7 * mean, 0.8 * mean]
-    curve = rc.loading_curve(PLANE, 1.0, mean_gaps=gaps, adhesion=sticky(2.0))
+    curve = rc.adhesive_curve(PLANE, 1.0, sticky(2.0), mean_gaps=gaps)
     np.testing.assert_allclose(curve.mean_gap, gaps, rtol=1e-12)
     assert curve.approach.tolist() == [True, True, False]
-    by_depth = rc.loading_curve(PLANE, 1.0, depths=mean - np.array(gaps), adhesion=sticky(2.0))
+    by_depth = rc.adhesive_curve(PLANE, 1.0, sticky(2.0), depths=mean - np.array(gaps))
     np.testing.assert_array_equal(curve.force, by_depth.force)
-    one = rc.press(PLANE, 1.0, mean_gap=gaps[1], adhesion=sticky(2.0))
+    one = rc.adhesive_state(PLANE, 1.0, sticky(2.0), mean_gap=gaps[1])
     assert one.force == pytest.approx(curve.force[1], rel=1e-8)
     assert one.mean_gap == pytest.approx(gaps[1], rel=1e-12)
+
+
+def test_a_nominal_pressure_is_a_force_over_the_area_of_the_grid():
+    forces = np.array([1.0, 2.0, -0.5])
+    curve = rc.adhesive_curve(PLANE, 1.0, sticky(2.0), pressures=forces / PLANE.grid.area)
+    by_force = rc.adhesive_curve(PLANE, 1.0, sticky(2.0), forces=forces)
+    assert (curve.control, curve.approach.tolist()) == ("force", [True, True, False])
+    np.testing.assert_array_equal(curve.depth, by_force.depth)  # the area is a power of two
+    one = rc.adhesive_state(PLANE, 1.0, sticky(2.0), pressure=1.0 / PLANE.grid.area)
+    assert one.depth == curve.depth[0]
 
 
 def test_a_mean_gap_is_refused_where_it_is_no_depth():
     law = sticky(2.0)
     with pytest.raises(ValueError, match="the body is not periodic: give depths or forces"):
-        rc.press(rough(16, periodic=False, slope=0.2, seed=1), 1.0, mean_gap=1.0, adhesion=law)
+        rc.adhesive_state(rough(16, periodic=False, slope=0.2, seed=1), 1.0, law, mean_gap=1.0)
     heights = PLANE.heights.copy()
     heights[3, 3] = np.nan
     with pytest.raises(ValueError, match="some cells are missing: give depths or forces"):
-        rc.press(rc.Surface(heights, PLANE.grid), 1.0, mean_gap=1.0, adhesion=law)
+        rc.adhesive_state(rc.Surface(heights, PLANE.grid), 1.0, law, mean_gap=1.0)
     with pytest.raises(ValueError, match="full contact or beyond it: give mean gaps above 0"):
-        rc.loading_path(PLANE, 1.0, mean_gaps=[0.5, 0.0], adhesion=law)
-    with pytest.raises(ValueError, match="with adhesion alone: give depths"):
-        rc.press(PLANE, 1.0, mean_gap=1.0)
-    with pytest.raises(ValueError, match="with adhesion alone: give depths"):
-        rc.loading_curve(PLANE, 1.0, mean_gaps=[1.0])
-    with pytest.raises(
-        ValueError, match="exactly one of depths, forces and mean_gaps, not depths and mean_gaps"
-    ):
-        rc.press(PLANE, 1.0, depth=0.1, mean_gap=1.0, adhesion=law)
+        rc.adhesive_path(PLANE, 1.0, law, mean_gaps=[0.5, 0.0])
+    with pytest.raises(ValueError, match=r"exactly one of .*, not depth and mean_gap"):
+        rc.adhesive_state(PLANE, 1.0, law, depth=0.1, mean_gap=1.0)
 
 
 def test_what_a_curve_that_sticks_does_not_take_is_refused():
     law = sticky(2.0)
-    with pytest.raises(ValueError, match="takes no pressures: give depths or forces"):
-        rc.loading_curve(PLANE, 1.0, pressures=[1.0], adhesion=law)
-    with pytest.raises(ValueError, match="takes no solver"):
-        rc.loading_curve(PLANE, 1.0, depths=[0.1], solver=rc.ActiveSet(), adhesion=law)
     with pytest.raises(ValueError, match="cannot begin under the tension -1"):
-        rc.loading_curve(PLANE, 1.0, forces=[-1.0], adhesion=law)
+        rc.adhesive_curve(PLANE, 1.0, law, forces=[-1.0])
+    with pytest.raises(ValueError, match=f"cannot begin under the tension {-PLANE.grid.area:g}"):
+        rc.adhesive_path(PLANE, 1.0, law, pressures=[-1.0])
     line = rc.Surface(PLANE.heights[0], rc.Grid(16, 1.0))
     with pytest.raises(ValueError, match=r"springs .*mdr\.adhesion"):
-        rc.press(line, 1.0, depth=0.1, adhesion=law, operator=rc.foundation(line.grid, 1.0))
+        rc.adhesive_state(line, 1.0, law, depth=0.1, operator=rc.foundation(line.grid, 1.0))
 
 
 def test_loads_go_down_only_where_something_makes_a_difference():
-    with pytest.raises(ValueError, match="only under a hardness or with an adhesion"):
+    with pytest.raises(ValueError, match="only under a hardness and in adhesive_path"):
         rc.loading_curve(PLANE, 1.0, depths=[0.2, 0.1])
 
 
 def test_a_missed_tolerance_is_an_error_that_carries_the_state():
     with pytest.raises(rc.ConvergenceError, match=r"tolerance 1\.1e-14: The residual stopped") as caught:
-        rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG, tolerance=1.1e-14)
+        rc.adhesive_state(BALL, 1e8, STRONG, depth=0.0, tolerance=1.1e-14)
     state = caught.value.solution
     assert isinstance(state, rc.AdhesiveState)
     assert not state.status.converged
     assert state.residual < 1e-8
-    curve = rc.loading_curve(BALL, 1e8, depths=[0.0], adhesion=STRONG, tolerance=1.1e-14)
+    curve = rc.adhesive_curve(BALL, 1e8, STRONG, depths=[0.0], tolerance=1.1e-14)
     assert not curve.converged  # a curve marks it, and goes on
 
 
 def test_a_state_becomes_a_dataset_and_a_record():
-    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    state = rc.adhesive_state(PLANE, 1.0, sticky(2.0), depth=0.3)
     dataset, record = state.to_dataset(), state.to_record()
     for name in ("pressure", "gap", "displacement", "contact", "attracted"):
         np.testing.assert_array_equal(dataset[name], getattr(state, name))
@@ -138,7 +141,7 @@ def test_a_state_becomes_a_dataset_and_a_record():
 
 
 def test_cells_apart_by_no_more_than_the_range_are_attracted():
-    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    state = rc.adhesive_state(PLANE, 1.0, sticky(2.0), depth=0.3)
     reach = sticky(2.0).range
     within = ~state.contact & (state.gap <= reach)
     # There are cells of each kind, among them some between one range and two.
@@ -149,7 +152,7 @@ def test_cells_apart_by_no_more_than_the_range_are_attracted():
 
 
 def test_cells_in_contact_without_a_reaction_are_weakly_active():
-    state = rc.press(PLANE, 1.0, depth=0.3, adhesion=sticky(2.0))
+    state = rc.adhesive_state(PLANE, 1.0, sticky(2.0), depth=0.3)
     assert not state.weakly_active.any()
     held = tuple(np.argwhere(state.contact)[0])
     pressure = state.pressure.copy()
@@ -161,7 +164,7 @@ def test_cells_in_contact_without_a_reaction_are_weakly_active():
 def test_the_surface_of_a_state_is_read_back(tmp_path):
     small = rc.Surface(PLANE.heights * 1e-8, rc.Grid((16, 16), 1e-8, periodic=True))
     law = rc.Adhesion(work=10e-3, range=4e-9)
-    state = rc.press(small, 1e8, depth=2e-9, adhesion=law)
+    state = rc.adhesive_state(small, 1e8, law, depth=2e-9)
     rc.write(state, tmp_path / "state.nc")
     back = rc.read(tmp_path / "state.nc")
     np.testing.assert_array_equal(back.heights, small.heights)
@@ -171,15 +174,15 @@ def test_the_surface_of_a_state_is_read_back(tmp_path):
 
 
 def test_a_state_on_rings_has_the_mean_gap_over_their_areas():
-    state = rc.press(BALL, 1e8, depth=0.0, adhesion=STRONG)
+    state = rc.adhesive_state(BALL, 1e8, STRONG, depth=0.0)
     areas = RINGS.cell_area
     assert state.mean_gap == pytest.approx(float((state.gap * areas).sum() / areas.sum()), rel=1e-12)
     assert state.to_dataset()["pressure"].dims == ("r",)
 
 
 def test_a_path_that_ends_early_keeps_what_is_done():
-    path = rc.loading_path(PLANE, 1.0, depths=[0.1, 0.2, 0.1], adhesion=sticky(2.0))
-    some = collect_states((next(path) for _ in range(2)), np.array([0.1, 0.2, 0.1]))
+    path = rc.adhesive_path(PLANE, 1.0, sticky(2.0), depths=[0.1, 0.2, 0.1])
+    some = collect_states((next(path) for _ in range(2)), Loads("depth", np.array([0.1, 0.2, 0.1])))
     assert some.depth.tolist() == [0.1, 0.2]
     assert some.approach.tolist() == [True, True]
 
@@ -188,9 +191,9 @@ def test_a_path_that_ends_early_keeps_what_is_done():
 def test_the_cell_and_the_range_that_a_refusal_names_are_not_refused_again(cells):
     surface, law = rough(16, periodic=True, slope=0.2, seed=1), sticky(cells)
     with pytest.raises(ValueError, match="would trap every state") as caught:
-        rc.loading_path(surface, 1.0, depths=[0.0], adhesion=law)
+        rc.adhesive_path(surface, 1.0, law, depths=[0.0])
     found = re.search(r"at most (\S+) m or a range of at least (\S+) m", str(caught.value))
     cell, reach = map(float, found.groups())
-    rc.loading_path(surface, 1.0, depths=[0.0], adhesion=rc.Adhesion(law.work, reach))
+    rc.adhesive_path(surface, 1.0, rc.Adhesion(law.work, reach), depths=[0.0])
     fine = rc.Surface(surface.heights, rc.Grid((16, 16), cell, periodic=True))
-    rc.loading_path(fine, 1.0, depths=[0.0], adhesion=law)
+    rc.adhesive_path(fine, 1.0, law, depths=[0.0])

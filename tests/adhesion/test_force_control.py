@@ -18,16 +18,16 @@ BODIES = {
 
 
 def path(surface, adhesion, **loads):
-    return list(rc.loading_path(surface, 1.0, adhesion=adhesion, **loads))
+    return list(rc.adhesive_path(surface, 1.0, adhesion, **loads))
 
 
 @pytest.mark.parametrize("kind", BODIES)
 def test_the_depth_of_a_force_is_that_which_causes_it(kind):
     surface, adhesion = BODIES[kind], sticky(2.0)
     for fraction in (0.7, 0.85):
-        given = rc.press(surface, 1.0, depth=fraction * separation_of(surface).mean(), adhesion=adhesion)
+        given = rc.adhesive_state(surface, 1.0, adhesion, depth=fraction * separation_of(surface).mean())
         assert given.force > 0
-        found = rc.press(surface, 1.0, force=given.force, adhesion=adhesion)
+        found = rc.adhesive_state(surface, 1.0, adhesion, force=given.force)
         assert found.status.converged
         # Certified to 1e-8 of the largest traction; what is softest here answers some hundred times as much.
         assert found.force == pytest.approx(given.force, rel=1e-8)
@@ -40,7 +40,7 @@ def test_forces_up_and_down_do_not_depend_on_the_step(kind):
     surface, adhesion = BODIES[kind], sticky(2.0)
     most = (
         0.5
-        * rc.press(surface, 1.0, depth=0.4 * separation_of(surface).mean(), adhesion=adhesion).contact_area
+        * rc.adhesive_state(surface, 1.0, adhesion, depth=0.4 * separation_of(surface).mean()).contact_area
     )
     up = np.linspace(0.0, 0.05 * most + 1.0, 5)
     fine = np.linspace(0.0, 0.05 * most + 1.0, 17)
@@ -58,7 +58,7 @@ def test_a_sphere_is_pulled_off_by_the_largest_tension_of_its_curve():
     ball, adhesion = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings), rc.Adhesion(work=10e-3, range=8e-9)
     loop = rc.adhesive_loop(ball, 1e8, adhesion, depth=10e-9, points=20)
     forces = np.r_[0.0, -np.linspace(0.5, 1.2, 15) * loop.pull_off_force, 0.0]
-    states = list(rc.loading_path(ball, 1e8, forces=forces, adhesion=adhesion))
+    states = list(rc.adhesive_path(ball, 1e8, adhesion, forces=forces))
     jumps = [jump for state in states for jump in state.jumps]
     pulled = [jump for jump in jumps if math.isinf(jump.lost)]
     assert len(pulled) == 1
@@ -77,7 +77,7 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
     ball, adhesion = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings), rc.Adhesion(work=10e-3, range=8e-9)
 
     def last_jump():
-        curve = rc.loading_curve(ball, 1e8, forces=[0.0, -1e-6], adhesion=adhesion)
+        curve = rc.adhesive_curve(ball, 1e8, adhesion, forces=[0.0, -1e-6])
         assert curve.ambiguous is curve.jumps[-1].ambiguous
         return curve.jumps[-1]
 
@@ -101,7 +101,7 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
 @pytest.mark.parametrize("kind", BODIES)
 def test_stability_under_a_force_is_the_smallest_eigenvalue_with_the_depth_free(kind):
     surface, adhesion = rough(16, periodic=kind == "periodic", slope=0.3, seed=2), sticky(3.0)
-    state = rc.press(surface, 1.0, force=1.0, adhesion=adhesion)
+    state = rc.adhesive_state(surface, 1.0, adhesion, force=1.0)
     free = np.ones(state.blank.form.shape, bool)
     free[state.blank.form.inside] = ~state.contact
     curvature = np.zeros(free.shape)
@@ -110,10 +110,10 @@ def test_stability_under_a_force_is_the_smallest_eigenvalue_with_the_depth_free(
     wanted = values[0]
     assert wanted - 1e-9 <= state.stability <= wanted + 1e-3
     assert np.abs(values - state.stability).min() <= state.stability_residual <= 1e-3
-    at_depth = rc.press(surface, 1.0, depth=state.depth, adhesion=adhesion)
+    at_depth = rc.adhesive_state(surface, 1.0, adhesion, depth=state.depth)
     assert at_depth.stability >= state.stability - 1e-3  # with the depth held, fewer ways are open
 
 
 def test_a_path_cannot_begin_under_tension():
     with pytest.raises(ValueError, match="cannot begin under the tension -1"):
-        rc.press(BODIES["free"], 1.0, force=-1.0, adhesion=sticky(2.0))
+        rc.adhesive_state(BODIES["free"], 1.0, sticky(2.0), force=-1.0)

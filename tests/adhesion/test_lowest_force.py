@@ -13,7 +13,6 @@ from sticking import rough, sticky
 RINGS = rc.RadialGrid.uniform(45, radius=6e-7)
 BALL = rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS)
 SOFT = rc.Adhesion(work=10e-3, range=4e-9)
-SHARP = rc.Adhesion(work=10e-3, law="sharp")
 # Both are within the tolerance of the extremum.
 SAME = 2 * FORCE_TOLERANCE
 
@@ -52,7 +51,7 @@ def test_no_point_of_a_dense_path_has_a_lower_force(kind):
     near = np.linspace(coarse.depth[lowest] - step, coarse.depth[lowest] + step, 120)
     near = np.minimum(near, turn) if step < 0 else near
     depths = [coarse.depth[0], turn, *np.sort(near)[::-1]]
-    _, _, *states = rc.loading_path(surface, modulus, depths=depths, adhesion=adhesion)
+    _, _, *states = rc.adhesive_path(surface, modulus, adhesion, depths=depths)
     dense = -min(state.force for state in states)
     assert dense <= coarse.pull_off_force * (1 + FORCE_TOLERANCE)
     # Next to the extremum a point is at most half a step off, along a slope no steeper than beside it.
@@ -67,7 +66,7 @@ def test_two_points_give_the_pull_off_of_maugis(number):
     adhesion = rc.Adhesion(1.0, 1 / theory.strength, law="dugdale")
     rings = rc.RadialGrid.uniform(120, 1.1 * float(theory.zone_radius(1.7)))
     ball = rc.RadialProfile(-(rings.radii**2) / 2, rings)
-    curve = rc.loading_curve(ball, 1.0, depths=[1.5, -3 - 2 / theory.strength], adhesion=adhesion)
+    curve = rc.adhesive_curve(ball, 1.0, adhesion, depths=[1.5, -3 - 2 / theory.strength])
     assert -curve.force.min() < 0.9 * theory.pull_off_force
     # The edge of the attraction is known to a part of a ring; of second order in its width.
     assert curve.pull_off_force == pytest.approx(theory.pull_off_force, rel=2e-3)
@@ -75,31 +74,20 @@ def test_two_points_give_the_pull_off_of_maugis(number):
 
 def test_under_forces_it_is_the_tension_that_pulls_the_body_off():
     forces = [1e-7, -1e-7, -1e-6, 0.0]
-    curve = rc.loading_curve(BALL, 1e8, forces=forces, adhesion=SOFT)
+    curve = rc.adhesive_curve(BALL, 1e8, SOFT, forces=forces)
     [off] = [jump for jump in curve.jumps if jump.lost == math.inf]
     assert curve.pull_off_force == pytest.approx(-off.force_before, rel=1e-6)
     # A ball is pulled off by the largest tension of its curve under depths; 1e-8 of the largest force is the bracket.
     assert curve.pull_off_force == pytest.approx(
         loop("ball", 5).pull_off_force, rel=SAME + 1e-8 * 1e-6 / 5e-7
     )
-    held = rc.loading_curve(BALL, 1e8, forces=[1e-7, -1e-7, -3e-7], adhesion=SOFT)
+    held = rc.adhesive_curve(BALL, 1e8, SOFT, forces=[1e-7, -1e-7, -3e-7])
     assert held.pull_off_force == 3e-7
-
-
-def test_with_the_sharp_law_it_is_the_tension_before_the_event_where_it_is_largest():
-    few = rc.loading_curve(BALL, 1e8, depths=[20e-9, -20e-9], adhesion=SHARP)
-    _, off = rc.loading_path(BALL, 1e8, depths=[20e-9, -20e-9], adhesion=SHARP)
-    tensions = [-event.force_before for event in off.detachments]
-    assert few.pull_off_force == max(tensions)
-    assert max(tensions) > tensions[-1]  # the last ring comes off under less
-    assert off.lowest_force == -few.pull_off_force
-    by_force = rc.loading_curve(BALL, 1e8, forces=[1e-6, -1e-6], adhesion=SHARP)
-    assert by_force.pull_off_force == pytest.approx(few.pull_off_force, rel=1e-9)
 
 
 def test_each_retreat_has_its_own_and_an_approach_has_none():
     depths = [10e-9, -3e-9, 10e-9, 9e-9, 10e-9]
-    states = list(rc.loading_path(BALL, 1e8, depths=depths, adhesion=SOFT))
+    states = list(rc.adhesive_path(BALL, 1e8, SOFT, depths=depths))
     for at in (0, 2, 4):
         assert states[at].lowest_force == states[at].force
     # The force falls all the way down to the depth of -3 nm, where its slope is still positive.
@@ -107,18 +95,18 @@ def test_each_retreat_has_its_own_and_an_approach_has_none():
     assert states[1].lowest_force == pytest.approx(states[1].force, rel=1e-8)
     assert states[3].lowest_force == pytest.approx(states[3].force, rel=1e-8)
     assert states[3].lowest_force > states[1].lowest_force
-    curve = rc.loading_curve(BALL, 1e8, depths=depths, adhesion=SOFT)
+    curve = rc.adhesive_curve(BALL, 1e8, SOFT, depths=depths)
     assert curve.pull_off_force == -states[1].lowest_force
 
 
 def test_where_nothing_pulls_back_it_is_zero():
-    assert rc.loading_curve(BALL, 1e8, depths=[10e-9, 9e-9], adhesion=SOFT).pull_off_force == 0
-    assert rc.loading_curve(BALL, 1e8, depths=[-5e-9, 0.0], adhesion=SOFT).pull_off_force == 0
+    assert rc.adhesive_curve(BALL, 1e8, SOFT, depths=[10e-9, 9e-9]).pull_off_force == 0
+    assert rc.adhesive_curve(BALL, 1e8, SOFT, depths=[-5e-9, 0.0]).pull_off_force == 0
 
 
 def test_a_body_that_is_drawn_back_from_a_tension_begins_with_it():
     # At -6 nm the extremum of the ball has been passed: the tension only falls from there.
-    curve = rc.loading_curve(BALL, 1e8, depths=[5e-9, -6e-9, -6e-9, -12e-9], adhesion=SOFT)
-    last = rc.loading_curve(BALL, 1e8, depths=[-6e-9, -12e-9], adhesion=SOFT)
+    curve = rc.adhesive_curve(BALL, 1e8, SOFT, depths=[5e-9, -6e-9, -6e-9, -12e-9])
+    last = rc.adhesive_curve(BALL, 1e8, SOFT, depths=[-6e-9, -12e-9])
     assert curve.lowest_force[-1] == curve.lowest_force[1] < curve.force[1]
     assert last.pull_off_force == pytest.approx(-last.force[0], rel=1e-9)

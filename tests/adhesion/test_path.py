@@ -12,7 +12,7 @@ BRACKET = 1e-6  # of the range of depths, in which the end of a branch is found
 
 
 def path(surface, adhesion, depths, modulus=1.0, **settings):
-    return list(rc.loading_path(surface, modulus, depths=depths, adhesion=adhesion, **settings))
+    return list(rc.adhesive_path(surface, modulus, adhesion, depths=depths, **settings))
 
 
 def loop_depths(surface, steps):
@@ -180,23 +180,17 @@ def test_what_cannot_be_is_refused_at_once():
     surface, adhesion = rough(16, periodic=True, slope=0.2, seed=0), sticky(2.0)
     mean = separation_of(surface).mean()
     with pytest.raises(ValueError, match="full contact"):
-        rc.loading_path(surface, 1.0, adhesion=adhesion, depths=[mean])
+        rc.adhesive_path(surface, 1.0, adhesion, depths=[mean])
     with pytest.raises(ValueError, match="varies over 1 cells"):
-        rc.loading_path(surface, 1.0, adhesion=sticky(1.0), depths=[0.0])
+        rc.adhesive_path(surface, 1.0, sticky(1.0), depths=[0.0])
     with pytest.raises(ValueError, match="shape"):
-        rc.loading_path(surface, 1.0, adhesion=rc.Adhesion(np.full(3, 0.01), RANGE), depths=[0.0])
-    with pytest.raises(ValueError, match="an Adhesion is wanted"):
-        rc.loading_path(surface, 1.0, adhesion=0.05, depths=[0.0])
-    with pytest.raises(ValueError, match="takes no pressure"):
-        rc.press(surface, 1.0, pressure=1.0, adhesion=adhesion)
-    with pytest.raises(ValueError, match="takes no hardness"):
-        rc.loading_path(surface, 1.0, depths=[0.0], hardness=1.0, adhesion=adhesion)
-    with pytest.raises(ValueError, match="takes no flow"):
-        rc.loading_path(surface, 1.0, depths=[0.0], flow="raised", adhesion=adhesion)
-    with pytest.raises(ValueError, match="exactly one of depths, forces and mean_gaps"):
-        rc.loading_path(surface, 1.0, adhesion=adhesion)
-    with pytest.raises(ValueError, match="finite numbers"):
-        rc.loading_path(surface, 1.0, adhesion=adhesion, depths=[])
+        rc.adhesive_path(surface, 1.0, rc.Adhesion(np.full(3, 0.01), RANGE), depths=[0.0])
+    with pytest.raises(ValueError, match="must be an Adhesion, such as"):
+        rc.adhesive_path(surface, 1.0, 0.05, depths=[0.0])
+    with pytest.raises(ValueError, match="exactly one of depths, forces, pressures and mean_gaps"):
+        rc.adhesive_path(surface, 1.0, adhesion)
+    with pytest.raises(ValueError, match="at least one number in one row"):
+        rc.adhesive_path(surface, 1.0, adhesion, depths=[])
     with pytest.raises(ValueError, match="ten ranges"):
         rc.adhesive_loop(surface, 1.0, adhesion, depth=-9.0)
 
@@ -206,7 +200,7 @@ def test_an_unresolved_attraction_is_marked_in_every_answer():
     weak = sticky(1.0)
     trapped = rc.Adhesion(weak.work, weak.range, allow_unresolved=True)
     assert path(surface, trapped, [0.0])[0].unresolved
-    assert rc.press(surface, 1.0, depth=0.0, adhesion=trapped).unresolved
+    assert rc.adhesive_state(surface, 1.0, trapped, depth=0.0).unresolved
     assert not path(surface, sticky(2.0), [0.0])[0].unresolved
 
 

@@ -22,7 +22,7 @@ def sphere(tabor, rings):
 def pull_off(tabor, rings):
     ball, adhesion = sphere(tabor, rings)
     unit = math.cbrt((math.pi * WORK / (4 / 3 * MODULUS)) ** 2 * RADIUS)
-    curve = rc.loading_curve(ball, MODULUS, depths=np.array([0.5, -2.0]) * unit, adhesion=adhesion)
+    curve = rc.adhesive_curve(ball, MODULUS, adhesion, depths=np.array([0.5, -2.0]) * unit)
     return curve.pull_off_force / (math.pi * WORK * RADIUS)
 
 
@@ -61,7 +61,7 @@ def test_a_plane_agrees_with_rings():
     on_plane = rc.shapes.paraboloid(plane, RADIUS)
     tip = -float(on_plane.heights.max()) + ball.heights.max()  # depths count from the highest cells
     for depth in (-0.2 * unit, 0.5 * unit):
-        rings = rc.press(ball, MODULUS, depth=depth, adhesion=adhesion)
-        cells = rc.press(on_plane, MODULUS, depth=depth - tip, adhesion=adhesion)
+        rings = rc.adhesive_state(ball, MODULUS, adhesion, depth=depth)
+        cells = rc.adhesive_state(on_plane, MODULUS, adhesion, depth=depth - tip)
         # Of first order in the size of a cell over that of the contact.
         assert cells.force == pytest.approx(rings.force, abs=0.02 * math.pi * WORK * RADIUS)

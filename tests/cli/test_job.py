@@ -50,6 +50,7 @@ def third_of_four(monkeypatch):
         (["curve", "--json", "a.npz"], None),
         (["surface", "make", "a.npz"], None),
         (["surface", "info", "a.npz"], "'surface info'"),
+        (["adhesion", "press", "a.npz"], "'adhesion press'"),
         (["study", "run", "s.toml"], "'study run'"),
         (["serve"], "'serve'"),
         (["study", "--help"], None),

@@ -190,7 +190,7 @@ def test_dimensionless_numbers_do_not_depend_on_scale():
         ({"forces": [-1.0, 1.0]}, "force must be positive"),
         ({"forces": [[1.0, 2.0]]}, "one row"),
         ({"depths": [-1.0]}, "first touch"),
-        ({"forces": [1.0], "depths": [1.0]}, "force and depth"),
+        ({"forces": [1.0], "depths": [1.0]}, "forces and depths"),
     ],
 )
 def test_nonsense_is_refused_before_the_first_load(more, message):

@@ -154,7 +154,7 @@ def test_it_is_data_with_units_and_text(loop, tmp_path):
     ("given", "says"),
     [
         ({"forces": [2.0, 1.0]}, "must increase strictly"),
-        ({"forces": [1e-3], "pressures": [1e-3]}, "not both"),
+        ({"forces": [1e-3], "pressures": [1e-3]}, "exactly one of forces and pressures"),
         ({"hardness": None}, "needs a hardness"),
         ({"forces": []}, "at least one number"),
     ],

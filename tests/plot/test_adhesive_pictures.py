@@ -6,7 +6,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.adhesive_facts import adhesive_loop_facts, jump_facts
+from roughcontact.plot.adhesive_facts import adhesive_curve_facts, jump_facts
 from roughcontact.plot.engineering_units import written
 from sticking import rough, sticky
 
@@ -65,7 +65,7 @@ def test_the_contact_area_breaks_at_jumps(loop):
 
 
 def test_what_a_force_pulls_off_has_no_point(loop):
-    path = rc.loading_curve(BALL, 1e9, forces=[0.0, 4e-6, -1e-5], adhesion=STRONG)
+    path = rc.adhesive_curve(BALL, 1e9, STRONG, forces=[0.0, 4e-6, -1e-5])
     axes = path.plot(Figure().subplots())
     assert "then pulled off" in axes.get_title()
     assert "pulled off" in [text.get_text() for text in axes.texts]
@@ -78,7 +78,7 @@ def test_what_a_force_pulls_off_has_no_point(loop):
 
 @pytest.fixture(scope="module")
 def state():
-    return rc.press(rough(16, periodic=True, slope=0.2, seed=1), 1.0, depth=0.5, adhesion=sticky(2.0))
+    return rc.adhesive_state(rough(16, periodic=True, slope=0.2, seed=1), 1.0, sticky(2.0), depth=0.5)
 
 
 def test_a_map_has_zero_in_the_middle_and_outlines_the_contact(state):
@@ -99,7 +99,7 @@ def test_a_contact_is_outlined_where_it_is():
     grid = rc.Grid((12, 20), (3e-8, 2e-8))
     y, x = (along - along[at] for along, at in zip(grid.coordinates, (3, 13), strict=True))
     ball = rc.Surface(-(y[:, None] ** 2 + (x / 2) ** 2) / 2e-5, grid)
-    state = rc.press(ball, 1e8, depth=1e-9, adhesion=rc.Adhesion(0.01, 4e-9, allow_unresolved=True))
+    state = rc.adhesive_state(ball, 1e8, rc.Adhesion(0.01, 4e-9, allow_unresolved=True), depth=1e-9)
     axes = rc.plot.tension_map(state, Figure().subplots())
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [nm]", "y [nm]")
     [outline] = [each for each in axes.collections if isinstance(each, LineCollection)]
@@ -120,7 +120,7 @@ def test_a_contact_is_outlined_where_it_is():
 
 
 def test_a_profile_is_pressed_above_and_pulled_below_zero():
-    state = rc.press(BALL, 1e9, depth=5e-9, adhesion=STRONG)
+    state = rc.adhesive_state(BALL, 1e9, STRONG, depth=5e-9)
     axes = rc.plot.tension_profile(state, Figure().subplots())
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("r [nm]", "pressure, tension negative [MPa]")
     assert state.pressure.min() < 0 < state.pressure.max()
@@ -138,13 +138,13 @@ def test_missing_cells_are_left_out():
     surface = rough(16, periodic=False, slope=0.2, seed=1)
     heights = surface.heights.copy()
     heights[2:5, 3:9] = np.nan
-    state = rc.press(rc.Surface(heights, surface.grid), 1.0, depth=0.3, adhesion=sticky(2.0))
+    state = rc.adhesive_state(rc.Surface(heights, surface.grid), 1.0, sticky(2.0), depth=0.3)
     image = rc.plot.tension_map(state, Figure().subplots()).images[0]
     np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()), np.isnan(heights))
 
 
 def test_whole_figures_are_drawn(loop, state):
-    on_rings = rc.press(BALL, 1e9, depth=0.0, adhesion=STRONG)
+    on_rings = rc.adhesive_state(BALL, 1e9, STRONG, depth=0.0)
     for figure in (rc.plot.jump_figure(loop), rc.plot.state_figure(state), rc.plot.state_figure(on_rings)):
         figure.canvas.draw()
     assert "stability" in rc.plot.state_figure(state).axes[0].get_title()
@@ -152,7 +152,7 @@ def test_whole_figures_are_drawn(loop, state):
 
 
 def test_a_state_without_contact_is_drawn():
-    apart = rc.press(rough(16, periodic=True, slope=0.2, seed=1), 1.0, depth=-2.0, adhesion=sticky(2.0))
+    apart = rc.adhesive_state(rough(16, periodic=True, slope=0.2, seed=1), 1.0, sticky(2.0), depth=-2.0)
     assert not apart.contact.any()
     rc.plot.state_figure(apart).canvas.draw()
 
@@ -163,5 +163,50 @@ def test_facts_name_the_jumps_that_lost_most(loop):
     assert lines[0][0] == f"{len(many)} jumps"
     assert lines[-1][1] == f"{len(many) - 12} that lost less"
     assert jump_facts((), loop.geometry) == [("jumps", "none")]
-    facts = dict(adhesive_loop_facts(loop))
+    facts = dict(adhesive_curve_facts(loop))
     assert facts["pull-off force"] == written(loop.pull_off_force, "N", digits=4)
+
+
+def test_a_detachment_is_drawn_through_its_events():
+    """Two units, and a line on which the force falls between events and rises at them."""
+    pressed = rc.press(BALL, 1e9, depth=20e-9)
+    curve = rc.detachment_curve(pressed, 0.1, depths=[20e-9, 5e-9, -80e-9])
+    axes = curve.plot(Figure().subplots())
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [nm]", "force [µN]")
+    _, line, marks = (each.get_xydata() for each in axes.lines)
+    np.testing.assert_allclose(marks, np.stack([curve.depth * NM, curve.force * UN], 1))
+    events = curve.detachments
+    assert len(line) == 2 * len(events) + len(curve)
+    for event in events:
+        before = (event.depth * NM, event.force_before * UN)
+        at = int(np.argmin(np.abs(line - before).sum(axis=1)))
+        np.testing.assert_allclose(line[at], before)
+        np.testing.assert_allclose(line[at + 1], (event.depth_after * NM, event.force_after * UN))
+    assert (
+        axes.get_title() == f"pull-off force {written(curve.pull_off_force, 'N')}, {len(events)} detachments"
+    )
+    held = rc.detachment_curve(pressed, 0.1, depths=[5e-9])
+    assert "largest tension" in held.plot(Figure().subplots()).get_title()
+    small = rc.detachment_curve(rc.press(BALL, 1e9, depth=1e-9), 0.1)
+    assert "(preload too small)" in small.plot(Figure().subplots()).get_title()
+
+
+def test_a_body_that_a_force_pulls_off_leaves_the_line():
+    curve = rc.detachment_curve(rc.press(BALL, 1e9, force=1e-6), 0.1, forces=[0.0, -1e-3])
+    assert np.isneginf(curve.depth[-1])
+    assert all(np.isfinite(line.get_xydata()).all() for line in curve.plot(Figure().subplots()).lines[:2])
+
+
+def test_the_map_of_stuck_cells_is_theirs():
+    surface = rc.Surface(rough(24, periodic=False, slope=0.2, seed=0).heights[:16], rc.Grid((16, 24), 1.0))
+    (state,) = rc.detachment_path(rc.press(surface, 1.0, depth=0.5), 0.01, depths=[0.0])
+    axes = state.plot(Figure().subplots())
+    image = np.asarray(axes.images[0].get_array())
+    np.testing.assert_allclose(image, state.pressure * 1e3)  # in mPa
+    (edges,) = [each for each in axes.collections if isinstance(each, LineCollection)]
+    ringed = np.pad(state.contact, 1)
+    count = sum(int((np.diff(ringed.astype(int), axis=axis) != 0).sum()) for axis in (0, 1))
+    assert len(edges.get_segments()) == count > 0
+    title = rc.plot.state_figure(state).axes[0].get_title()
+    assert "stability" not in title
+    assert written(state.force, "N") in title

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.plot.facts import quantity
 
 MODULUS = 1e11
 
@@ -270,24 +271,38 @@ def test_a_notebook_shows_lines_and_rings(kind):
         shown(body)
 
 
-@pytest.mark.parametrize("law", ["exponential", "sharp"])
-def test_a_notebook_shows_surfaces_that_stick(law):
+def test_a_notebook_shows_surfaces_that_stick():
     rings = rc.RadialGrid.uniform(40, radius=6e-7)
     ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    sharp = law == "sharp"
-    adhesion = rc.Adhesion(work=10e-3, law=law) if sharp else rc.Adhesion(work=10e-3, range=4e-9)
+    adhesion = rc.Adhesion(work=10e-3, range=4e-9)
     depths = [10e-9, 0.0, -20e-9]
-    state = next(rc.loading_path(ball, 1e8, depths=depths, adhesion=adhesion))
+    state = next(rc.adhesive_path(ball, 1e8, adhesion, depths=depths))
     facts = dict(shown(state))
     assert facts["depth"] == "10 nm"
-    assert ("Irwin's length" in facts) is not sharp
-    loop = rc.loading_curve(ball, 1e8, depths=depths, adhesion=adhesion)
+    assert "Irwin's length" in facts
+    loop = rc.adhesive_curve(ball, 1e8, adhesion, depths=depths)
     rows = shown(loop)
     assert facts["adhesion"] in [row[1] for row in rows if row[0] == "adhesion"]
     (head,) = [row for row in rows if row[0] == "branch"]
     branches = ["approach" if way else "retreat" for way in loop.approach]
     assert [row[0] for row in rows[rows.index(head) + 1 :]] == branches
     assert any(row[1].startswith("out at") for row in rows if len(row) == 2), "the pull-off"
+
+
+def test_a_notebook_shows_a_detachment():
+    rings = rc.RadialGrid.uniform(40, radius=6e-7)
+    pressed = rc.press(rc.RadialProfile(-(rings.radii**2) / 2e-5, rings), 1e8, depth=10e-9)
+    held, off = rc.detachment_path(pressed, 10e-3, depths=[5e-9, -20e-9])
+    facts = dict(shown(held))
+    assert facts["depth"] == "5 nm"
+    assert facts["work of adhesion"] == "10 mJ/m²"
+    assert "note" not in facts
+    small = rc.detachment_curve(rc.press(pressed.problem.surface, 1e8, depth=2e-9), 10e-3)
+    rows = shown(rc.detachment_curve(pressed, 10e-3, depths=[5e-9, -20e-9]))
+    assert ["pull-off force", quantity("pull_off_force", off.pull_off_force)] in rows
+    assert len(rows[-1]) == 6, "a table of the loads"
+    assert [row[1] for row in shown(small) if row[0] == "note"] == list(small.notes)
+    assert small.preload_too_small
 
 
 def test_a_curve_becomes_a_table_with_a_row_a_load(curve):

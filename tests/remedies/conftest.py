@@ -27,7 +27,7 @@ def kept(tmp_path_factory):
     curve = rc.loading_curve(ROUGH, MODULUS, forces=[1e-5, 1e-4])
     for kind in (".nc", ".csv"):
         rc.write(curve, here / f"curve{kind}")
-    path = rc.loading_curve(ROUGH, MODULUS, depths=[1e-9, 2e-9], adhesion=rc.Adhesion(1e-3, 1e-7))
+    path = rc.adhesive_curve(ROUGH, MODULUS, rc.Adhesion(1e-3, 1e-7), depths=[1e-9, 2e-9])
     rc.write(path, here / "path.nc")
     (here / "taken").write_text("mine")
     return here

@@ -10,17 +10,26 @@ STEEL = rc.Solid(205e9, 0.29)
 PAIR = (STEEL, STEEL)
 FINE = heights(rc.Grid((64, 64), 1e-6))
 FAR = rc.Adhesion(1e-3, 1e-7)
-SHARP = rc.Adhesion(1e-3, law="sharp")
+WAVE = 1e-7 * np.cos(2 * np.pi * np.arange(84) / 84)
+EGGS = rc.Surface(WAVE[:, None] + WAVE, rc.Grid((84, 84), 1e-6, periodic=True))
 FULL = PERIODIC.heights.max() - PERIODIC.heights.mean()
 RISING, HIGH = np.geomspace(1e-5, 1e-3, 6), np.geomspace(1, 10, 5)
 
 
 def stuck(surface=ROUGH, adhesion=FAR, **named):
-    return rc.press(surface, MODULUS, adhesion=adhesion, **named)
+    return rc.adhesive_state(surface, MODULUS, adhesion, **named)
 
 
 def path(surface=ROUGH, adhesion=FAR, **named):
-    return list(rc.loading_path(surface, MODULUS, adhesion=adhesion, **named))
+    return list(rc.adhesive_path(surface, MODULUS, adhesion, **named))
+
+
+def flowed():
+    return rc.press(ROUGH, MODULUS, force=1e-4, hardness=2e7)
+
+
+def detached(solution=None, work=1e-3, **named):
+    return list(rc.detachment_path(solution or rc.press(ROUGH, MODULUS, depth=2e-8), work, **named))
 
 
 def pressed(force=1e-4, **named):
@@ -54,31 +63,14 @@ ADHESION = [
     ),
     row(
         lambda: rc.Adhesion(0.05, 2e-9, law="lennard-jones"),
-        "must be one of 'exponential', 'dugdale', 'sharp'",
+        "must be one of 'exponential', 'dugdale', not 'lennard-jones'",
         lambda: rc.Adhesion(0.05, 2e-9, law="exponential"),
         lambda: rc.Adhesion(0.05, 2e-9, law="dugdale"),
-        lambda: rc.Adhesion(0.05, law="sharp"),
-    ),
-    row(
-        lambda: rc.Adhesion(0.05, 2e-9, law="sharp"),
-        "the sharp law has no range: leave out 2e-09",
-        lambda: rc.Adhesion(0.05, law="sharp"),
     ),
     row(
         lambda: stuck(adhesion=0.05, force=1e-6),
-        "an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not 0.05",
+        "adhesion must be an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9), not 0.05",
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-6),
-    ),
-    row(
-        lambda: stuck(pressure=1.0),
-        "a contact that sticks takes no pressure: give depths or forces alone",
-        lambda: stuck(depth=1e-9),
-        lambda: stuck(force=1e-9),
-    ),
-    row(
-        lambda: stuck(force=1e-9, hardness=1e9),
-        "a contact that sticks takes no hardness: give depths or forces alone",
-        lambda: stuck(force=1e-9),
     ),
     row(
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9), force=1e-9),
@@ -105,16 +97,55 @@ ADHESION = [
     ),
     row(
         lambda: stuck(),
-        "give exactly one of depths, forces and mean_gaps, not none",
+        "give exactly one of depth, force, pressure and mean_gap, not none",
         lambda: stuck(force=1e-9),
     ),
     row(
-        lambda: stuck(adhesion=SHARP, depth=1e-8),
-        "give at least two falling depths or forces (loading_path), the first, above zero,",
-        lambda: path(adhesion=SHARP, depths=[1e-8, 5e-9]),
-        lambda: path(adhesion=SHARP, forces=[1e-6, 5e-7]),
-        lambda: stuck(adhesion=rc.Adhesion(1e-3, 1e-7, law="exponential"), depth=1e-8),
-        lambda: stuck(adhesion=rc.Adhesion(1e-3, 1e-7, law="dugdale"), depth=1e-8),
+        lambda: detached(depths=[3e-8, 0.0]),
+        "press to that depth, or begin with 2e-08 or less",
+        lambda: detached(rc.press(ROUGH, MODULUS, depth=3e-8), depths=[3e-8, 0.0]),
+        lambda: detached(depths=[2e-8, 0.0]),
+    ),
+    row(
+        lambda: detached(depths=[1e-8, 0.0, 5e-9]),
+        "leave it out, or give an Adhesion with a range, with which surfaces come together again",
+        lambda: detached(depths=[1e-8, 0.0]),
+        lambda: path(depths=[1e-8, 0.0, 5e-9]),
+    ),
+    row(
+        lambda: detached(depths=[1e-8], forces=[1e-9]),
+        "give depths or forces, not both",
+        lambda: detached(depths=[1e-8]),
+        lambda: detached(forces=[1e-9]),
+    ),
+    row(
+        lambda: detached(rc.press(ROUGH, MODULUS, depth=0.0)),
+        "press to a force or a depth above zero",
+        lambda: detached(rc.press(ROUGH, MODULUS, force=1e-6)),
+        lambda: detached(rc.press(ROUGH, MODULUS, depth=1e-9)),
+    ),
+    row(
+        lambda: detached(flowed()),
+        "give solution.flattened, the elastic contact after flow, or press without a hardness",
+        lambda: detached(flowed().flattened),
+        lambda: detached(),
+    ),
+    row(
+        lambda: detached(work=0.0),
+        "the work of adhesion is zero everywhere: give a number above zero",
+        lambda: detached(work=1e-6),
+    ),
+    row(
+        lambda: detached(work=np.ones(3)),
+        "give one number, or one for each cell",
+        lambda: detached(work=1e-3),
+        lambda: detached(work=np.full(ROUGH.grid.shape, 1e-3)),
+    ),
+    row(
+        lambda: detached(rc.press(EGGS, MODULUS, depth=1.995e-7)),
+        "are too many (at most 6000): press by less, or average cells (surface.averaged)",
+        lambda: detached(rc.press(EGGS, MODULUS, depth=5e-8), depths=[5e-8]),
+        lambda: detached(rc.press(EGGS.averaged(3), MODULUS, depth=1.8e-7), depths=[1.8e-7]),
     ),
     row(
         lambda: path(forces=[-1e-9, 1e-9]),
@@ -124,7 +155,7 @@ ADHESION = [
     ),
     row(
         lambda: path(depths=[np.nan]),
-        "the list of depths must hold finite numbers in one row",
+        "the depths must be finite (given: nan)",
         lambda: path(depths=[1e-9]),
     ),
     row(

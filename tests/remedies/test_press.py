@@ -85,11 +85,6 @@ LOADS = [
         lambda: press(hardness=lambda radii: 1e9 + radii),
     ),
     row(
-        lambda: at(PERIODIC, mean_gap=0.9 * FULL),
-        "give depths, on a whole periodic grid the mean separation less the gap",
-        lambda: at(PERIODIC, depth=FULL - 0.9 * FULL),
-    ),
-    row(
         lambda: press(solver=rc.ActiveSet),
         "a solver is wanted, such as ActiveSet() or PolonskyKeer()",
         lambda: press(solver=rc.ActiveSet()),
@@ -265,14 +260,14 @@ CURVES = [
     ),
     row(
         lambda: curve(forces=[2e-4, 1e-4]),
-        "the forces must increase strictly, but 0.0001 follows 0.0002 at place 1; only under a hardness or with an",
+        "the forces must increase strictly, but 0.0001 follows 0.0002 at place 1; only under a hardness and in",
         lambda: curve(forces=[1e-4, 2e-4]),
         lambda: curve(forces=[2e-4, 1e-4], hardness=1e9),
-        lambda: curve(forces=[2e-4, 1e-4], adhesion=rc.Adhesion(1e-3, 7e-8)),
+        lambda: rc.adhesive_path(ROUGH, MODULUS, rc.Adhesion(1e-3, 7e-8), forces=[2e-4, 1e-4]),
     ),
     row(
         lambda: curve(forces=RISING, depths=[1e-9]),
-        "give exactly one of force, depth and pressure, not force and depth",
+        "give exactly one of forces, depths and pressures, not forces and depths",
         lambda: curve(forces=RISING),
         lambda: curve(depths=[1e-9]),
     ),
@@ -282,11 +277,6 @@ CURVES = [
         lambda: curve(FLAT, forces=RISING),
         lambda: curve(FLAT, depths=[1e-9, 2e-9]),
         lambda: curve(FLAT, pressures=[1.0, 2.0]),
-    ),
-    row(
-        lambda: curve(mean_gaps=[1e-7]),
-        "mean gaps are prescribed with adhesion alone: give depths",
-        lambda: curve(depths=[1e-8]),
     ),
     row(
         lambda: curve(depths=[1e-9], hardness=1e9, flow="raised"),
@@ -307,13 +297,13 @@ CURVES = [
     ),
     row(
         lambda: loop(forces=RISING[::-1]),
-        "must increase strictly: it goes down them and up again by itself",
+        "but 0.000398107 follows 0.001 at place 1; a loop goes down them and up again by itself",
         lambda: loop(forces=RISING),
     ),
     row(lambda: loop(forces=[]), "must hold at least one number in one row", lambda: loop(forces=RISING)),
     row(
         lambda: loop(forces=RISING, pressures=RISING),
-        "give forces or pressures, not both",
+        "give exactly one of forces and pressures, not forces and pressures",
         lambda: loop(forces=RISING),
         lambda: loop(pressures=[1e3, 1e4]),
     ),

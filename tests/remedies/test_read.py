@@ -282,11 +282,11 @@ CURVES = [
     row(lambda: rc.read_curve("rough.nc"), "made of a curve", lambda: rc.read_curve("curve.nc")),
     row(
         lambda: rc.read_curve("path.nc"),
-        "read it with read_adhesive_loop",
-        lambda: rc.read_adhesive_loop("path.nc"),
+        "read it with read_adhesive_curve",
+        lambda: rc.read_adhesive_curve("path.nc"),
     ),
     row(
-        lambda: rc.read_adhesive_loop("curve.nc"),
+        lambda: rc.read_adhesive_curve("curve.nc"),
         "read it with read_curve",
         lambda: rc.read_curve("curve.nc"),
     ),

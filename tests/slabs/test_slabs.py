@@ -10,7 +10,6 @@ import roughcontact as rc
 from roughcontact.cli import run_memory
 from roughcontact.contact.memory_model import share_peak
 from roughcontact.contact.spots import find_spots
-from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
 from roughcontact.contact.touch import ERROR, require_memory_for_load
 from roughcontact.kernels import buffers
 from roughcontact.memory import SMALL
@@ -188,7 +187,7 @@ def test_spots_are_those_of_one_process(size, shape, filled):
     def work(communicator):
         slabs = rc.Slabs(communicator)
         there = slabs.array(pressure[slabs.rows(shape[0])])
-        spots = find_spots_in_slabs(there > 0, there, cell)
+        spots = find_spots(there > 0, there, grid, Measure(cell))
         return spots.count, spots.labels.gathered(), spots.areas, spots.loads
 
     for count, labels, areas, loads in together(size, work):

@@ -70,7 +70,7 @@ def test_a_line_with_a_short_range_comes_near():
         grid = rc.Grid(cells, 1 / cells, True)
         surface = _wave(grid)
         adhesion = rc.Adhesion(WORK, math.sqrt(3 / cells * math.pi * WORK))
-        states = rc.loading_path(surface, 1.0, depths=depths, operator=rc.line(grid, 1.0), adhesion=adhesion)
+        states = rc.adhesive_path(surface, 1.0, adhesion, depths=depths, operator=rc.line(grid, 1.0))
         errors.append(np.abs(np.array([state.force for state in states]) - wanted).max())
     assert errors[1] <= errors[0] / 1.5
     assert errors[2] <= errors[1] / 1.5

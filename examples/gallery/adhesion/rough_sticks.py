@@ -18,7 +18,7 @@ depths = np.append(there, there[-2::-1])  # and back
 axes, pull_off = plt.subplots()[1], []
 for rms in 3e-7, 6e-7, 1.2e-6:
     pad = rc.self_affine(grid, rms=rms, **waves, rng=np.random.default_rng(1))
-    curve = rc.loading_curve(pad, 1e6, depths=depths, adhesion=attraction)
+    curve = rc.adhesive_curve(pad, 1e6, attraction, depths=depths)
     axes.plot(depths * 1e6, curve.force * 1e6, ".-", label=f"{rms * 1e6:.1f} µm rms")
     pull_off.append(curve.pull_off_force)
 axes.set(xlabel="depth [µm]", ylabel="force [µN]")

@@ -30,7 +30,7 @@ for law, mark in ("dugdale", "o"), ("exponential", "s"):
         reach = np.sqrt(1.7**2 + 2 * (10 if law == "exponential" else 2) * attraction.range)
         rings = rc.RadialGrid.uniform(cells, reach)
         profile = rc.RadialProfile(-(rings.radii**2) / 2, rings)
-        *_, off = rc.loading_path(profile, 1.0, forces=[0.0, -2.5 * np.pi], adhesion=attraction)
+        *_, off = rc.adhesive_path(profile, 1.0, attraction, forces=[0.0, -2.5 * np.pi])
         pulled.append(-off.jumps[-1].force_before / np.pi)
     axes.plot(numbers, pulled, mark, label=f"rings, {law}")
     if law == "dugdale":

@@ -10,13 +10,11 @@ import numpy as np
 
 from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
-from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import released
 from roughcontact.adhesion.quasi_static import Jump, Station
 from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
-from roughcontact.adhesion.sharp_law import SharpLaw
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
@@ -102,16 +100,13 @@ class AdhesiveState:
     lowest_force : float
         Lowest force since the body is drawn back [N], on the way and in jumps: minus its largest tension, to 1e-6 of it
         (under given forces to the bracket of the last jump). After an approach, the force of the state.
-    detachments : tuple of Detachment
-        Of the sharp law: cells that let go on the way from the state before. Which are events of the lattice alone
-        cannot be told on one grid; only that after which nothing is in contact is also among the jumps.
 
     Examples
     --------
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> state = rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0)
     >>> f"{state.force * 1e9:.0f} nN at a depth of zero, on {state.contact.sum()} rings"
     '-440 nN at a depth of zero, on 34 rings'
     >>> state.residual < 1e-8, state.stability > 0
@@ -129,14 +124,6 @@ class AdhesiveState:
     jumps: tuple[Jump, ...]
     products: int
     lowest_force: float
-    detachments: tuple[Detachment, ...] = ()
-
-    @property
-    def directional(self) -> bool:
-        """Whether cells let go by a criterion that depends on the direction of an edge of the contact to the rows."""
-        return (
-            isinstance(self.attraction, SharpLaw) and self.contact.ndim == 2 and min(self.contact.shape) > 1
-        )
 
     @property
     def status(self) -> Status:
@@ -230,8 +217,7 @@ class AdhesiveState:
 
         At given depth, or under a given force with the depth free: 1 without attraction, 0 where the branch ends. The
         smallest eigenvalue is at most this; one that two searches from different starts missed is not excluded. Cells
-        whose reaction is as good as none count as free. With the sharp law it is 1: cells that let go are no end of
-        a branch that the Hessian shows.
+        whose reaction is as good as none count as free.
         """
         return self._ritz[0]
 

@@ -8,13 +8,13 @@ from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-from roughcontact.validation import Array, numeric, positive, positive_scalar, require, require_numbers, shown
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
 
 __all__ = ["Adhesion", "Attraction", "Law"]
 
 REACH = 40.0  # ranges, beyond which an exponential attraction is below the rounding of its largest value
 
-Law = Literal["exponential", "dugdale", "sharp"]
+Law = Literal["exponential", "dugdale"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,11 +26,10 @@ class Adhesion:
     work : float or array, shape of the grid
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
     range : float
-        Length over which the attraction falls, or as far as which it reaches [m]; left out where the law is sharp.
-    law : {"exponential", "dugdale", "sharp"}
+        Length over which the attraction falls, or as far as which it reaches [m].
+    law : {"exponential", "dugdale"}
         Attraction ``(w/range) exp(-gap/range)``, or the constant w/range up to the gap `range`, with a hard wall at the
-        gap zero; or none across a gap, the cells in contact being stuck until one lets go (Pohrt and Popov 2015), for
-        a body that is drawn back.
+        gap zero. For a range that no grid resolves see `detachment_path`.
     allow_unresolved : bool
         Whether to compute although the attraction varies from cell to cell beside a contact (`process_zone` below 1.5
         cells), which is refused otherwise: every state is then one of the lattice, and is marked so.
@@ -51,7 +50,7 @@ class Adhesion:
     """
 
     work: float | Array
-    range: float = 0.0
+    range: float
     law: Law = "exponential"
     allow_unresolved: bool = False
 
@@ -61,21 +60,15 @@ class Adhesion:
         if not np.any(work > 0):
             raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
-        if self.law == "sharp":
-            require(self.range == 0, f"the sharp law has no range: leave out {shown(self.range)}")
-        else:
-            require(
-                self.range != 0, f"the law {shown(self.law)} needs range=, the range of the attraction [m]"
-            )
-            object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
+        object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
         if self.law not in get_args(Law):
             names = ", ".join(map(repr, get_args(Law)))
             raise ValueError(f"the law of adhesion must be one of {names}, not {shown(self.law)}")
 
     @property
     def strength(self) -> float:
-        """Largest attraction of the law [Pa]; infinite where it is sharp."""
-        return math.inf if self.law == "sharp" else float(np.max(self.work)) / self.range
+        """Largest attraction of the law [Pa]."""
+        return float(np.max(self.work)) / self.range
 
     @numeric(modulus="Pa")
     def process_zone(self, modulus: float) -> float:
@@ -107,7 +100,7 @@ class Adhesion:
         Returns
         -------
         float
-            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov. Infinite where the law is sharp.
+            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov.
 
         Examples
         --------
@@ -117,13 +110,11 @@ class Adhesion:
         '1.46, on rubber 146'
         """
         w = float(np.max(self.work))
-        return (
-            math.inf if self.law == "sharp" else float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
-        )
+        return float(np.cbrt(radius * w**2 / (modulus**2 * self.range**3)))
 
 
 class Attraction(Protocol):
-    """A law on the cells of a computation: `ExponentialLaw`, `DugdaleLaw` or `SharpLaw`."""
+    """A law on the cells of a computation: `ExponentialLaw` or `DugdaleLaw`."""
 
     @property
     def work(self) -> float | Array:

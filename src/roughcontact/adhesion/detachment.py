@@ -52,10 +52,9 @@ class Detachment:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> sharp = rc.Adhesion(work=10e-3, law="sharp")
-    >>> *_, last = rc.loading_path(ball, 1e8, depths=[2e-8, -2e-8], adhesion=sharp)
-    >>> first = last.detachments[0]
-    >>> f"{first.cells} ring lets go at {first.depth * 1e9:.1f} nm", bool(last.contact.any())
+    >>> (off,) = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> first = off.detachments[0]
+    >>> f"{first.cells} ring lets go at {first.depth * 1e9:.1f} nm", bool(off.contact.any())
     ('1 ring lets go at 3.0 nm', False)
     """
 
@@ -111,8 +110,8 @@ class StuckContact:
         self.cells = np.flatnonzero(contact)
         if len(self.cells) > LARGEST:
             raise ValueError(
-                f"{len(self.cells)} cells in contact are too many for the sharp law, which needs their matrix (at most "
-                f"{LARGEST}): begin at a smaller depth, or take larger cells"
+                f"detachment needs the matrix of the cells in contact, and {len(self.cells)} are too many (at most "
+                f"{LARGEST}): press by less, or average cells (surface.averaged)"
             )
         weights = np.broadcast_to(np.asarray(operator.weights, float), separation.shape)
         self.areas, self.work = weights.ravel()[self.cells], np.ravel(work)[self.cells]
@@ -120,6 +119,11 @@ class StuckContact:
         self.inverse = np.linalg.inv(exact_of(operator).as_matrix(self.cells))
         self.base = -self.inverse @ separation.ravel()[self.cells]
         self.unit = self.inverse.sum(axis=1)
+
+    @property
+    def area(self) -> float:
+        """Area of the cells that are left [m^2]."""
+        return float(self.areas.sum())
 
     @property
     def stiffness(self) -> float:
@@ -164,12 +168,21 @@ class StuckContact:
             end = end if len(self.cells) or not by_force else math.nan
             yield Detachment(start, end, before, after, count, lost)
 
+    @property
+    def strength(self) -> float:
+        """Largest tension at which one of the cells would let go [Pa]."""
+        return float(self._tensions().max())
+
+    def _tensions(self) -> Array:
+        """Return the tension at which each cell lets go [Pa]."""
+        compliance = 1 / np.diagonal(self.inverse) if self.compliance is None else self.compliance
+        return np.asarray(np.sqrt(2 * self.work / compliance))
+
     def _next(self) -> tuple[int, float]:
         """Return the cell that lets go next, and at which depth."""
-        held = 1 / np.diagonal(self.inverse) if self.compliance is None else self.compliance
-        # A cell whose pressure does not fall as the body is drawn back lets go never.
+        # A cell whose pressure does not fall as the body is drawn back never lets go.
         depths = np.full(len(self.cells), -np.inf)
-        np.divide(-np.sqrt(2 * self.work / held) - self.base, self.unit, out=depths, where=self.unit > 0)
+        np.divide(-self._tensions() - self.base, self.unit, out=depths, where=self.unit > 0)
         index = int(np.argmax(depths))
         return index, float(depths[index])
 

@@ -8,7 +8,6 @@ from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.exponential_law import ExponentialLaw
-from roughcontact.adhesion.sharp_law import SharpLaw
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.validation import Array
 
@@ -35,8 +34,6 @@ def law_on(adhesion: Adhesion, form: ElasticForm, separation: Array, modulus: fl
         Reduced modulus E* [Pa].
     """
     work = form.extended(np.where(np.isfinite(separation), adhesion.work, 0.0), 0.0)
-    if adhesion.law == "sharp":
-        return SharpLaw(work)
     if adhesion.law == "exponential":
         return ExponentialLaw(work, adhesion.range)
     grid = form.grid

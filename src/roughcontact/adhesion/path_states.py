@@ -16,7 +16,6 @@ from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.adhesion.gradient_flow import released
 from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import QuasiStatic, Station
-from roughcontact.adhesion.sharp_path import sharp_states
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
 from roughcontact.surface.radial import RadialProfile
@@ -35,8 +34,8 @@ CELLS = 1.5  # that Irwin's length must span
 
 
 def is_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> bool:
-    """Whether Irwin's length spans 1.5 cells, or the law is sharp: else the attraction varies from cell to cell."""
-    return adhesion.law == "sharp" or adhesion.process_zone(modulus) >= CELLS * max(operator.grid.spacing)
+    """Whether Irwin's length spans 1.5 cells: else the attraction varies from cell to cell."""
+    return adhesion.process_zone(modulus) >= CELLS * max(operator.grid.spacing)
 
 
 def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> None:
@@ -120,8 +119,6 @@ def states_along(
         blank = Blank(operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved)
         cell = float(np.min(operator.weights))
         bracket = BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
-        if adhesion.law == "sharp":
-            return sharp_states(blank, [float(force) for force in forces])
         return _walk(blank, _checked_forces(forces), bracket)
     if mean_gaps is not None:
         depths = _depths_of(mean_gaps, form, separation)
@@ -132,8 +129,6 @@ def states_along(
             "in full contact; give a smaller depth"
         )
     blank = Blank(operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved)
-    if adhesion.law == "sharp":
-        return sharp_states(blank, goals)
     return _walk(blank, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
 
 
@@ -156,7 +151,7 @@ def _checked_forces(forces: Array) -> list[float]:
     if forces[0] < 0:
         raise ValueError(
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
-            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
+            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)"
         )
     return [float(force) for force in forces]
 

@@ -11,9 +11,12 @@ from roughcontact.cli.late_group import late_group
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
     from roughcontact.cli import (
+        adhesive_curve_command as adhesive_curve_command,
+        adhesive_press_command as adhesive_press_command,
         averages_command as averages_command,
         conductance_command as conductance_command,
         curve_command as curve_command,
+        detachment_command as detachment_command,
         prepare_command as prepare_command,
         press_command as press_command,
         serve_command as serve_command,
@@ -27,6 +30,12 @@ __all__ = ["app"]
 
 
 _ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve", "thesis")}
+_ADHESION = {
+    "press": "adhesive_press_command",
+    "curve": "adhesive_curve_command",
+    "loop": "adhesive_curve_command",
+    "detach": "detachment_command",
+}
 _SURFACE = {
     "info": "surface_command",
     "make": "surface_command",
@@ -55,6 +64,14 @@ app = typer.Typer(
     # A mistake of ours shows itself as Python shows it.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
+)
+app.add_typer(
+    typer.Typer(
+        cls=late_group(_ADHESION),
+        help="Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
+        no_args_is_help=True,
+    ),
+    name="adhesion",
 )
 app.add_typer(
     typer.Typer(

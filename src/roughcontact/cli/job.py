@@ -48,7 +48,7 @@ def refusal(arguments: Sequence[str]) -> str | None:
     known = any(words[: len(command)] == command for command in _TOGETHER)
     if launched()[1] == 1 or not words or known or "--help" in arguments:
         return None
-    name = " ".join(words[: 2 if words[0] in ("study", "surface") else 1])
+    name = " ".join(words[: 2 if words[0] in ("adhesion", "study", "surface") else 1])
     return (
         f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them: run "
         f"{name!r} without a launcher such as mpiexec"

@@ -49,12 +49,43 @@ def late_group(commands: Mapping[str, str]) -> type[TyperGroup]:
     return LateGroup
 
 
+class _Command(TyperCommand):
+    """A command that names those of its name in other groups where they have an option that it lacks."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except Exception as told:
+            error: Any = told
+            # No such option: typers differ in the class.
+            if hasattr(error, "possibilities") and (others := _elsewhere(ctx, error.option_name)):
+                error.message, error.possibilities = f"{error.message}; {others}", None
+            raise
+
+
+def _elsewhere(ctx: Any, option: str) -> str:
+    """Return which commands of the same name in other groups take an option, if any do."""
+    root = ctx.find_root()
+    groups = {root.info_name: root.command} | {
+        f"{root.info_name} {name}": group
+        for name, group in root.command.commands.items()
+        if isinstance(group, TyperGroup)
+    }
+    named = {path: group.get_command(ctx, ctx.info_name) for path, group in groups.items()}
+    found = [
+        f"'{path} {ctx.info_name}'"
+        for path, command in named.items()
+        if command is not None and any(option in each.opts for each in command.params)
+    ]
+    return f"use {' or '.join(found)} for it" if found else ""
+
+
 def _imported(module: str, name: str) -> Any:
     members = vars(import_module(f"roughcontact.cli.{module}"))
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    alone.command(name, epilog=epilog)(grouped(members[name]))
+    alone.command(name, cls=_Command, epilog=epilog)(grouped(members[name]))
     return typer.main.get_command(alone)
 
 

@@ -9,7 +9,7 @@ from typing import Any, get_type_hints
 
 import typer
 
-__all__ = ["argument", "grouped", "option"]
+__all__ = ["argument", "flag", "grouped", "option"]
 
 
 def option(text: str, example: str | None = None, *names: str, default: Any = None, **more: Any) -> Any:
@@ -26,6 +26,11 @@ def argument(text: str, metavar: str, default: Any = ...) -> Any:
     """Return an argument: its help, what stands for it there, and its default; ``...`` where it must be given."""
     given = {"argument": True, "metavar": metavar, "help": text}
     return field(default=MISSING if default is ... else default, metadata=given)
+
+
+def flag(name: str) -> str:
+    """Return the option that the field of this name becomes."""
+    return f"--{name.replace('_', '-')}"
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
@@ -55,7 +60,7 @@ def _flat(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iter
     if given.pop("argument", False):
         info = typer.Argument(default, metavar=given["metavar"], help=given["help"])
     else:
-        names = given.pop("names") or ([f"--{name.replace('_', '-')}"] if declared.default is False else [])
+        names = given.pop("names") or ([flag(name)] if declared.default is False else [])
         info = typer.Option(default, *names, **given)
     yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
 

@@ -16,13 +16,11 @@ from roughcontact.cli.report import doing, quantity
 from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
     from roughcontact.cli.error_options import Errors
-    from roughcontact.cli.options import Elasticity
+    from roughcontact.cli.options import TwoBodies
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
+    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
 __all__ = ["AfterLoad", "LoopLoads", "write_loop"]
@@ -51,7 +49,7 @@ class AfterLoad:
         """Whether what flows raises the surface."""
         return self.flow is FlowChoice.RAISED
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material where a load comes before and none is given.
 
         Raises
@@ -59,7 +57,7 @@ class AfterLoad:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--after" if self.after is not None else None, self.flow)
+        return _hardness(bodies, "--after" if self.after is not None else None, self.flow)
 
     def first(self, given: Mapping[str, float], body: ProfileBody | None) -> float | None:
         """Return the load that comes first, in SI units.
@@ -129,7 +127,7 @@ class LoopLoads:
     PANEL: ClassVar = "Plastic flow"
     loop: bool = option(
         "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
-        "surface. Takes a --hardness, or --materials. With --work: approach and retreat.",
+        "surface. Takes a --hardness, or --materials.",
         default=False,
     )
     flow: FlowChoice | None = _FLOW
@@ -139,7 +137,7 @@ class LoopLoads:
         """Where material that flows goes, as the library calls it."""
         return _reading(self.flow)
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material for a loop where none is given.
 
         Raises
@@ -147,9 +145,9 @@ class LoopLoads:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--loop" if self.loop else None, self.flow)
+        return _hardness(bodies, "--loop" if self.loop else None, self.flow)
 
-    def check(self, name: str, errors: Errors) -> None:
+    def check(self, loads: Loads | None, errors: Errors) -> None:
         """Refuse loads that no loop has, and errors of a surface that rises.
 
         Raises
@@ -161,11 +159,11 @@ class LoopLoads:
             raise UsageError(
                 "--errors presses other maps by the same load alone: leave it out with --flow raised"
             )
-        if name == "depths" and (self.loop or self.flow is FlowChoice.RAISED):
+        if loads is not None and loads.kind == "depth" and (self.loop or self.flow is FlowChoice.RAISED):
             asked = "--loop" if self.loop else "--flow raised"
             raise UsageError(f"{asked} goes by forces or pressures: the depth is what is found")
 
-    def up_and_down(self, loads: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def up_and_down(self, loads: Loads) -> Loads:
         """Return the loads in the order in which they come."""
         from roughcontact.contact.loop import loads_of_loop
 
@@ -195,13 +193,13 @@ def _reading(flow: FlowChoice | None) -> Any:
     return FlowChoice.REMOVED.value if flow is None else flow.value
 
 
-def _hardness(elasticity: Elasticity, asked: str | None, flow: FlowChoice | None) -> float | None:
+def _hardness(bodies: TwoBodies, asked: str | None, flow: FlowChoice | None) -> float | None:
     """Return the hardness that was given; else, where flow is asked for, that of the softer material."""
-    given = elasticity.yield_pressure()
+    given = bodies.yield_pressure()
     asked = asked or (None if flow is None else "--flow")
     if given is not None or asked is None:
         return given
-    softer = elasticity.softer()
+    softer = bodies.softer()
     if softer is None:
         raise UsageError(f"{asked} is about what flows: give a --hardness, or both bodies by --materials")
     note(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")

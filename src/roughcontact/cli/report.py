@@ -13,8 +13,8 @@ import typer
 from roughcontact.cli.messages import note
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
+    adhesive_curve_facts,
     adhesive_facts,
-    adhesive_loop_facts,
     law_facts,
 )
 from roughcontact.plot.facts import (
@@ -40,8 +40,8 @@ __all__ = [
     "ADHESIVE_COLUMNS",
     "AREAL_COLUMNS",
     "CURVE_COLUMNS",
+    "adhesive_curve_facts",
     "adhesive_facts",
-    "adhesive_loop_facts",
     "bend_words",
     "curve_facts",
     "doing",

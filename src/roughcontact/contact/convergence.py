@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.contact.solution import Solution
+    from roughcontact.solver.control import Status
 
 __all__ = ["ConvergenceError"]
 
 
+class Certified(Protocol):
+    """An answer with a certificate."""
+
+    @property
+    def status(self) -> Status: ...
+
+    @property
+    def residual(self) -> float: ...
+
+
 class ConvergenceError(RuntimeError):
-    """A solve that missed its tolerance; `solution` is the best that was reached, with adhesion an `AdhesiveState`.
+    """A solve that missed its tolerance; `solution` is the best answer that was reached.
 
     Examples
     --------
@@ -25,16 +34,11 @@ class ConvergenceError(RuntimeError):
     The solver ran out of steps above the tolerance; allow it more steps.
     """
 
-    def __init__(self, solution: Solution | AdhesiveState) -> None:
-        super().__init__(solution)  # in `args`, so that the error can be pickled
-        self.solution: Any = solution  # which of the two, whoever pressed knows
+    def __init__(self, solution: Certified, tolerance: float) -> None:
+        super().__init__(solution, tolerance)  # in `args`, so that the error can be pickled
+        self.solution: Any = solution  # the caller has asked for its type
+        self.tolerance = tolerance
 
     def __str__(self) -> str:
-        from roughcontact.adhesion.adhesive_state import AdhesiveState
-
         solution = self.solution
-        if isinstance(solution, AdhesiveState):
-            tolerance, words = solution.blank.tolerance, "the path"
-        else:
-            tolerance, words = solution.problem.tolerance, f"{solution.steps} steps"
-        return f"residual {solution.residual:.1e} after {words}, tolerance {tolerance:.1e}: {solution.status.message}"
+        return f"residual {solution.residual:.1e}, tolerance {self.tolerance:.1e}: {solution.status.message}"

@@ -7,13 +7,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from roughcontact.contact.load_search import pilot_of
-from roughcontact.contact.press import control_of, grid_of, make_problem, solve
+from roughcontact.contact.press import grid_of, make_problem, solve
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
 from roughcontact.solver.control import Control
-from roughcontact.validation import Array, exactly_one
+from roughcontact.solver.loads import Loads
+from roughcontact.validation import Array
 
 __all__ = ["LoadOutlook", "load_outlook"]
 
@@ -87,9 +88,7 @@ def load_outlook(
     >>> load_outlook(ball, 1e9, forces=[1e-6, 1e-5, 1e-2])
     LoadOutlook(count=3, below=2, above=0)
     """
-    name, loads = exactly_one(force=forces, pressure=pressures)
-    grid = grid_of(surface)
-    controls = [control_of(grid, **{name: float(load)}) for load in loads]
+    controls = Loads.of(forces=forces, pressures=pressures).controls(grid_of(surface))
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=1e-8)
     pilot = pilot_of(problem)
     rough = problem if pilot is None else pilot

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -11,8 +11,7 @@ import numpy as np
 
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import Flow, FlowModel
-from roughcontact.contact.load_range import load_range
-from roughcontact.contact.loading import Loads, loading_path
+from roughcontact.contact.loading import solutions_along, suitable
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
@@ -21,7 +20,8 @@ from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.material import Solid
 from roughcontact.pictures import loop_html, plot_loop
 from roughcontact.solver.control import Solver
-from roughcontact.validation import Array, number, numeric, require
+from roughcontact.solver.loads import Loads
+from roughcontact.validation import Array, numeric, require
 
 if TYPE_CHECKING:
     import xarray
@@ -146,8 +146,8 @@ def loading_loop(
     modulus: float | Solid | tuple[Solid, Solid],
     *,
     hardness: Hardness,
-    forces: Loads | None = None,
-    pressures: Loads | None = None,
+    forces: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
     flow: FlowModel = "removed",
     operator: Operator | None = None,
     solver: Solver | None = None,
@@ -198,35 +198,22 @@ def loading_loop(
     require(
         hardness is not None, "a loop needs a hardness: without one nothing flows, and loading is unloading"
     )
-    if forces is None and pressures is None:
-        forces = load_range(surface, modulus, operator=operator, hardness=hardness).forces
-    require(forces is None or pressures is None, "give forces or pressures, not both")
-    name = "pressures" if forces is None else "forces"
-    loads = np.atleast_1d(number(pressures if forces is None else forces, f"the list of {name}"))
-    require(
-        loads.ndim == 1 and len(loads) > 0, f"the list of {name} must hold at least one number in one row"
-    )
-    if not (np.diff(loads) > 0).all():
-        raise ValueError(
-            f"the {name} of a loop must increase strictly: it goes down them and up again by itself"
-        )
-    given: dict[str, Any] = {name: loads_of_loop(loads)}
-    path = loading_path(
-        surface,
-        modulus,
-        **given,
-        operator=operator,
-        solver=solver,
-        tolerance=tolerance,
-        hardness=hardness,
-        flow=flow,
-    )
-    return collect_loop(path, len(loads))
+    loads = Loads.given(forces=forces, pressures=pressures) or suitable(surface, modulus, operator, hardness)
+    whole = loads_of_loop(loads)
+    path = solutions_along(surface, modulus, whole, operator, solver, tolerance, hardness, flow)
+    return collect_loop(path, len(loads.values))
 
 
-def loads_of_loop(loads: Array) -> Array:
-    """Return rising loads, up, down and up again."""
-    return np.concatenate([loads, loads[::-1], loads])
+def loads_of_loop(loads: Loads) -> Loads:
+    """Return rising loads, up, down and up again.
+
+    Raises
+    ------
+    ValueError
+        If the loads do not rise.
+    """
+    values = loads.rising("a loop goes down them and up again by itself").values
+    return Loads(loads.kind, np.concatenate([values, values[::-1], values]))
 
 
 def collect_loop(path: Iterator[Solution], count: int) -> Loop:

@@ -6,14 +6,14 @@ from typing import Any
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
-from roughcontact.contact.press import control_of
 from roughcontact.contact.touch import touch_of
 from roughcontact.grid import Grid
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.solver.loads import control_of
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import numeric, shown
+from roughcontact.validation import exactly_one, numeric, shown
 
 __all__ = ["memory_needed"]
 
@@ -79,5 +79,5 @@ def memory_needed(
             )
         if not is_numpy(surface.heights):
             raise ValueError("how much touches is asked of heights of NumPy alone: leave out the load")
-        touch = touch_of(surface, as_modulus(modulus), control_of(grid, **loads))
+        touch = touch_of(surface, as_modulus(modulus), control_of(*exactly_one(**loads), grid))
     return MemoryModel.of(grid).peak(touch, curve=curve)

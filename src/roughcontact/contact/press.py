@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, overload
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.mean_gaps import refuse_gaps
 from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
@@ -20,7 +17,8 @@ from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Control, Depth, Force, Solver, Start, State, Status
+from roughcontact.solver.control import Control, Depth, Solver, Start, State, Status
+from roughcontact.solver.loads import control_of
 from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.surface.radial import RadialProfile
@@ -28,17 +26,13 @@ from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, numeric, scalar
 
-if TYPE_CHECKING:
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.adhesion.attraction import Adhesion
-
 __all__ = ["lock", "press", "solve", "solve_state"]
 
 
 _DEFAULT = ActiveSet()
 
 
-@overload
+@numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa", hardness="Pa")
 def press(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
@@ -50,40 +44,7 @@ def press(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    adhesion: None = None,
-    mean_gap: None = None,
-) -> Solution: ...
-
-
-@overload
-def press(
-    surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
-    *,
-    force: float | None = None,
-    depth: float | None = None,
-    operator: Operator | None = None,
-    tolerance: float = 1e-8,
-    adhesion: Adhesion,
-    mean_gap: float | None = None,
-) -> AdhesiveState: ...
-
-
-@numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa", hardness="Pa", mean_gap="m")
-def press(
-    surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
-    *,
-    force: float | None = None,
-    depth: float | None = None,
-    pressure: float | None = None,
-    operator: Operator | None = None,
-    solver: Solver | None = None,
-    tolerance: float = 1e-8,
-    hardness: Hardness | None = None,
-    adhesion: Adhesion | None = None,
-    mean_gap: float | None = None,
-) -> Solution | AdhesiveState:
+) -> Solution:
     """Press a rough surface against a flat and return the contact, with a certificate.
 
     Parameters
@@ -105,16 +66,11 @@ def press(
     hardness : float, array or function, optional
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
         or a function of the radii of the contact spots [m], such as `NixGao`.
-    adhesion : Adhesion, optional
-        What holds the bodies together: the end of an approach from beyond its reach, by a `depth` of either sign, a
-        `force` of at least 0 or a `mean_gap`.
-    mean_gap : float, optional
-        With adhesion, on a whole periodic grid: the mean gap [m], which there is the mean separation less the depth.
 
     Returns
     -------
-    Solution or AdhesiveState
-        Pressure, depth and certificate; area, stiffness and more follow from it. With adhesion an `AdhesiveState`.
+    Solution
+        Pressure, depth and certificate; area, stiffness and more follow from it.
 
     Raises
     ------
@@ -133,18 +89,7 @@ def press(
     >>> solution.status.value
     'converged'
     """
-    grid = grid_of(surface)
-    if adhesion is not None:
-        from roughcontact.contact.sticking import sticking_states
-
-        refused = {"pressure": pressure, "solver": solver, "hardness": hardness}
-        loads = depth, force, mean_gap
-        state = next(sticking_states(surface, modulus, adhesion, loads, operator, tolerance, **refused))
-        if not state.status.converged:
-            raise ConvergenceError(state)
-        return state
-    refuse_gaps(mean_gap)
-    control = control_of(grid, force=force, depth=depth, pressure=pressure)
+    control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
     if operator is None:
         require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(
@@ -152,7 +97,7 @@ def press(
         solver=solver,
     )
     if not solution.status.converged:
-        raise ConvergenceError(solution)
+        raise ConvergenceError(solution, solution.problem.tolerance)
     return solution
 
 
@@ -179,21 +124,6 @@ def make_problem(
     separation, allowed = separation_of(surface), scalar(tolerance, "tolerance")
     strength, law = as_hardness(hardness, separation)
     return ContactProblem(separation, body, control, allowed, surface, value, strength, law)
-
-
-def control_of(
-    grid: AnyGrid, *, force: float | None = None, depth: float | None = None, pressure: float | None = None
-) -> Control:
-    """Return the control that exactly one of the three numbers states."""
-    exactly_one(force=force, depth=depth, pressure=pressure)
-    if force is not None:
-        return Force(scalar(force, "force"))
-    if depth is not None:
-        return Depth(scalar(depth, "depth"))
-    pressure = scalar(pressure, "pressure")
-    if not (math.isfinite(pressure) and pressure > 0):
-        raise ValueError(f"the pressure must be positive and finite [Pa], not {pressure}")
-    return Force(pressure * grid.area)
 
 
 def solve(

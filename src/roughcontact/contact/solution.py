@@ -15,8 +15,7 @@ from roughcontact.contact.histograms import gap_histogram, pressure_histogram
 from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.spots import Spots, count_spots, find_spots
-from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
+from roughcontact.contact.spots import Spots, are_labelled, count_spots, find_spots
 from roughcontact.contact.stiffness import (
     FrozenContact,
     cell_stiffness,
@@ -28,7 +27,6 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.pictures import plot_solution, solution_html
-from roughcontact.slabs.exchange import is_in_slabs
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
@@ -227,17 +225,12 @@ class Solution:
     @cached_property
     def spots(self) -> Spots:
         """The connected parts of the contact (cells that share an edge)."""
-        if is_in_slabs(self.pressure):
-            cell = float(np.ravel(self.problem.operator.weights)[0])
-            return find_spots_in_slabs(self.contact, self.pressure, cell)
-        if not self._measure.on_host:
-            raise ValueError("spots are labelled on the host: take them of solution.on_host()")
         return find_spots(self.contact, self.pressure, self.problem.grid, self._measure)
 
     @property
     def spot_count(self) -> int:
         """Number of contact spots, wherever the arrays live."""
-        if self._measure.on_host or is_in_slabs(self.pressure):
+        if are_labelled(self.pressure):
             return self.spots.count
         return count_spots(self.contact, self.problem.grid)
 
@@ -339,7 +332,7 @@ class Solution:
         """
         from roughcontact.contact.dataset import solution_record
 
-        return solution_record(self if is_in_slabs(self.pressure) else self.on_host())
+        return solution_record(self if are_labelled(self.pressure) else self.on_host())
 
     plot = plot_solution
     _repr_html_ = solution_html

@@ -60,7 +60,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
 
 def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> Curve:
     if "jump_lost" in variables:
-        raise ContentError("it holds a path of surfaces that stick", "read it with read_adhesive_loop")
+        raise ContentError("it holds a path of surfaces that stick", "read it with read_adhesive_curve")
     require_columns(variables, (*_ARRAYS, *CURVE_SCALES, "spots", "status"))
     geometry, sizes = sizes_of(variables, attributes)
     shape = variables["force"].shape

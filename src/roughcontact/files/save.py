@@ -13,9 +13,11 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.detachment_curve import DetachmentCurve
+from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import on_host
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import numbers_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable
@@ -45,8 +47,9 @@ __all__ = ["require_surface_file", "write"]
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
-Pressed = Solution | TangentialSolution | AdhesiveState
-Writable = Surface | Pressed | Curve | Loop | AdhesiveLoop | SlipCurve | InterfaceTable
+Pressed = Solution | TangentialSolution | AdhesiveState | DetachmentState
+Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
+Writable = Surface | Pressed | Curves | InterfaceTable
 
 
 def write(what: Writable, path: str | os.PathLike[str]) -> None:
@@ -56,7 +59,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
     ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
                 loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
-                adhesion by `read_adhesive_loop`
+                adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
     ``.csv``    a curve, a loop, or the table of an interface: one line a load
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
                 history, for which the format has no place
@@ -72,7 +75,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    what : Surface, Solution, TangentialSolution, AdhesiveState, Curve, Loop, AdhesiveLoop, SlipCurve or InterfaceTable
+    what : Surface, Solution, Curve or another answer
         What is written.
     path : str or path
         File to write; one that is there is replaced.
@@ -90,7 +93,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
-    if isinstance(what, Curve | SlipCurve | Loop | AdhesiveLoop):
+    if isinstance(what, Curves):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return
@@ -172,12 +175,12 @@ def _solution_vti(solution: Pressed) -> bytes:
     return _vti_bytes(fields, _pressed(solution).problem.grid)
 
 
-def _pressed(solution: Solution | TangentialSolution) -> Solution:
+def _pressed(solution: Solution | TangentialSolution | DetachmentState) -> Solution | DetachmentState:
     """Return the state under the normal force alone."""
     return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
 
 
-def _fields(solution: Solution | AdhesiveState, surface: Body | None) -> dict[str, Field]:
+def _fields(solution: Solution | AdhesiveState | DetachmentState, surface: Body | None) -> dict[str, Field]:
     heights = {} if surface is None else {"heights": surface.heights}
     return heights | {
         "pressure": solution.pressure,

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.kernels.buffers import empty
 from roughcontact.kernels.constants import WIDTH
-from roughcontact.kernels.loader import code_for
+from roughcontact.kernels.loader import code_for, functions
 from roughcontact.threads import threads
 from roughcontact.validation import Array, Mask
 
@@ -101,7 +101,7 @@ def extremes(
     This pass and that of `predict_active` save 6 % of a press with half of 512 x 512 periodic cells in contact, on two
     threads, over the passes that NumPy takes (benchmarks/pairs.py, "flat-half").
     """
-    run = code_for("plane_kernels", pressure)["extremes"]
+    run = functions("plane_kernels", "float64")["extremes"]
     found = run_on_plane(run, 7, 10, pressure, displacement, separation, combine=combine)
     highest, raised, moved, strongest, weakened, least, nearest, level, count, nothing = found
     if nothing != 0:  # or is no number
@@ -125,7 +125,7 @@ def predict_active(
     """
     region = empty(pressure.shape, bool)
     given = pressure, displacement, separation, depth, least, a_ii, region
-    run = code_for("plane_kernels", pressure)["predict_active"]
+    run = functions("plane_kernels", "float64")["predict_active"]
     stay, wrong = run_on_plane(run, 0, 2, *given, combine=combine)
     return region, int(stay), int(wrong)
 
@@ -134,7 +134,7 @@ def level_range(
     separation: Array, displacement: Array, region: Mask, combine: Combine | None = None
 ) -> LevelRange:
     """Return the levels of a region that has some cell."""
-    run = code_for("plane_kernels", separation)["level_range"]
+    run = functions("plane_kernels", "float64")["level_range"]
     fields = separation, displacement, region
     highest, raised, total, count = run_on_plane(run, 2, 4, *fields, combine=combine)
     return LevelRange(highest, -raised, total / count)
@@ -165,27 +165,30 @@ def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Ar
 
 def positive_total(pressure: Array, separation: Array, combine: Combine | None = None) -> float:
     """Return the sum of a pressure where it is positive and no cell is missing."""
-    run = code_for("plane_kernels", pressure)["positive_total"]
+    run = functions("plane_kernels", "float64")["positive_total"]
     return run_on_plane(run, 0, 1, pressure, separation, combine=combine)[0]
 
 
 def positive_part(pressure: Array, separation: Array, scale: float) -> Array:
     """Return a scaled pressure, zero where it would be negative or a cell is missing."""
     answer = empty(pressure.shape, np.float64)
-    run = code_for("plane_kernels", pressure)["positive_part"]
+    run = functions("plane_kernels", "float64")["positive_part"]
     run_on_plane(run, 0, 0, pressure, separation, scale, answer)
     return answer
 
 
-def raise_blocks(separation: Array, share: float) -> Array:
+def raise_blocks(separation: Array, share: float) -> Array | None:
     """Return the mean of each block of 2 x 2 cells [m], less a share of how far they stand out of their plane.
 
-    It is no less than the lowest of them. Shape (ny/2, nx/2): both sides are even.
+    It is no less than the lowest of them. Shape (ny/2, nx/2); None where a side is odd, or the plane does not fit.
     """
     ny, nx = separation.shape
+    if ny % 2 or nx % 2 or not fit(separation):
+        return None
     blocks = empty((ny // 2, nx // 2), np.float64)
     workers = threads() if separation.size >= SEVERAL * CELLS else 1
-    code_for("block_kernels", separation)["raise_blocks"](ny, nx, share, separation, blocks, workers=workers)
+    run = functions("block_kernels", "float64")["raise_blocks"]
+    run(ny, nx, share, separation, blocks, workers=workers)
     return blocks
 
 

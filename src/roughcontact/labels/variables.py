@@ -108,7 +108,7 @@ _VARIABLES = {
     "adhesion_range": Variable("m", "length over which the attraction falls", "range of the attraction"),
     "allow_unresolved": Variable("", "whether an attraction that varies from cell to cell was allowed"),
     "unresolved": Variable("", "attraction varies from cell to cell: states are those of the lattice"),
-    "adhesive_energy": Variable("J", "energy of the attraction"),
+    "adhesive_energy": Variable("J", "energy of the adhesion"),
     "energy": Variable("J", "elastic and adhesive energy; its slope with the depth is the force"),
     "contact_stiffness": Variable(
         "N m-1", "slope of the force with the depth, contact and attraction held fixed"
@@ -139,6 +139,16 @@ _VARIABLES = {
     "jump_lost": Variable("J", "energy lost in the jump"),
     "jump_approach": Variable("", "whether the depth or the force was growing"),
     "jump_ambiguous": Variable("", "whether two integrations of the flow after the jump end apart"),
+    # detachment of stuck surfaces
+    "detached": Variable("1", "load, counted from 0, that the detachment came on the way to"),
+    "detachment_depth": Variable("m", "depth at which cells let go"),
+    "detachment_depth_after": Variable("m", "depth after cells let go"),
+    "detachment_force_before": Variable("N", "force before cells let go"),
+    "detachment_force_after": Variable("N", "force after cells let go"),
+    "detachment_cells": Variable("1", "number of cells that let go"),
+    "detachment_lost": Variable("J", "elastic energy set free less the work of adhesion"),
+    "lowest_force_area": Variable("m2", "area in contact under the lowest force"),
+    "preload_too_small": Variable("", "whether a larger preload may raise the pull-off force"),
     # tangential loading
     "tangential_force": Variable("N", "tangential force that body 2 exerts upon body 1"),
     "tangential_displacement": Variable(

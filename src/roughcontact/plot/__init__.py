@@ -29,6 +29,7 @@ if TYPE_CHECKING or _LATE is None:
         resistance_curve as resistance_curve,
         stiffness_curve as stiffness_curve,
     )
+    from roughcontact.plot.detachment_plot import detachment_force as detachment_force
     from roughcontact.plot.distributions import (
         height_distribution as height_distribution,
         pressure_distribution as pressure_distribution,

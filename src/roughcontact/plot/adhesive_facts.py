@@ -11,20 +11,20 @@ import numpy as np
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 
 if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.quasi_static import Jump
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
     from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["ADHESIVE_COLUMNS", "adhesive_facts", "adhesive_loop_facts", "jump_facts", "law_facts"]
+__all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
 
 ADHESIVE_COLUMNS = (*("branch", "depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual"),)
 _JUMPS = 12  # that are told one by one: those that lost most
 
 
 def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
-    """Return the law of adhesion, and over how many cells the attraction varies beside a contact, if it has a range."""
+    """Return the law of adhesion, and over how many cells the attraction varies beside a contact."""
     zone = adhesion.process_zone(modulus)
     work = (
         "the work of each cell"
@@ -32,8 +32,6 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
         else quantity("work_of_adhesion", float(adhesion.work))
     )
     stiff = ("reduced modulus E*", quantity("modulus", modulus))
-    if adhesion.law == "sharp":  # no range, and so no largest attraction and no length of Irwin's
-        return [stiff, ("adhesion", f"sharp, {work}")]
     length = quantity("adhesion_range", adhesion.range)
     strength = quantity("pressure", adhesion.strength)
     return [
@@ -73,7 +71,7 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     ]
 
 
-def adhesive_loop_facts(loop: AdhesiveLoop) -> list[tuple[str, str]]:
+def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
     """Return what a path of surfaces that stick is worth telling, line by line."""
     kind = loop.geometry
     facts = []

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
@@ -25,12 +25,12 @@ _SEEN = 0.05  # of the picture's width or height, that a jump must span for its 
 _OFF = 0.08  # of the picture's width: how far the line of a body that is pulled off is drawn
 
 
-def jump_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+def jump_loop(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     """Draw force against depth on approach and retreat; jumps are dashed, large ones with the energy that they lost.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -83,12 +83,12 @@ def jump_loop(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def jump_area(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
+def jump_area(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     """Draw the relative contact area against the depth on approach and retreat.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
 
@@ -121,12 +121,12 @@ def jump_area(loop: AdhesiveLoop, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def jump_figure(loop: AdhesiveLoop) -> Figure:
+def jump_figure(loop: AdhesiveCurve) -> Figure:
     """Return force and contact area against depth, side by side.
 
     Parameters
     ----------
-    loop : AdhesiveLoop
+    loop : AdhesiveCurve
 
     Returns
     -------
@@ -148,7 +148,7 @@ def jump_figure(loop: AdhesiveLoop) -> Figure:
     return figure
 
 
-def loop_words(loop: AdhesiveLoop) -> str:
+def loop_words(loop: AdhesiveCurve) -> str:
     """Return pull-off force, lost energy and number of jumps in words."""
     words = []
     if not loop.approach.all():
@@ -164,7 +164,7 @@ def loop_words(loop: AdhesiveLoop) -> str:
     return ", ".join(words) + (" (unresolved)" if loop.unresolved else "")
 
 
-def _branches(loop: AdhesiveLoop, way: bool) -> list[tuple[Any, Any]]:
+def _branches(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
     """Return the pieces of a path between its jumps, as depths and forces, that go one way."""
     pieces: list[list[tuple[float, float]]] = [[]]
     last: tuple[float, float] | None = None

@@ -10,16 +10,19 @@ from io import BytesIO
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.detachment_curve import DetachmentCurve
+from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.pictures import (
-    plot_adhesive_loop,
+    plot_adhesive_curve,
     plot_curve,
+    plot_detachment,
     plot_loop,
     plot_solution,
     plot_state,
@@ -27,9 +30,14 @@ from roughcontact.pictures import (
 )
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
+    adhesive_curve_facts,
     adhesive_facts,
-    adhesive_loop_facts,
     law_facts,
+)
+from roughcontact.plot.detachment_plot import (
+    DETACHMENT_COLUMNS,
+    detachment_facts,
+    detachment_state_facts,
 )
 from roughcontact.plot.facts import (
     AREAL_COLUMNS,
@@ -43,7 +51,9 @@ from roughcontact.plot.facts import (
 )
 from roughcontact.surface.surface import Surface
 
-__all__ = ["of_adhesive_loop", "of_curve", "of_loop", "of_solution", "of_state", "of_surface"]
+__all__ = [
+    *("of_adhesive_curve", "of_curve", "of_detachment", "of_loop", "of_solution", "of_state", "of_surface")
+]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
 _SIZE, _DPI = (4.6, 3.4), 96
@@ -91,18 +101,27 @@ def of_loop(loop: Loop) -> str:
     return _page("Loop", loop_facts(loop), figure)
 
 
-def of_state(state: AdhesiveState) -> str:
+def of_state(state: AdhesiveState | DetachmentState) -> str:
     """Return the numbers of a state of surfaces that stick beside pressure and tension."""
     figure, axes = _figure()
     plot_state(state, axes)
-    return _page("State", adhesive_facts(state), figure)
+    facts = detachment_state_facts(state) if isinstance(state, DetachmentState) else adhesive_facts(state)
+    return _page("State", facts, figure)
 
 
-def of_adhesive_loop(loop: AdhesiveLoop) -> str:
+def of_detachment(curve: DetachmentCurve) -> str:
+    """Return a table of the loads of stuck surfaces, and the pull-off force beside force against depth."""
+    figure, axes = _figure()
+    plot_detachment(curve, axes)
+    table = _table(*load_table(curve.to_dataset(), DETACHMENT_COLUMNS))
+    return _page("Detachment", detachment_facts(curve), figure) + table
+
+
+def of_adhesive_curve(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
-    plot_adhesive_loop(loop, axes)
-    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_loop_facts(loop)]
+    plot_adhesive_curve(loop, axes)
+    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table
 

@@ -10,7 +10,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank
+from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
@@ -22,15 +24,16 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["state_figure", "tension_map", "tension_profile"]
 
+State = AdhesiveState | DetachmentState
 _PRESSED, _PULLED, _CONTACT = "#c8290b", "#2166ac", "black"
 
 
-def tension_map(state: AdhesiveState, ax: Axes | None = None) -> Axes:
+def tension_map(state: State, ax: Axes | None = None) -> Axes:
     """Draw the pressure, zero in the middle of the colours: tension blue, each side on its own scale; contact outlined.
 
     Parameters
     ----------
-    state : AdhesiveState
+    state : AdhesiveState or DetachmentState
         On a grid of two axes.
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
@@ -48,19 +51,19 @@ def tension_map(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     --------
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
-    >>> state = rc.press(ball, 1e8, depth=2e-9, adhesion=rc.Adhesion(work=10e-3, range=4e-9))
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> axes = rc.plot.tension_map(state)
     >>> axes.images[0].norm.vcenter, axes.images[0].norm.vmin < 0 < axes.images[0].norm.vmax
     (0, True)
     """
-    grid = state.blank.operator.grid
+    grid = _bodies(state).operator.grid
     cells, axes = part(grid, None), axes_for(ax)
     unit = VARIABLES["pressure"].unit
     # As in other maps, a few cells at the edges of spots do not take the colours for themselves.
     highest, cut = colour_limit(state.pressure[state.pressure > 0])
     lowest = float(np.maximum(-state.pressure, 0.0).max()) or highest
     chosen = scale(max(highest, lowest), unit)
-    measured = np.isfinite(state.blank.separation)
+    measured = np.isfinite(_bodies(state).separation)
     values = np.where(measured, state.pressure * chosen.factor, np.nan)
     most, least = pooled(values), -pooled(-values)  # of blocks of cells what is largest, pressure or tension
     if not measured.all():
@@ -75,12 +78,12 @@ def tension_map(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def tension_profile(state: AdhesiveState, ax: Axes | None = None) -> Axes:
+def tension_profile(state: State, ax: Axes | None = None) -> Axes:
     """Draw the pressure along a line or over the radius of rings, tension below zero; contact is a bar at zero.
 
     Parameters
     ----------
-    state : AdhesiveState
+    state : AdhesiveState or DetachmentState
         On a grid of one axis.
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
@@ -99,11 +102,11 @@ def tension_profile(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> axes = rc.plot.tension_profile(rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9)))
+    >>> axes = rc.plot.tension_profile(rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0))
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('r [nm]', 'pressure, tension negative [MPa]')
     """
-    x, of_x, name = places_of(state.blank.operator.grid)
+    x, of_x, name = places_of(_bodies(state).operator.grid)
     axes = axes_for(ax, (7.0, 2.8))
     unit = unit_of("pressure", state.geometry)
     p = scale(float(np.abs(state.pressure).max()), unit)
@@ -120,12 +123,12 @@ def tension_profile(state: AdhesiveState, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def state_figure(state: AdhesiveState) -> Figure:
-    """Return the pressure and tension of surfaces that stick, under force, depth and stability.
+def state_figure(state: State) -> Figure:
+    """Return the pressure and tension of surfaces that stick, under force and depth.
 
     Parameters
     ----------
-    state : AdhesiveState
+    state : AdhesiveState or DetachmentState
 
     Returns
     -------
@@ -136,19 +139,23 @@ def state_figure(state: AdhesiveState) -> Figure:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> figure = rc.plot.state_figure(rc.press(ball, 1e8, depth=0.0, adhesion=rc.Adhesion(work=10e-3, range=4e-9)))
+    >>> figure = rc.plot.state_figure(rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=0.0))
     >>> figure.axes[0].get_title()
     'force -440 nN,  depth 0 m,  contact 32.1 %,  stability 0.39'
     """
-    if state.blank.operator.grid.ndim == 1:
+    if _bodies(state).operator.grid.ndim == 1:
         figure = Figure(figsize=(7.0, 3.0), layout="constrained")
         axes = tension_profile(state, figure.subplots())
     else:
-        height, width = state.blank.operator.grid.lengths
+        height, width = _bodies(state).operator.grid.lengths
         figure = Figure(figsize=(6.2, min(max(1.2 + 3.6 * height / width, 2.0), 9.0)), layout="constrained")
         axes = tension_map(state, figure.subplots())
     axes.set_title(_summary(state), fontsize=LABEL)
     return figure
+
+
+def _bodies(state: State) -> Blank | ContactProblem:
+    return state.blank if isinstance(state, AdhesiveState) else state.problem
 
 
 def _outline(contact: Mask) -> Array:
@@ -161,9 +168,12 @@ def _outline(contact: Mask) -> Array:
     return np.concatenate([level, upright]).astype(np.float64)
 
 
-def _summary(state: AdhesiveState) -> str:
+def _summary(state: State) -> str:
     words = (
         f"force {written(state.force, unit_of('force', state.geometry))},  depth {written(state.depth, 'm')},  "
-        f"contact {100 * state.contact_fraction:.3g} %,  stability {state.stability:.2f}"
+        f"contact {100 * state.contact_fraction:.3g} %"
     )
+    if isinstance(state, DetachmentState):
+        return words
+    words += f",  stability {state.stability:.2f}"
     return words + (" (unresolved)" if state.unresolved else "")

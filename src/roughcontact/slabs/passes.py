@@ -44,8 +44,11 @@ class Passes(Protocol):
         """Return a scaled pressure, zero where it would be negative or a cell is missing."""
         ...
 
-    def raise_blocks(self, separation: Array, share: float, /) -> Array:
-        """Return the mean of each block of 2 x 2 cells, less a share of how far they stand out of their plane."""
+    def raise_blocks(self, separation: Array, share: float, /) -> Array | None:
+        """Return the mean of each block of 2 x 2 cells, less a share of how far they stand out of their plane.
+
+        None where there are other blocks.
+        """
         ...
 
 
@@ -88,4 +91,5 @@ class SlabPasses:
 
     def raise_blocks(self, separation: Any, share: float) -> Any:
         """Return the blocks in slabs, each on the process that holds its rows."""
-        return separation.in_blocks(planes.raise_blocks(separation.local, share), 2)
+        blocks = planes.raise_blocks(separation.local, share)
+        return separation.in_blocks(blocks, 2) if self._agreed(blocks is not None) else None

@@ -26,25 +26,26 @@ class Measure:
         Of an operator [m^2], on the host.
     xp : module
         The functions for the fields, by the names of the array API standard.
+
+    Attributes
+    ----------
+    on_host : bool
+        Whether the fields are NumPy's, which SciPy and machine code can work on.
+    varies : bool
+        Whether the cells have different weights.
     """
 
     weights: float | Array
     xp: Any = np
+    on_host: bool = field(init=False, repr=False)
+    varies: bool = field(init=False, repr=False)
     _table: DeviceTable | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         table = DeviceTable(self.weights) if isinstance(self.weights, np.ndarray) else None
         object.__setattr__(self, "_table", table)
-
-    @property
-    def on_host(self) -> bool:
-        """Whether the fields are NumPy's, which SciPy and machine code can work on."""
-        return self.xp is np
-
-    @property
-    def varies(self) -> bool:
-        """Whether the cells have different weights."""
-        return self._table is not None
+        object.__setattr__(self, "varies", table is not None)
+        object.__setattr__(self, "on_host", self.xp is np)
 
     def total(self, field: Array | Mask) -> float:
         """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""

@@ -131,10 +131,10 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 
 
 def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
-    passes = passes_over(separation) if factors == (2, 2) and divides(separation, factors) else None
-    even = separation.shape[0] % 2 == separation.shape[-1] % 2 == 0
-    if passes is not None and even and passes.fit(separation):
-        return passes.raise_blocks(separation, tuning.SUMMITS)
+    passes = passes_over(separation) if factors == (2, 2) else None
+    raised = None if passes is None else passes.raise_blocks(separation, tuning.SUMMITS)
+    if raised is not None:
+        return raised
     low = block_minimum(separation, factors)
     if factors != (2, 2):
         return low

@@ -116,7 +116,7 @@ class Optimality:
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     passes : Passes, optional
-        Over the fields, in machine code.
+        Over the fields, in machine code: it knows no hardness, and cells of one size alone.
     """
 
     spec: Specification
@@ -128,7 +128,8 @@ class Optimality:
     def of(cls, operator: Operator, spec: Specification, separation: Array) -> Optimality:
         """Return the conditions for an operator and what is asked, on fields like the separation of the bodies."""
         measure = Measure(operator.weights, namespace(separation))
-        return cls(spec, measure, self_influence(operator), passes_over(separation))
+        passes = None if spec.plastic or measure.varies else passes_over(separation)
+        return cls(spec, measure, self_influence(operator), passes)
 
     def feasible_start(self, separation: Array, initial: Array) -> Array:
         """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
@@ -137,7 +138,7 @@ class Optimality:
         them alone by the depth.
         """
         measure, passes, control = self.measure, self.passes, self.spec.control
-        if passes is not None and not measure.varies and passes.fit(initial, separation):
+        if passes is not None and passes.fit(initial, separation):
             total = float(measure.weights) * passes.positive_total(initial, separation)
             if total > 0:
                 scale = control.value / total if isinstance(control, Force) else 1.0
@@ -154,8 +155,8 @@ class Optimality:
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
-        spec, measure, passes = self.spec, self.measure, self._passes_for(iterate)
-        if passes is not None and not measure.varies:
+        spec, measure, passes = self.spec, self.measure, self.passes
+        if passes is not None and passes.fit(*iterate):
             return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
@@ -207,8 +208,8 @@ class Optimality:
         leaves no pressure on it.
         """
         (pressure, displacement, separation), spec = iterate, self.spec
-        a_ii, passes = self.self_influence if first else math.inf, self._passes_for(iterate)
-        if passes is not None:
+        a_ii, passes = self.self_influence if first else math.inf, self.passes
+        if passes is not None and passes.fit(*iterate):
             free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, a_ii=a_ii)
             support = free | (pressure > 0) if dropped else free
         else:
@@ -232,11 +233,6 @@ class Optimality:
             return Quality.BAD
         few = self.measure.on_host and 2 * int(np.count_nonzero(pressure)) < count
         return Quality.GUESSED if few else Quality.GOOD
-
-    def _passes_for(self, iterate: Iterate) -> Passes | None:
-        """Return the passes where they take the fields as they lie in memory; they know no hardness."""
-        passes = None if self.spec.plastic else self.passes
-        return passes if passes is not None and passes.fit(*iterate) else None
 
     def _evaluate_in_one_pass(self, iterate: Iterate, passes: Passes) -> Evaluation:
         extremes, depth = passes.extremes(*iterate), self.spec.depth

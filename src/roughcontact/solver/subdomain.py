@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy
 from roughcontact.halfspace.operators.operator import Capabilities, Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
@@ -83,7 +82,7 @@ class SubdomainSolver:
         start: Start,
     ) -> tuple[State, Subdomain]:
         """Solve from a pressure on the whole grid and a depth; return the state and its subdomain."""
-        if not (self._can.positive and is_numpy(separation)):
+        if not (self._can.positive and isinstance(separation, np.ndarray)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
             return resolve_contact(solver, self.operator, separation, spec, start), whole
@@ -114,8 +113,7 @@ class SubdomainSolver:
             if self._list is None or self._list[0] is not subdomain:
                 self._list = (subdomain, self._between(subdomain))
             return self._list[1]
-        shape = tuple(s.stop - s.start for s in subdomain)
-        if shape == self.operator.grid.shape:
+        if _size(subdomain) == self.operator.grid.size:
             return self.operator
         if self._box is None or self._box[0] != subdomain:
             self._box = (subdomain, self.operator.restrict(subdomain))

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
+from roughcontact.adhesion.adhesive_loop import adhesive_loop
 from roughcontact.adhesion.attraction import Adhesion, Law
-from roughcontact.contact.adhesive_loop import adhesive_loop
 from roughcontact.labels.labelled import described, variable
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.study.case import Case, EnergyPerArea, Length, Positive, Pressure
@@ -17,7 +17,7 @@ from roughcontact.study.cases.shared_parameters import RoughSquare
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.validation import Array
 
 __all__ = ["CASE", "AdhesionParameters", "run"]
@@ -103,7 +103,7 @@ def run(parameters: AdhesionParameters, rng: np.random.Generator) -> xarray.Data
     return xarray.Dataset(data, attrs={"title": "loops of rough surfaces that stick"})
 
 
-def _retreat(loop: AdhesiveLoop, values: Array, parameters: AdhesionParameters) -> Array:
+def _retreat(loop: AdhesiveCurve, values: Array, parameters: AdhesionParameters) -> Array:
     """Return the values of the retreat at the depths of the approach; NaN where it ended before."""
     back = values[parameters.loads : 2 * parameters.loads + 1]
     return np.pad(back, (0, parameters.loads + 1 - back.size), constant_values=np.nan)[::-1].copy()

@@ -18,9 +18,9 @@ from roughcontact.labels.labelled import dataset_of, plain_values, sizes, units_
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.adhesive_branches import AdhesiveLoop
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 
-__all__ = ["LOOP_POINTS", "LOOP_SCALES", "adhesive_loop_dataset", "adhesive_loop_record"]
+__all__ = ["LOOP_POINTS", "LOOP_SCALES", "adhesive_curve_dataset", "adhesive_curve_record"]
 
 LOOP_POINTS = (
     *("force", "depth", "stiffness", "contact_stiffness", "contact_area", "mean_gap"),
@@ -33,7 +33,7 @@ _SCALARS = {"pull_off_force": "pull_off_force", "jump_in_force": "jump_in_force"
 _NUMBERS = ("unresolved", *LOOP_SCALES)
 
 
-def adhesive_loop_dataset(loop: AdhesiveLoop) -> xarray.Dataset:
+def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
     """Return the points along ``load``, the jumps along ``jump``, and the scales."""
     kind = loop.geometry
     names = (*LOOP_POINTS, *_DERIVED)
@@ -49,7 +49,7 @@ def adhesive_loop_dataset(loop: AdhesiveLoop) -> xarray.Dataset:
     return dataset_of(data | sizes(loop), {}, title, kind).assign_attrs(attributes)
 
 
-def adhesive_loop_record(loop: AdhesiveLoop) -> dict[str, Any]:
+def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
     """Return a path as plain numbers, words and lists that JSON can hold."""
     names = (*LOOP_POINTS, *_DERIVED, *_NUMBERS, "lengths", "spacing", "periodic")
     record = {name: plain_values(getattr(loop, name)) for name in names}
@@ -64,9 +64,9 @@ def adhesive_loop_record(loop: AdhesiveLoop) -> dict[str, Any]:
     return record | {"geometry": loop.geometry.value, "units": units_of(record, loop.geometry)}
 
 
-def _branches(loop: AdhesiveLoop) -> Any:
+def _branches(loop: AdhesiveCurve) -> Any:
     return np.where(loop.approach, "approach", "retreat")
 
 
-def _bracket(loop: AdhesiveLoop) -> str:
+def _bracket(loop: AdhesiveCurve) -> str:
     return f"jump_{loop.control}_bracket"

@@ -9,11 +9,11 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+from roughcontact.adhesion.adhesive_curve_dataset import LOOP_POINTS, LOOP_SCALES
 from roughcontact.adhesion.attraction import Adhesion, Law
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.adhesion.state_dataset import JUMPS
-from roughcontact.contact.adhesive_branches import AdhesiveLoop
-from roughcontact.contact.adhesive_loop_dataset import LOOP_POINTS, LOOP_SCALES
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
@@ -27,12 +27,12 @@ from roughcontact.files.stored_columns import (
 )
 from roughcontact.validation import Array
 
-__all__ = ["read_adhesive_loop"]
+__all__ = ["read_adhesive_curve"]
 
 _SCALARS = (*LOOP_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
 
 
-def read_adhesive_loop(path: str | os.PathLike[str]) -> AdhesiveLoop:
+def read_adhesive_curve(path: str | os.PathLike[str]) -> AdhesiveCurve:
     """Return the path of surfaces that stick in a ``.nc`` file that `write` made of it.
 
     Parameters
@@ -42,7 +42,7 @@ def read_adhesive_loop(path: str | os.PathLike[str]) -> AdhesiveLoop:
 
     Returns
     -------
-    AdhesiveLoop
+    AdhesiveCurve
         To the last bit the one that was written.
 
     Raises
@@ -57,7 +57,7 @@ def read_adhesive_loop(path: str | os.PathLike[str]) -> AdhesiveLoop:
     >>> ball = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
     >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9, points=4)
     >>> rc.write(loop, "loop.nc")
-    >>> rc.read_adhesive_loop("loop.nc").jumps == loop.jumps
+    >>> rc.read_adhesive_curve("loop.nc").jumps == loop.jumps
     True
     """
     with content(path) as (_, data):
@@ -67,7 +67,7 @@ def read_adhesive_loop(path: str | os.PathLike[str]) -> AdhesiveLoop:
             return _loop(variables, attributes)
 
 
-def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> AdhesiveLoop:
+def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> AdhesiveCurve:
     if "interfacial_stiffness" in variables:
         raise ContentError("it holds a curve of surfaces that do not stick", "read it with read_curve")
     control: Literal["depth", "force"] = "force" if "jump_force_bracket" in variables else "depth"
@@ -86,7 +86,7 @@ def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]
     branches = [word_of(value) for value in variables["branch"].load().reshape(-1).tolist()]
     if len(branches) != shape[0] or not set(branches) <= {"approach", "retreat"}:
         raise ContentError(f"its branches are {', '.join(sorted(set(branches)))}", REMEDY)
-    return AdhesiveLoop(
+    return AdhesiveCurve(
         **points,
         approach=np.array([word == "approach" for word in branches]),
         jumps=tuple(

@@ -15,14 +15,15 @@ from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import adhesive_loop_html, plot_adhesive_loop
+from roughcontact.pictures import adhesive_curve_html, plot_adhesive_curve
 from roughcontact.solver.control import Status
+from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, Mask
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["AdhesiveLoop", "collect_states"]
+__all__ = ["AdhesiveCurve", "collect_states"]
 
 _POINTS = (
     *("depth", "force", "contact_area", "energy", "residual"),
@@ -31,8 +32,8 @@ _POINTS = (
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class AdhesiveLoop:
-    """Points of a path of surfaces that stick, and its jumps; made by `adhesive_loop`, or `loading_curve`.
+class AdhesiveCurve:
+    """Points of a path of surfaces that stick, and its jumps; made by `adhesive_curve` and `adhesive_loop`.
 
     Attributes
     ----------
@@ -134,10 +135,7 @@ class AdhesiveLoop:
 
     @property
     def lost(self) -> float:
-        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed.
-
-        With the sharp law cells let go without a jump, and what they lose stands in the detachments of the states.
-        """
+        """Energy lost in all `jumps` [J]: the area of the loop, if it is closed."""
         return math.fsum(jump.lost for jump in self.jumps)
 
     @property
@@ -164,7 +162,7 @@ class AdhesiveLoop:
         """Say what the path spans, not its numbers."""
         unit = unit_of("force", self.geometry)
         return (
-            f"AdhesiveLoop({len(self)} points, {len(self.jumps)} jumps, "
+            f"AdhesiveCurve({len(self)} points, {len(self.jumps)} jumps, "
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
@@ -177,9 +175,9 @@ class AdhesiveLoop:
             Points along ``load``, of which ``branch`` says whether they are of the approach or the retreat; jumps along
             ``jump``. Each variable has its unit and a long name.
         """
-        from roughcontact.contact.adhesive_loop_dataset import adhesive_loop_dataset
+        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_dataset
 
-        return adhesive_loop_dataset(self)
+        return adhesive_curve_dataset(self)
 
     def to_record(self) -> dict[str, Any]:
         """Return the numbers as plain values, for JSON.
@@ -189,23 +187,23 @@ class AdhesiveLoop:
         dict
             Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
         """
-        from roughcontact.contact.adhesive_loop_dataset import adhesive_loop_record
+        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_record
 
-        return adhesive_loop_record(self)
+        return adhesive_curve_record(self)
 
-    plot = plot_adhesive_loop
-    _repr_html_ = adhesive_loop_html
+    plot = plot_adhesive_curve
+    _repr_html_ = adhesive_curve_html
 
 
-def collect_states(states: Iterable[AdhesiveState], loads: Array) -> AdhesiveLoop:
+def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCurve:
     """Drain a path into its points; fields are not kept.
 
     Parameters
     ----------
     states : iterable of AdhesiveState
         At least one.
-    loads : array
-        What grows as the bodies approach: depths, forces, or mean gaps with a minus. The path may end before them.
+    loads : Loads
+        The loads of the path, which may end before them.
     """
     rows: list[tuple[float, ...]] = []
     jumps: list[Jump] = []
@@ -218,9 +216,9 @@ def collect_states(states: Iterable[AdhesiveState], loads: Array) -> AdhesiveLoo
         status.append(state.status)
     blank, points = state.blank, np.array(rows).T
     grid, surface = blank.operator.grid, blank.surface
-    return AdhesiveLoop(
+    return AdhesiveCurve(
         **dict(zip(_POINTS, points, strict=True)),
-        approach=_approaches(loads)[: len(rows)],
+        approach=_approaches(loads.approach)[: len(rows)],
         jumps=tuple(jumps),
         jumped=tuple(jumped),
         unresolved=state.unresolved,

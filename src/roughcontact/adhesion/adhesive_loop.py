@@ -7,14 +7,15 @@ from itertools import islice
 
 import numpy as np
 
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve, collect_states
+from roughcontact.adhesion.adhesive_loading import states_under
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import REACH, Adhesion
-from roughcontact.contact.adhesive_branches import AdhesiveLoop, collect_states
-from roughcontact.contact.loading import loading_path
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
-from roughcontact.validation import Array, numeric, require, shown, whole
+from roughcontact.solver.loads import Loads
+from roughcontact.validation import Array, numeric, require, whole
 
 __all__ = ["adhesive_loop", "loop_depths", "until_off"]
 
@@ -32,13 +33,13 @@ def adhesive_loop(
     points: int = 40,
     operator: Operator | None = None,
     tolerance: float = 1e-8,
-) -> AdhesiveLoop:
+) -> AdhesiveCurve:
     """Return a whole loop: from beyond the attraction to a depth, and back until the body is off.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
-        Heights [m], see `press`.
+        Heights [m], see `adhesive_state`.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     adhesion : Adhesion
@@ -49,14 +50,14 @@ def adhesive_loop(
         Steps of the approach, from ten ranges of the attraction apart to the depth, which is a point of its own; the
         retreat has the same steps.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`.
+        Another body than the half-space on the surface's grid, see `press`; no foundation.
     tolerance : float
         Largest residual; see `AdhesiveState`.
 
     Returns
     -------
-    AdhesiveLoop
-        Numbers of every state, and the jumps. States themselves are not kept, see `loading_path`.
+    AdhesiveCurve
+        Numbers of every state, and the jumps. States themselves are not kept, see `adhesive_path`.
 
     Raises
     ------
@@ -74,13 +75,9 @@ def adhesive_loop(
     >>> f"pull-off {loop.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R"
     'pull-off 1.63 pi w R'
     """
-    wanted = f"an Adhesion is wanted, such as Adhesion(0.05, 2e-9), not {shown(adhesion)}"
-    require(isinstance(adhesion, Adhesion), wanted)
-    depths = loop_depths(adhesion, depth, points)
-    path = loading_path(
-        surface, modulus, depths=depths, operator=operator, tolerance=tolerance, adhesion=adhesion
-    )
-    return collect_states(until_off(path, points), depths[1:])
+    loads = Loads("depth", loop_depths(adhesion, depth, points))
+    path = states_under(surface, modulus, adhesion, loads, operator, tolerance)
+    return collect_states(until_off(path, points), Loads("depth", loads.values[1:]))
 
 
 def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:

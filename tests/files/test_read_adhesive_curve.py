@@ -19,22 +19,20 @@ def patchy():
     surface, law = rough(16, periodic=True, slope=0.2, seed=1), sticky(2.0)
     work = np.full((16, 16), law.work)
     work[3:7] = 0.0
-    return rc.loading_curve(surface, 1.0, depths=[0.1, 0.0], adhesion=rc.Adhesion(work, law.range))
+    return rc.adhesive_curve(surface, 1.0, rc.Adhesion(work, law.range), depths=[0.1, 0.0])
 
 
 def on_a_line():
     grid = rc.Grid(32, 1.0, periodic=True)
     line = rc.Surface(np.cos(2 * np.pi * np.arange(32) / 32), grid)
-    return rc.loading_curve(
-        line, 1.0, depths=[0.1, 0.3, 0.1], adhesion=sticky(4.0), operator=rc.line(grid, 1.0)
-    )
+    return rc.adhesive_curve(line, 1.0, sticky(4.0), depths=[0.1, 0.3, 0.1], operator=rc.line(grid, 1.0))
 
 
 LOOPS = {
     "rings": lambda: rc.adhesive_loop(BALL, 1e8, STRONG, depth=10e-9, points=6),
     # Pulled off: a depth of minus infinity, a jump to no depth, infinite loss.
-    "forces": lambda: rc.loading_curve(BALL, 1e8, forces=[0.0, 4e-7, -1e-6, 0.0], adhesion=STRONG),
-    "no jump": lambda: rc.loading_curve(BALL, 1e8, depths=[-30e-9], adhesion=STRONG),
+    "forces": lambda: rc.adhesive_curve(BALL, 1e8, STRONG, forces=[0.0, 4e-7, -1e-6, 0.0]),
+    "no jump": lambda: rc.adhesive_curve(BALL, 1e8, STRONG, depths=[-30e-9]),
     "patchy": patchy,
     "line": on_a_line,
 }
@@ -44,7 +42,7 @@ LOOPS = {
 def test_every_path_comes_back_to_the_last_bit(tmp_path, name):
     loop = LOOPS[name]()
     rc.write(loop, tmp_path / "a.nc")
-    back = rc.read_adhesive_loop(tmp_path / "a.nc")
+    back = rc.read_adhesive_curve(tmp_path / "a.nc")
     for field in dataclasses.fields(loop):
         went, came = getattr(loop, field.name), getattr(back, field.name)
         assert type(came) is type(went), field.name
@@ -79,16 +77,16 @@ def test_what_holds_no_such_path_is_refused(tmp_path):
     ball = rc.shapes.paraboloid(rc.Grid((16, 16), 1e-6), radius=1e-4)
     rc.write(rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]), tmp_path / "curve.nc")
     with pytest.raises(rc.ReadError, match="do not stick; read it with read_curve"):
-        rc.read_adhesive_loop(tmp_path / "curve.nc")
+        rc.read_adhesive_curve(tmp_path / "curve.nc")
     rc.write(LOOPS["no jump"](), tmp_path / "loop.nc")
-    with pytest.raises(rc.ReadError, match="that stick; read it with read_adhesive_loop"):
+    with pytest.raises(rc.ReadError, match="that stick; read it with read_adhesive_curve"):
         rc.read_curve(tmp_path / "loop.nc")
     rc.write(LOOPS["no jump"](), tmp_path / "loop.csv")
     with pytest.raises(rc.ReadError, match=r"NetCDF files \(\.nc\) only"):
-        rc.read_adhesive_loop(tmp_path / "loop.csv")
+        rc.read_adhesive_curve(tmp_path / "loop.csv")
     rc.write(ball, tmp_path / "ball.nc")
     with pytest.raises(rc.ReadError, match="holds no loading curve: no force"):
-        rc.read_adhesive_loop(tmp_path / "ball.nc")
+        rc.read_adhesive_curve(tmp_path / "ball.nc")
 
 
 @pytest.mark.parametrize(
@@ -109,7 +107,7 @@ def test_what_holds_no_such_path_is_refused(tmp_path):
 def test_what_is_wrong_is_named(tmp_path, change, message):
     write_netcdf(change(LOOPS["rings"]().to_dataset()), tmp_path / "a.nc")
     with pytest.raises(rc.ReadError, match=message):
-        rc.read_adhesive_loop(tmp_path / "a.nc")
+        rc.read_adhesive_curve(tmp_path / "a.nc")
 
 
 def test_damage_is_a_read_error(tmp_path):
@@ -119,4 +117,4 @@ def test_damage_is_a_read_error(tmp_path):
     for spoilt in (b"", whole[:100], whole[: len(whole) // 2], bytes(len(whole))):
         path.write_bytes(spoilt)
         with pytest.raises(rc.ReadError):
-            rc.read_adhesive_loop(path)
+            rc.read_adhesive_curve(path)

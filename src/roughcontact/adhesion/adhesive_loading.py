@@ -1,0 +1,233 @@
+"""Adhesive contact under prescribed loads: one state, a path of states, and a curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from roughcontact.adhesion.adhesive_curve import AdhesiveCurve, collect_states
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.adhesion.path_states import states_along
+from roughcontact.contact.convergence import ConvergenceError
+from roughcontact.contact.problem import Body, require_memory_for, separation_of
+from roughcontact.halfspace.operators.build import body_on
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.variables import force_unit
+from roughcontact.material import Solid, as_modulus
+from roughcontact.solver.control import checked_tolerance
+from roughcontact.solver.loads import Loads
+from roughcontact.validation import Array, numeric
+
+__all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "states_under"]
+
+
+@numeric(modulus="Pa", depth="m", force=force_unit, pressure="Pa", mean_gap="m")
+def adhesive_state(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    adhesion: Adhesion,
+    *,
+    depth: float | None = None,
+    force: float | None = None,
+    pressure: float | None = None,
+    mean_gap: float | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+) -> AdhesiveState:
+    """Return the state of an adhesive contact at the end of an approach from beyond the range of the attraction.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    adhesion : Adhesion
+        Work, range and law of the attraction.
+    depth, force, pressure, mean_gap : float
+        Exactly one: indentation depth [m] of either sign, normal force [N] of at least 0 (on a line [N/m]), nominal
+        pressure [Pa] of at least 0 (force over the area of all cells), or mean gap [m] of a whole periodic surface,
+        above 0: the mean separation less the depth.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`; no foundation.
+    tolerance : float
+        Largest residual, see `AdhesiveState`.
+
+    Returns
+    -------
+    AdhesiveState
+        Pressure, contact, depth and certificate; energies, stiffness and stability follow from it.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, or the cells do not resolve the attraction; the message names the value and the
+        remedy.
+    ConvergenceError
+        If the tolerance was missed. It carries the state.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), force=0.0)
+    >>> f"{state.depth * 1e9:.1f} nm deep without a force, {state.status.value}"
+    '8.5 nm deep without a force, converged'
+    """
+    loads = Loads.of(depth=depth, force=force, pressure=pressure, mean_gap=mean_gap)
+    state = next(states_under(surface, modulus, adhesion, loads, operator, tolerance))
+    if not state.status.converged:
+        raise ConvergenceError(state, tolerance)
+    return state
+
+
+@numeric(modulus="Pa", depths="m", forces=force_unit, pressures="Pa", mean_gaps="m")
+def adhesive_path(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    adhesion: Adhesion,
+    *,
+    depths: Sequence[float] | Array | None = None,
+    forces: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
+    mean_gaps: Sequence[float] | Array | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+) -> Iterator[AdhesiveState]:
+    """Yield the state of an adhesive contact at each load, in order, with the jumps on the way to it.
+
+    The bodies come from beyond the range of the attraction. They stay in one basin of their energy until it ends, and
+    then jump. States do not depend on the steps of the loads.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `adhesive_state`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    adhesion : Adhesion
+        Work, range and law of the attraction.
+    depths, forces, pressures, mean_gaps : array, shape (n,)
+        Exactly one, up and down: depths [m], forces [N] (on a line [N/m]) or nominal pressures [Pa] of either sign, or
+        mean gaps [m] above 0 of a whole periodic surface, see `adhesive_state`. The first force or pressure must be at
+        least 0; one that pulls the bodies off ends the contact.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`; no foundation.
+    tolerance : float
+        Largest residual of each state, see `AdhesiveState`.
+
+    Yields
+    ------
+    AdhesiveState
+        The `status` of a state that missed the tolerance says so.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense or the cells do not resolve the attraction: at once and not at the first load.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
+    >>> there, back = rc.adhesive_path(ball, 1e8, adhesion, depths=[20e-9, 0.0])
+    >>> f"{there.force * 1e6:.2f} uN, {back.force * 1e6:.2f} uN, {back.status.value}"
+    '1.03 uN, -0.44 uN, converged'
+    """
+    loads = Loads.of(depths=depths, forces=forces, pressures=pressures, mean_gaps=mean_gaps)
+    return states_under(surface, modulus, adhesion, loads, operator, tolerance)
+
+
+@numeric(modulus="Pa", depths="m", forces=force_unit, pressures="Pa", mean_gaps="m")
+def adhesive_curve(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    adhesion: Adhesion,
+    *,
+    depths: Sequence[float] | Array | None = None,
+    forces: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
+    mean_gaps: Sequence[float] | Array | None = None,
+    operator: Operator | None = None,
+    tolerance: float = 1e-8,
+) -> AdhesiveCurve:
+    """Return force, contact area, energy and more of an adhesive contact at each load, and its jumps.
+
+    For an approach to a depth and the whole retreat, see `adhesive_loop`.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `adhesive_state`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    adhesion : Adhesion
+        Work, range and law of the attraction.
+    depths, forces, pressures, mean_gaps : array, shape (n,)
+        Exactly one, up and down, see `adhesive_path`.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid, see `press`; no foundation.
+    tolerance : float
+        Largest residual of each state, see `AdhesiveState`.
+
+    Returns
+    -------
+    AdhesiveCurve
+        One point for each load with its branch and status, and the jumps; fields are not kept, see `adhesive_path`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, or the cells do not resolve the attraction.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-rings.radii**2 / 2e-5, rings)
+    >>> adhesion = rc.Adhesion(work=10e-3, range=4e-9)
+    >>> curve = rc.adhesive_curve(ball, 1e8, adhesion, depths=[0.0, 20e-9, 0.0, -5e-9])
+    >>> curve.approach.tolist(), f"{curve.pull_off_force * 1e9:.0f} nN"
+    ([True, True, False, False], '511 nN')
+    """
+    loads = Loads.of(depths=depths, forces=forces, pressures=pressures, mean_gaps=mean_gaps)
+    return collect_states(states_under(surface, modulus, adhesion, loads, operator, tolerance), loads)
+
+
+def states_under(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    adhesion: Adhesion,
+    loads: Loads,
+    operator: Operator | None,
+    tolerance: float,
+) -> Iterator[AdhesiveState]:
+    """Yield the state at each load, see `adhesive_path`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, at once and not at the first load.
+    """
+    require_memory_for(surface)
+    value = as_modulus(modulus)
+    body = body_on(surface.grid, value, operator)
+    if geometry_of(body) is Geometry.FOUNDATION:
+        raise ValueError(
+            "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
+            "for bodies of revolution see mdr.adhesion"
+        )
+    goals = loads.as_forces(surface.grid)
+    return states_along(
+        body,
+        separation_of(surface),
+        adhesion,
+        modulus=value,
+        **{f"{goals.kind}s".replace(" ", "_"): goals.values},
+        surface=surface,
+        tolerance=checked_tolerance(tolerance),
+    )

@@ -1,0 +1,255 @@
+"""Force and contact of stuck surfaces that are drawn back, with the cells that let go on the way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from roughcontact.adhesion.detachment import Detachment
+from roughcontact.adhesion.detachment_path import Loads, detachment_path, force_unit_of
+from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.variables import unit_of
+from roughcontact.pictures import detachment_html, plot_detachment
+from roughcontact.solver.control import Status
+from roughcontact.validation import Array, numeric
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["DetachmentCurve", "collect_detachments", "detachment_curve"]
+
+_POINTS = (
+    *("depth", "force", "contact_area", "stiffness", "mean_gap"),
+    *("elastic_energy", "adhesive_energy", "lowest_force", "residual"),
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class DetachmentCurve:
+    """Points of stuck surfaces that are drawn back, and the cells that let go; made by `detachment_curve`.
+
+    Attributes
+    ----------
+    depth : array, shape (n,)
+        [m], falling; minus infinity where a force has pulled the bodies off.
+    force : array, shape (n,)
+        [N], tension negative; on a line [N/m].
+    contact_area : array, shape (n,)
+        Area of the stuck cells [m^2]; on a line [m].
+    stiffness : array, shape (n,)
+        Slope of the force with the depth while no cell lets go [N/m].
+    mean_gap : array, shape (n,)
+        [m], over the measured cells.
+    elastic_energy, adhesive_energy : array, shape (n,)
+        [J]; the latter minus the work of adhesion of the stuck cells.
+    lowest_force : array, shape (n,)
+        Lowest force since the preload [N], between the points as well as at them.
+    residual : array, shape (n,)
+        The certificate of each state, see `DetachmentState`.
+    status : tuple of Status
+    detachments : tuple of Detachment
+        Every event, in order.
+    detached : tuple of int
+        The point, counted from 0, that each event came on the way to.
+    preload_too_small : bool
+        Whether the pull-off force may be larger after a larger preload, see `DetachmentState`.
+    notes : tuple of str
+        What a reader of these numbers should know.
+    control : {"depth", "force"}
+        What was prescribed.
+    work : float or array, shape of the grid
+        Work of adhesion [J/m^2].
+    modulus : float
+        Reduced modulus E* [Pa].
+    tolerance : float
+        Of each state.
+    lengths, spacing, periodic : tuple
+        Sides of the grid and of a cell [m], y first; whether the surface repeats itself.
+    nominal_area, rms : float
+        Area of all cells [m^2], and root mean square height of the surface [m].
+    geometry : Geometry
+        What the cells are.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> pressed = rc.press(ball, 1e8, depth=2e-8)
+    >>> curve = rc.detachment_curve(pressed, 10e-3, depths=[1e-8, 0.0, -1e-8, -2e-8])
+    >>> f"pulled off at {curve.pull_off_force * 1e9:.0f} nN, {curve.lost * 1e18:.0f} aJ are lost", curve.converged
+    ('pulled off at 487 nN, 310 aJ are lost', True)
+    >>> curve.plot().get_xlabel(), curve.to_dataset()["detachment_lost"].attrs["units"], curve.to_record()["control"]
+    ('depth [nm]', 'J', 'depth')
+    """
+
+    depth: Array
+    force: Array
+    contact_area: Array
+    stiffness: Array
+    mean_gap: Array
+    elastic_energy: Array
+    adhesive_energy: Array
+    lowest_force: Array
+    residual: Array
+    status: tuple[Status, ...]
+    detachments: tuple[Detachment, ...]
+    detached: tuple[int, ...]
+    preload_too_small: bool
+    notes: tuple[str, ...]
+    control: Literal["depth", "force"]
+    work: float | Array
+    modulus: float
+    tolerance: float
+    lengths: tuple[float, ...]
+    spacing: tuple[float, ...]
+    periodic: tuple[bool, ...]
+    nominal_area: float
+    rms: float
+    geometry: Geometry
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+    @property
+    def pull_off_force(self) -> float:
+        """Largest tension [N], positive, between the points as well as at them; 0 where nothing pulls back."""
+        return max(0.0, -float(self.lowest_force[-1]))
+
+    @property
+    def lost(self) -> float:
+        """Energy lost in all detachments [J]; infinite where a force pulled the body off."""
+        return math.fsum(event.lost for event in self.detachments)
+
+    @property
+    def converged(self) -> bool:
+        """Whether every state met the tolerance."""
+        return all(status.converged for status in self.status)
+
+    @property
+    def energy(self) -> Array:
+        """Elastic and adhesive energy [J], shape (n,)."""
+        return self.elastic_energy + self.adhesive_energy
+
+    @property
+    def contact_fraction(self) -> Array:
+        """Contact area over the nominal area, shape (n,)."""
+        return self.contact_area / self.nominal_area
+
+    def __repr__(self) -> str:
+        """Say what the curve spans, not its numbers."""
+        unit = unit_of("force", self.geometry)
+        return (
+            f"DetachmentCurve({len(self)} points, {len(self.detachments)} detachments, "
+            f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points and the detachments as an `xarray.Dataset`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Points along ``load``, detachments along ``detachment``. Each variable has its unit and a long name.
+        """
+        from roughcontact.adhesion.detachment_dataset import detachment_curve_dataset
+
+        return detachment_curve_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        """
+        from roughcontact.adhesion.detachment_dataset import detachment_curve_record
+
+        return detachment_curve_record(self)
+
+    plot = plot_detachment
+    _repr_html_ = detachment_html
+
+
+@numeric(work="J/m^2", depths="m", forces=force_unit_of)
+def detachment_curve(
+    solution: Solution,
+    work: float | Array,
+    *,
+    depths: Loads | None = None,
+    forces: Loads | None = None,
+) -> DetachmentCurve:
+    """Return force, contact and more of surfaces that stick where they were pressed, and are drawn back.
+
+    Parameters
+    ----------
+    solution : Solution
+        The preload: an elastic contact, pressed to more than the contact at the pull-off.
+    work : float or array, shape of the grid
+        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+    depths, forces : array, shape (n,)
+        At most one: falling depths [m] or forces [N], the first at most that of the solution. Without either, one
+        point: that at which the last cell has let go.
+
+    Returns
+    -------
+    DetachmentCurve
+        One point for each load, and every detachment; fields are not kept, see `detachment_path`.
+
+    Raises
+    ------
+    ValueError
+        As for `detachment_path`.
+
+    Examples
+    --------
+    >>> import math
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> curve = rc.detachment_curve(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> f"{curve.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R", curve.notes
+    ('1.55 pi w R', ())
+    """
+    path = detachment_path(solution, work, depths=depths, forces=forces)
+    return collect_detachments(path, by_force=forces is not None)
+
+
+def collect_detachments(states: Iterable[DetachmentState], *, by_force: bool) -> DetachmentCurve:
+    """Drain a path, of at least one state, into its points; fields are not kept."""
+    rows: list[tuple[float, ...]] = []
+    events: list[Detachment] = []
+    detached: list[int] = []
+    status: list[Status] = []
+    for state in states:
+        detached += [len(rows)] * len(state.detachments)
+        rows.append(tuple(float(getattr(state, name)) for name in _POINTS))
+        events += state.detachments
+        status.append(state.status)
+    problem = state.problem
+    grid, surface = problem.grid, problem.surface
+    return DetachmentCurve(
+        **dict(zip(_POINTS, np.array(rows).T, strict=True)),
+        status=tuple(status),
+        detachments=tuple(events),
+        detached=tuple(detached),
+        preload_too_small=state.preload_too_small,
+        notes=state.notes,
+        control="force" if by_force else "depth",
+        work=state.work,
+        modulus=problem.modulus,
+        tolerance=problem.tolerance,
+        lengths=tuple(grid.lengths),
+        spacing=tuple(grid.spacing),
+        periodic=tuple(grid.periodic),
+        nominal_area=float(grid.area),
+        rms=math.nan if surface is None else surface.rms,
+        geometry=state.geometry,
+    )

@@ -1,0 +1,204 @@
+"""From a pressed contact and a work of adhesion to the states along falling depths or forces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from roughcontact.adhesion.detachment import Detachment, StuckContact, mean_compliance
+from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.labels.variables import unit_of
+from roughcontact.threads import one_blas_thread
+from roughcontact.validation import Array, number, numeric, positive, require, shown
+
+__all__ = ["Loads", "detachment_path", "force_unit_of"]
+
+Loads = Sequence[float] | Array
+
+
+def force_unit_of(arguments: Mapping[str, Any]) -> str:
+    """Return the unit of forces on the body of a solution among the arguments."""
+    return unit_of("force", arguments["solution"].problem.geometry)
+
+
+@numeric(work="J/m^2", depths="m", forces=force_unit_of)
+def detachment_path(
+    solution: Solution,
+    work: float | Array,
+    *,
+    depths: Loads | None = None,
+    forces: Loads | None = None,
+) -> Iterator[DetachmentState]:
+    """Draw back surfaces that stick where they were pressed, and yield the state at each depth or force.
+
+    This is the limit of Johnson, Kendall and Roberts: attraction of no range, for bodies whose Irwin length no grid
+    resolves. Cells in contact under the preload are stuck, one by one lets go when its tension is too large (Pohrt and
+    Popov 2015), and none comes back. The states do not depend on the steps. For an approach, or an attraction with a
+    range, see `Adhesion`.
+
+    Parameters
+    ----------
+    solution : Solution
+        The preload: an elastic contact, pressed to more than the contact at the pull-off.
+    work : float or array, shape of the grid
+        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+    depths, forces : array, shape (n,)
+        At most one: falling depths [m] or forces [N], the first at most that of the solution. Without either, one
+        state: that in which the last cell has let go.
+
+    Yields
+    ------
+    DetachmentState
+        With the cells that let go on the way to it, and the largest tension so far.
+
+    Raises
+    ------
+    ValueError
+        If nothing is in contact, or too many cells are, or some flow at a hardness; if the body is one of springs; or
+        if the loads do not fall, or a number makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> pressed = rc.press(ball, 1e8, depth=2e-8)
+    >>> states = rc.detachment_path(pressed, 10e-3, depths=[1e-8, 0.0, -1e-8])
+    >>> [f"{state.force * 1e9:.0f} nN on {state.contact.sum()} rings" for state in states]
+    ['295 nN on 45 rings', '-423 nN on 40 rings', '0 nN on 0 rings']
+    >>> (off,) = rc.detachment_path(pressed, 10e-3)
+    >>> f"{off.pull_off_force * 1e9:.0f} nN"
+    '487 nN'
+    """
+    require(depths is None or forces is None, "give depths or forces, not both")
+    preload = solution.on_host()
+    problem = preload.problem
+    if problem.geometry is Geometry.FOUNDATION:
+        raise ValueError(
+            "springs bear forces per length, and no work of adhesion per area: press a half-space, a line or rings; "
+            "for bodies of revolution see mdr.adhesion"
+        )
+    if preload.plastic.any():
+        raise ValueError(
+            f"{int(np.count_nonzero(preload.plastic))} cells of this solution are at the hardness, and detachment is "
+            "elastic: give solution.flattened, the elastic contact after flow, or press without a hardness"
+        )
+    require(
+        preload.contact.any(),
+        "nothing is in contact in this solution: press to a force or a depth above zero",
+    )
+    energy = positive(work, "work of adhesion [J/m^2]", zero=True)
+    require(np.any(energy > 0), "the work of adhesion is zero everywhere: give a number above zero")
+    require(
+        energy.shape in ((), problem.grid.shape),
+        f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}: give one number, or one "
+        "for each cell",
+    )
+    by_force = forces is not None
+    goals = (
+        _falling(forces, "force", preload.force, problem.tolerance)
+        if by_force
+        else [None]
+        if depths is None
+        else _falling(depths, "depth", preload.depth, 0.0)
+    )
+    with one_blas_thread():
+        stuck = StuckContact(
+            problem.operator,
+            problem.separation,
+            preload.contact,
+            np.broadcast_to(energy, problem.grid.shape),
+            mean_compliance(problem.grid, problem.modulus),
+        )
+    return _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, goals, by_force)
+
+
+def _falling(loads: Loads | None, name: str, pressed: float, slack: float) -> list[float | None]:
+    """Return loads that fall from that of the preload."""
+    values = np.atleast_1d(number(loads, f"the list of {name}s"))
+    if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
+        raise ValueError(f"the list of {name}s must hold finite numbers in one row, not {shown(loads)}")
+    if values[0] > pressed + slack * abs(pressed):
+        raise ValueError(
+            f"surfaces are drawn back from the {name} of the solution, {pressed:.6g}, and {values[0]:.6g} is above it: "
+            f"press to that {name}, or begin with {pressed:.6g} or less"
+        )
+    if (np.diff(values) > 0).any():
+        at = int(np.argmax(np.diff(values) > 0))
+        raise ValueError(
+            f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}: "
+            "leave it out, or give an Adhesion with a range, with which surfaces come together again"
+        )
+    return [float(value) for value in values]
+
+
+def _drawn_back(
+    preload: Solution,
+    work: float | Array,
+    stuck: StuckContact,
+    goals: Sequence[float | None],
+    by_force: bool,
+) -> Iterator[DetachmentState]:
+    here = preload.force if by_force else preload.depth
+    lowest, area = math.inf, stuck.area
+    for goal in goals:
+        with one_blas_thread():
+            events: list[Detachment] = []
+            before = stuck.area
+            for event in stuck.drawn_back(here, -math.inf if goal is None else goal, by_force):
+                if event.force_before < lowest:
+                    lowest, area = event.force_before, before
+                events.append(event)
+                before = stuck.area
+            if goal is None:
+                depth = events[-1].depth_after
+            else:
+                depth = stuck.depth(goal) if by_force else goal
+                here = goal
+            # Between events the force is linear in the depth and falls with it: it is lowest before one, or at the end.
+            if (force := stuck.force(depth)) < lowest:
+                lowest, area = force, before
+            pressure, contact = stuck.pressure(depth)
+            for array in (pressure, contact):
+                array.flags.writeable = False
+            residual = _residual(preload.problem, stuck, pressure, depth, goal if by_force else None)
+            state = DetachmentState(
+                preload,
+                work,
+                depth,
+                pressure,
+                contact,
+                stuck.stiffness,
+                residual,
+                tuple(events),
+                lowest,
+                area,
+            )
+        yield state
+
+
+def _residual(
+    problem: ContactProblem, stuck: StuckContact, pressure: Array, depth: float, force: float | None
+) -> float:
+    """Return how far stuck cells have a gap, others an overlap, and the force is not the one that is prescribed."""
+    if not len(stuck.cells):
+        return 0.0
+    body, held = exact_of(problem.operator), np.zeros(pressure.size, bool)
+    held[stuck.cells] = True
+    gap = body.apply(pressure) + problem.separation - depth
+    wrong = np.where(held.reshape(gap.shape), np.abs(gap), np.maximum(-gap, 0.0))
+    own = float(body.as_matrix(np.zeros(1, np.intp))[0, 0])
+    strength = stuck.strength
+    residual = float(wrong.max()) / own / max(strength, float(np.abs(pressure).max()))
+    if force is None:
+        return residual
+    weighted = pressure * problem.operator.weights
+    scale = max(strength * float(stuck.areas.min()), float(np.abs(weighted).sum()))
+    return max(residual, abs(float(weighted.sum()) - force) / scale)

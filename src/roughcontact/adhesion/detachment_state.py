@@ -1,0 +1,219 @@
+"""A state of stuck surfaces that are drawn back: which cells still hold, and the force that they carry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.adhesion.detachment import Detachment
+from roughcontact.cached import cached_property
+from roughcontact.contact.problem import ContactProblem
+from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.pictures import plot_state, state_html
+from roughcontact.solver.control import Status
+from roughcontact.validation import Array, Mask
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["DetachmentState"]
+
+# Of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On spheres
+# this part is one where the preload was too small; where it was just large enough, some cells have let go by then.
+HELD = 0.8
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DetachmentState:
+    """Stuck surfaces at one depth or force, made by `detachment_path`; the rest is computed when asked for, once.
+
+    Attributes
+    ----------
+    solution : Solution
+        The preload: the contact whose cells are stuck.
+    work : float or array, shape of the grid
+        Work of adhesion [J/m^2].
+    depth : float
+        Approach of the bodies since first touch [m]; minus infinity where a force has pulled them off.
+    pressure : array, shape of the grid
+        Pressure of the cells that are stuck [Pa], tension negative.
+    contact : array of bool, shape of the grid
+        Cells that are stuck.
+    stiffness : float
+        Slope of the force with the depth while no cell lets go [N/m].
+    residual : float
+        Largest gap of a stuck cell, or overlap of another, as the pressure on the cell alone that would close it,
+        relative to the largest pressure, or to the tension under which a cell lets go if that is larger, on an exact
+        product. Under a given force also the error of the force, relative to the sum of all pressures without their
+        signs.
+    detachments : tuple of Detachment
+        Cells that let go on the way from the state before.
+    lowest_force : float
+        Lowest force since the preload [N], between the states as well as at them: minus the largest tension.
+    lowest_force_area : float
+        Area that was in contact under it [m^2]; on a line [m].
+
+    Examples
+    --------
+    >>> import math
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> pressed = rc.press(ball, 1e8, depth=2e-8)
+    >>> held, off = rc.detachment_path(pressed, 10e-3, depths=[0.0, -2e-8])
+    >>> f"{held.force * 1e9:.0f} nN at a depth of zero, on {held.contact.sum()} rings", held.residual < 1e-8
+    ('-423 nN at a depth of zero, on 40 rings', True)
+    >>> f"pull-off {off.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R", off.preload_too_small
+    ('pull-off 1.55 pi w R', False)
+    >>> off.to_dataset()["detachment_depth"].attrs["units"], off.to_record()["preload_too_small"]
+    ('m', False)
+    """
+
+    solution: Solution
+    work: float | Array
+    depth: float
+    pressure: Array
+    contact: Mask
+    stiffness: float
+    residual: float
+    detachments: tuple[Detachment, ...]
+    lowest_force: float
+    lowest_force_area: float
+
+    @property
+    def problem(self) -> ContactProblem:
+        """Body, separation and tolerance."""
+        return self.solution.problem
+
+    @property
+    def geometry(self) -> Geometry:
+        """What the cells are: those of a surface, a line, or rings."""
+        return self.problem.geometry
+
+    @property
+    def status(self) -> Status:
+        """Whether the certificate meets the tolerance of the solution."""
+        if not self.residual <= self.problem.tolerance:
+            return Status.STAGNATED
+        return Status.CONVERGED if self.contact.any() else Status.NO_CONTACT
+
+    @property
+    def pull_off_force(self) -> float:
+        """Largest tension since the preload [N], positive; the pull-off force, once nothing is in contact."""
+        return max(0.0, -self.lowest_force)
+
+    @property
+    def preload_too_small(self) -> bool:
+        """Whether the pull-off force may be larger after a larger preload.
+
+        So it is if more than four fifths of the preload's contact still held under the largest tension, unless the
+        preload held all measured cells. It is False as long as any cell is in contact.
+        """
+        if self.contact.any() or self.solution.contact.sum() == self.problem.measured.sum():
+            return False
+        return self.lowest_force_area > HELD * self.solution.contact_area
+
+    @property
+    def directional(self) -> bool:
+        """Whether the criterion by which cells let go depends on the direction of the contact's edge to the rows."""
+        return self.contact.ndim == 2 and min(self.contact.shape) > 1
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        if not self.preload_too_small:
+            return ()
+        part = self.lowest_force_area / self.solution.contact_area
+        return (
+            f"The preload was too small: {100 * part:.0f} % of its contact still held under the largest tension. After "
+            "a larger preload the pull-off force may be larger; press deeper until it stays the same.",
+        )
+
+    @property
+    def lost(self) -> float:
+        """Energy lost in the detachments since the state before [J]; infinite where a force pulled the body off."""
+        return math.fsum(event.lost for event in self.detachments)
+
+    @cached_property
+    def displacement(self) -> Array:
+        """Displacement of the surface [m], by an exact product."""
+        return exact_of(self.problem.operator).apply(self.pressure)
+
+    @cached_property
+    def gap(self) -> Array:
+        """Deformed gap [m]; infinite where nothing was measured."""
+        return np.asarray(self.displacement + self.problem.separation - self.depth)
+
+    @property
+    def mean_gap(self) -> float:
+        """Gap averaged over the measured cells [m]."""
+        return self.problem.measure.mean(self.gap, self.problem.measured)
+
+    @property
+    def force(self) -> float:
+        """Normal force [N], tension negative; on a line [N/m]."""
+        return float(np.sum(self.pressure * self.problem.operator.weights))
+
+    @property
+    def contact_area(self) -> float:
+        """Area of the stuck cells [m^2]; on a line [m]."""
+        return float(np.sum(self.contact * self.problem.operator.weights))
+
+    @property
+    def contact_fraction(self) -> float:
+        """Contact area over the nominal area."""
+        return self.contact_area / self.problem.grid.area
+
+    @property
+    def elastic_energy(self) -> float:
+        """Elastic energy of the body [J]."""
+        return 0.5 * float(np.sum(self.pressure * self.displacement * self.problem.operator.weights))
+
+    @property
+    def adhesive_energy(self) -> float:
+        """Minus the work of adhesion of the stuck cells [J]."""
+        return -float(np.sum(self.contact * self.work * self.problem.operator.weights))
+
+    @property
+    def energy(self) -> float:
+        """Elastic and adhesive energy [J]."""
+        return self.elastic_energy + self.adhesive_energy
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return fields and numbers as an `xarray.Dataset`; detachments lie along ``detachment``.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units and long names.
+        """
+        from roughcontact.adhesion.detachment_dataset import detachment_state_dataset
+
+        return detachment_state_dataset(self)
+
+    def to_record(self) -> dict[str, Any]:
+        """Return the numbers as plain values, for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        """
+        from roughcontact.adhesion.detachment_dataset import detachment_state_record
+
+        return detachment_state_record(self)
+
+    plot = plot_state
+    _repr_html_ = state_html
+
+    def __repr__(self) -> str:
+        """Say what was found, not the field."""
+        return (
+            f"DetachmentState({self.status.value}, force {self.force:.4g}, depth {self.depth:.4g} m, "
+            f"{int(np.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
+        )
