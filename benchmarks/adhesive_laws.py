@@ -11,9 +11,9 @@ The contact radius is where the gap, which grows as the distance from the edge t
 The same on planes: the contact radius without load, from the area, and the largest error of the force from there to
 the depth of the pull-off, over the pull-off force.
 
-Detachment without a range against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over
-positions of the sphere within a cell), from a contact larger than that at the pull-off; the same from contacts of other
-sizes; a flat disc against Kendall, and square punches along the rows and turned.
+Detachment without a range against Johnson, Kendall and Roberts, on rings and on planes (mean and scatter over positions
+of the sphere within a cell), from a contact larger than that at the pull-off; the same from contacts of other sizes; a
+flat disc against Kendall, and square punches along the rows and turned.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def unloaded(theory: DugdaleSphere) -> float:
 
 def contact_radius(state: rc.AdhesiveState) -> float:
     """Return where the gap becomes zero."""
-    radii = state.blank.operator.grid.radii
+    radii = state.problem.operator.grid.radii
     first = int(state.contact.sum()) + 1  # the ring next to the contact is the least exact
     near, far = state.gap[first : first + 2] ** (2 / 3)
     return float(radii[first] - near * (radii[first + 1] - radii[first]) / (far - near))

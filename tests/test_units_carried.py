@@ -115,6 +115,8 @@ MORE = [
     (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
     (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "forces": [0.0, -1e-3]}),
     (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
+    (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "pressures": [0.0, -1e3]}),
+    (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "pressures": [0.0, -1e3]}),
     (rc.below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),

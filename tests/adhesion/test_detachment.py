@@ -272,8 +272,11 @@ def test_more_cells_than_a_matrix_holds_are_refused():
         ({"depths": [0.5, 0.2, 0.3]}, "depths of a detachment must fall, but 0.3 follows 0.2 at place 2"),
         ({"forces": [9.0]}, "force of the solution"),
         ({"forces": [0.1, 0.2]}, "forces of a detachment must fall"),
-        ({"depths": []}, "finite numbers in one row"),
-        ({"depths": [0.5], "forces": [0.1]}, "depths or forces, not both"),
+        ({"depths": []}, "at least one number in one row"),
+        (
+            {"depths": [0.5], "forces": [0.1]},
+            "give exactly one of depths, forces and pressures, not depths and forces",
+        ),
     ],
 )
 def test_loads_that_do_not_fall_are_refused(loads, message):
@@ -325,7 +328,7 @@ def test_a_curve_collects_its_path():
     for name in ("depth", "force", "contact_area", "energy", "mean_gap", "lowest_force", "contact_fraction"):
         np.testing.assert_array_equal(getattr(curve, name), [getattr(state, name) for state in path])
     assert curve.detachments == tuple(event for state in path for event in state.detachments)
-    assert curve.detached == tuple(k for k, state in enumerate(path) for _ in state.detachments)
+    assert curve.detached_at == tuple(k for k, state in enumerate(path) for _ in state.detachments)
     assert curve.lost == pytest.approx(math.fsum(state.lost for state in path))
     assert curve.converged
     missed = dataclasses.replace(curve, status=(*curve.status[:-1], rc.Status.STAGNATED))
@@ -340,3 +343,13 @@ def test_a_single_cell_without_pressure_has_its_certificate(loads):
     (state,) = rc.detachment_path(pressed, 1.0, **loads)
     assert state.contact.sum() == 1
     assert state.status.converged
+
+
+def test_pressures_are_forces_over_the_area():
+    surface = rough(16, periodic=True, slope=0.2, seed=0)
+    pressed = rc.press(surface, 1.0, force=2.0)
+    by_force = rc.detachment_curve(pressed, 0.01, forces=[1.0, -0.1])
+    by_pressure = rc.detachment_curve(pressed, 0.01, pressures=[1.0 / 256, -0.1 / 256])
+    assert (by_force.control, by_pressure.control) == ("force", "force")
+    np.testing.assert_array_equal(by_pressure.depth, by_force.depth)
+    assert rc.detachment_curve(pressed, 0.01).control == "depth"

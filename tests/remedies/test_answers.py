@@ -108,13 +108,13 @@ ADHESION = [
     ),
     row(
         lambda: detached(depths=[1e-8, 0.0, 5e-9]),
-        "leave it out, or give an Adhesion with a range, with which surfaces come together again",
+        "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again",
         lambda: detached(depths=[1e-8, 0.0]),
         lambda: path(depths=[1e-8, 0.0, 5e-9]),
     ),
     row(
         lambda: detached(depths=[1e-8], forces=[1e-9]),
-        "give depths or forces, not both",
+        "give exactly one of depths, forces and pressures, not depths and forces",
         lambda: detached(depths=[1e-8]),
         lambda: detached(forces=[1e-9]),
     ),

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.detachment_path import Loads, detachment_path, force_unit_of
+from roughcontact.adhesion.detachment_path import detachment_path, force_unit_of
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -55,7 +55,7 @@ class DetachmentCurve:
     status : tuple of Status
     detachments : tuple of Detachment
         Every event, in order.
-    detached : tuple of int
+    detached_at : tuple of int
         The point, counted from 0, that each event came on the way to.
     preload_too_small : bool
         Whether the pull-off force may be larger after a larger preload, see `DetachmentState`.
@@ -100,7 +100,7 @@ class DetachmentCurve:
     residual: Array
     status: tuple[Status, ...]
     detachments: tuple[Detachment, ...]
-    detached: tuple[int, ...]
+    detached_at: tuple[int, ...]
     preload_too_small: bool
     notes: tuple[str, ...]
     control: Literal["depth", "force"]
@@ -178,13 +178,14 @@ class DetachmentCurve:
     _repr_html_ = detachment_html
 
 
-@numeric(work="J/m^2", depths="m", forces=force_unit_of)
+@numeric(work="J/m^2", depths="m", forces=force_unit_of, pressures="Pa")
 def detachment_curve(
     solution: Solution,
     work: float | Array,
     *,
-    depths: Loads | None = None,
-    forces: Loads | None = None,
+    depths: Sequence[float] | Array | None = None,
+    forces: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
 ) -> DetachmentCurve:
     """Return force, contact and more of surfaces that stick where they were pressed, and are drawn back.
 
@@ -194,9 +195,9 @@ def detachment_curve(
         The preload: an elastic contact, pressed to more than the contact at the pull-off.
     work : float or array, shape of the grid
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
-    depths, forces : array, shape (n,)
-        At most one: falling depths [m] or forces [N], the first at most that of the solution. Without either, one
-        point: that at which the last cell has let go.
+    depths, forces, pressures : array, shape (n,)
+        At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
+        Without any, one point: that at which the last cell has let go.
 
     Returns
     -------
@@ -218,18 +219,20 @@ def detachment_curve(
     >>> f"{curve.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R", curve.notes
     ('1.55 pi w R', ())
     """
-    path = detachment_path(solution, work, depths=depths, forces=forces)
-    return collect_detachments(path, by_force=forces is not None)
+    path = detachment_path(solution, work, depths=depths, forces=forces, pressures=pressures)
+    return collect_detachments(path, "depth" if forces is None and pressures is None else "force")
 
 
-def collect_detachments(states: Iterable[DetachmentState], *, by_force: bool) -> DetachmentCurve:
+def collect_detachments(
+    states: Iterable[DetachmentState], control: Literal["depth", "force"]
+) -> DetachmentCurve:
     """Drain a path, of at least one state, into its points; fields are not kept."""
     rows: list[tuple[float, ...]] = []
     events: list[Detachment] = []
-    detached: list[int] = []
+    detached_at: list[int] = []
     status: list[Status] = []
     for state in states:
-        detached += [len(rows)] * len(state.detachments)
+        detached_at += [len(rows)] * len(state.detachments)
         rows.append(tuple(float(getattr(state, name)) for name in _POINTS))
         events += state.detachments
         status.append(state.status)
@@ -239,10 +242,10 @@ def collect_detachments(states: Iterable[DetachmentState], *, by_force: bool) ->
         **dict(zip(_POINTS, np.array(rows).T, strict=True)),
         status=tuple(status),
         detachments=tuple(events),
-        detached=tuple(detached),
+        detached_at=tuple(detached_at),
         preload_too_small=state.preload_too_small,
         notes=state.notes,
-        control="force" if by_force else "depth",
+        control=control,
         work=state.work,
         modulus=problem.modulus,
         tolerance=problem.tolerance,

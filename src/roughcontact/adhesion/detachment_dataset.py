@@ -11,6 +11,7 @@ from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.state_dataset import adhesive_variable
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
@@ -33,32 +34,29 @@ DETACHMENT_POINTS = (
 """What a curve has at each load, and a file holds."""
 DETACHMENT_SCALES = ("modulus", "nominal_area", "rms", "preload_too_small")
 _DERIVED = ("contact_fraction", "energy")
+_STATE = (
+    "lowest_force_area",
+    "pull_off_force",
+    "lost",
+    "preload_too_small",
+    "largest_pressure",
+    "largest_tension",
+)
 _MAPS = ("pressure", "displacement", "gap", "contact")
 
 
 def detachment_curve_dataset(curve: DetachmentCurve) -> xarray.Dataset:
     """Return the points along ``load``, the detachments along ``detachment``, and the scales."""
-    kind = curve.geometry
-    names = (*DETACHMENT_POINTS, *_DERIVED)
-    data = {name: adhesive_variable(name, ("load",), getattr(curve, name), kind) for name in names}
-    data["status"] = variable("status", ("load",), [each.value for each in curve.status])
-    data |= {name: variable(name, (), value, kind) for name, value in _scalars(curve).items()}
-    data |= _work(curve, kind) | _detachments(curve.detachments, kind)
-    data["detached"] = variable("detached", ("detachment",), np.array(curve.detached, np.int64))
-    dataset = dataset_of(data | sizes(curve), {}, "stuck surfaces that are drawn back", kind)
+    data = _curve_variables(curve) | sizes(curve)
+    dataset = dataset_of(data, {}, "stuck surfaces that are drawn back", curve.geometry)
     attributes = {"control": curve.control, "tolerance": curve.tolerance, "notes": "\n".join(curve.notes)}
     return dataset.assign_attrs(attributes)
 
 
 def detachment_curve_record(curve: DetachmentCurve) -> dict[str, Any]:
     """Return a curve as plain numbers, words and lists that JSON can hold."""
-    names = (*DETACHMENT_POINTS, *_DERIVED, "lengths", "spacing", "periodic")
-    record = {name: plain_values(getattr(curve, name)) for name in names}
-    record |= {name: plain_values(value) for name, value in _scalars(curve).items()}
-    record |= _work_record(curve) | _detachments_record(curve.detachments)
-    record |= {"detached": list(curve.detached), "status": [each.value for each in curve.status]}
-    record |= {"control": curve.control, "tolerance": curve.tolerance, "notes": list(curve.notes)}
-    return record | {"geometry": curve.geometry.value, "units": units_of(record, curve.geometry)}
+    record = _record(_curve_variables(curve), curve, curve.geometry)
+    return record | {"control": curve.control, "tolerance": curve.tolerance, "notes": list(curve.notes)}
 
 
 def detachment_state_dataset(state: DetachmentState) -> xarray.Dataset:
@@ -70,67 +68,50 @@ def detachment_state_dataset(state: DetachmentState) -> xarray.Dataset:
     data = {name: adhesive_variable(name, kind.axes, getattr(state, name), kind) for name in _MAPS}
     if surface is not None:
         data["heights"] = variable("heights", kind.axes, surface.heights)
-    data |= {name: adhesive_variable(name, (), value, kind) for name, value in _numbers(state).items()}
-    data["status"] = variable("status", (), state.status.value)
-    data |= _work(state, kind) | _detachments(state.detachments, kind)
-    title = "contact of stuck surfaces that are drawn back"
-    dataset = dataset_of(data | sizes(grid), centres(grid, kind), title, kind)
-    return dataset.assign_attrs({"notes": "\n".join(state.notes)} if state.notes else {})
+    data |= _state_variables(state) | sizes(grid)
+    dataset = dataset_of(data, centres(grid, kind), "contact of stuck surfaces that are drawn back", kind)
+    return dataset.assign_attrs({"notes": "\n".join(state.notes)})
 
 
 def detachment_state_record(state: DetachmentState) -> dict[str, Any]:
     """Return the numbers of a state as plain values; units stand once, under ``"units"``."""
-    grid = state.problem.grid
-    numbers = _numbers(state) | {
-        name: getattr(grid, name) for name in ("shape", "lengths", "spacing", "periodic")
-    }
-    record = {name: plain_values(value) for name, value in numbers.items()}
-    record |= _work_record(state) | _detachments_record(state.detachments)
-    record |= {"status": state.status.value, "tolerance": state.problem.tolerance, "notes": list(state.notes)}
-    return record | {"geometry": state.geometry.value, "units": units_of(record, state.geometry)}
+    record = _record(_state_variables(state), state.problem.grid, state.geometry)
+    return record | {"tolerance": state.problem.tolerance, "notes": list(state.notes)}
 
 
-def _scalars(curve: DetachmentCurve) -> dict[str, Any]:
-    scales = {name: getattr(curve, name) for name in DETACHMENT_SCALES}
-    return scales | {"pull_off_force": curve.pull_off_force, "lost_energy": curve.lost}
+def _curve_variables(curve: DetachmentCurve) -> dict[str, Any]:
+    kind = curve.geometry
+    points = {name: getattr(curve, name) for name in (*DETACHMENT_POINTS, *_DERIVED)}
+    scales = {name: getattr(curve, name) for name in (*DETACHMENT_SCALES, "pull_off_force", "lost")}
+    data = {name: adhesive_variable(name, ("load",), values, kind) for name, values in points.items()}
+    data["status"] = variable("status", ("load",), [each.value for each in curve.status])
+    data["detached_at"] = variable("detached_at", ("detachment",), np.array(curve.detached_at, np.int64))
+    return data | _numbers(scales, curve.work, curve.detachments, kind)
 
 
-def _numbers(state: DetachmentState) -> dict[str, Any]:
+def _state_variables(state: DetachmentState) -> dict[str, Any]:
     problem = state.problem
-    names = (*DETACHMENT_POINTS, *_DERIVED, "lowest_force_area", "pull_off_force", "preload_too_small")
-    numbers = {name: getattr(state, name) for name in names} | {
-        "lost_energy": state.lost,
-        "largest_pressure": float(state.pressure.max()),
-        "largest_tension": float(np.maximum(-state.pressure, 0.0).max()),
-        "nominal_pressure": state.force / problem.grid.area,
-        "modulus": problem.modulus,
-    }
-    return numbers if problem.surface is None else numbers | {"rms": problem.surface.rms}
+    scales = {name: getattr(state, name) for name in (*DETACHMENT_POINTS, *_DERIVED, *_STATE)}
+    scales |= {"nominal_pressure": state.force / problem.grid.area, "modulus": problem.modulus}
+    scales |= {} if problem.surface is None else {"rms": problem.surface.rms}
+    data = _numbers(scales, state.work, state.detachments, state.geometry)
+    return data | {"status": variable("status", (), state.status.value)}
 
 
-def _work(answer: DetachmentCurve | DetachmentState, geometry: Geometry) -> dict[str, Any]:
-    axes = geometry.axes if np.ndim(answer.work) else ()
-    return {"work_of_adhesion": variable("work_of_adhesion", axes, answer.work)}
+def _numbers(
+    scales: dict[str, Any], work: float | Array, events: Sequence[Detachment], kind: Geometry
+) -> dict[str, Any]:
+    scales["lost_energy"] = scales.pop("lost")
+    data = {name: adhesive_variable(name, (), value, kind) for name, value in scales.items()}
+    axes = kind.axes if np.ndim(work) else ()
+    data["work_of_adhesion"] = variable("work_of_adhesion", axes, work)
+    for name in DETACHMENTS:
+        column = np.array([getattr(each, name) for each in events], np.int64 if name == "cells" else float)
+        data[f"detachment_{name}"] = variable(f"detachment_{name}", ("detachment",), column, kind)
+    return data
 
 
-def _work_record(answer: DetachmentCurve | DetachmentState) -> dict[str, Any]:
-    return {"work_of_adhesion": plain_values(np.asarray(answer.work))}
-
-
-def _columns(events: Sequence[Detachment]) -> dict[str, Any]:
-    return {
-        f"detachment_{name}": np.array(
-            [getattr(event, name) for event in events], np.int64 if name == "cells" else np.float64
-        )
-        for name in DETACHMENTS
-    }
-
-
-def _detachments(events: Sequence[Detachment], geometry: Geometry) -> dict[str, Any]:
-    return {
-        name: variable(name, ("detachment",), values, geometry) for name, values in _columns(events).items()
-    }
-
-
-def _detachments_record(events: Sequence[Detachment]) -> dict[str, Any]:
-    return {name: plain_values(values) for name, values in _columns(events).items()}
+def _record(data: dict[str, Any], grid: Any, kind: Geometry) -> dict[str, Any]:
+    """Return variables as plain values, without importing xarray."""
+    record = {name: plain_values(values) for name, (_, values, _) in (data | sizes(grid)).items()}
+    return record | {"geometry": kind.value, "units": units_of(record, kind)}

@@ -15,12 +15,11 @@ from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
+from roughcontact.solver.loads import Loads
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, number, numeric, positive, require, shown
+from roughcontact.validation import Array, numeric, positive, require
 
-__all__ = ["Loads", "detachment_path", "force_unit_of"]
-
-Loads = Sequence[float] | Array
+__all__ = ["detachment_path", "force_unit_of"]
 
 
 def force_unit_of(arguments: Mapping[str, Any]) -> str:
@@ -28,13 +27,14 @@ def force_unit_of(arguments: Mapping[str, Any]) -> str:
     return unit_of("force", arguments["solution"].problem.geometry)
 
 
-@numeric(work="J/m^2", depths="m", forces=force_unit_of)
+@numeric(work="J/m^2", depths="m", forces=force_unit_of, pressures="Pa")
 def detachment_path(
     solution: Solution,
     work: float | Array,
     *,
-    depths: Loads | None = None,
-    forces: Loads | None = None,
+    depths: Sequence[float] | Array | None = None,
+    forces: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
 ) -> Iterator[DetachmentState]:
     """Draw back surfaces that stick where they were pressed, and yield the state at each depth or force.
 
@@ -49,9 +49,9 @@ def detachment_path(
         The preload: an elastic contact, pressed to more than the contact at the pull-off.
     work : float or array, shape of the grid
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
-    depths, forces : array, shape (n,)
-        At most one: falling depths [m] or forces [N], the first at most that of the solution. Without either, one
-        state: that in which the last cell has let go.
+    depths, forces, pressures : array, shape (n,)
+        At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
+        Without any, one state: that in which the last cell has let go.
 
     Yields
     ------
@@ -77,7 +77,6 @@ def detachment_path(
     >>> f"{off.pull_off_force * 1e9:.0f} nN"
     '487 nN'
     """
-    require(depths is None or forces is None, "give depths or forces, not both")
     preload = solution.on_host()
     problem = preload.problem
     if problem.geometry is Geometry.FOUNDATION:
@@ -101,14 +100,8 @@ def detachment_path(
         f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}: give one number, or one "
         "for each cell",
     )
-    by_force = forces is not None
-    goals = (
-        _falling(forces, "force", preload.force, problem.tolerance)
-        if by_force
-        else [None]
-        if depths is None
-        else _falling(depths, "depth", preload.depth, 0.0)
-    )
+    loads = Loads.given(depths=depths, forces=forces, pressures=pressures)
+    loads = None if loads is None else _falling(loads.as_forces(problem.grid), preload)
     with one_blas_thread():
         stuck = StuckContact(
             problem.operator,
@@ -117,51 +110,46 @@ def detachment_path(
             np.broadcast_to(energy, problem.grid.shape),
             mean_compliance(problem.grid, problem.modulus),
         )
-    return _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, goals, by_force)
+    return _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
 
 
-def _falling(loads: Loads | None, name: str, pressed: float, slack: float) -> list[float | None]:
-    """Return loads that fall from that of the preload."""
-    values = np.atleast_1d(number(loads, f"the list of {name}s"))
-    if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
-        raise ValueError(f"the list of {name}s must hold finite numbers in one row, not {shown(loads)}")
-    if values[0] > pressed + slack * abs(pressed):
+def _falling(loads: Loads, preload: Solution) -> Loads:
+    """Return the loads, which must fall from that of the preload."""
+    name, values = loads.kind, loads.values
+    here = preload.force if name == "force" else preload.depth
+    # The force of a solution is good to its tolerance.
+    if values[0] > here + preload.problem.tolerance * abs(here) * (name == "force"):
         raise ValueError(
-            f"surfaces are drawn back from the {name} of the solution, {pressed:.6g}, and {values[0]:.6g} is above it: "
-            f"press to that {name}, or begin with {pressed:.6g} or less"
+            f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it: "
+            f"press to that {name}, or begin with {here:.6g} or less"
         )
     if (np.diff(values) > 0).any():
         at = int(np.argmax(np.diff(values) > 0))
         raise ValueError(
             f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}: "
-            "leave it out, or give an Adhesion with a range, with which surfaces come together again"
+            "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again"
         )
-    return [float(value) for value in values]
+    return loads
 
 
 def _drawn_back(
-    preload: Solution,
-    work: float | Array,
-    stuck: StuckContact,
-    goals: Sequence[float | None],
-    by_force: bool,
+    preload: Solution, work: float | Array, stuck: StuckContact, loads: Loads | None
 ) -> Iterator[DetachmentState]:
+    by_force = loads is not None and loads.kind == "force"
+    goals = [-math.inf] if loads is None else loads.values.tolist()
     here = preload.force if by_force else preload.depth
     lowest, area = math.inf, stuck.area
     for goal in goals:
         with one_blas_thread():
             events: list[Detachment] = []
             before = stuck.area
-            for event in stuck.drawn_back(here, -math.inf if goal is None else goal, by_force):
+            for event in stuck.drawn_back(here, goal, by_force):
                 if event.force_before < lowest:
                     lowest, area = event.force_before, before
                 events.append(event)
                 before = stuck.area
-            if goal is None:
-                depth = events[-1].depth_after
-            else:
-                depth = stuck.depth(goal) if by_force else goal
-                here = goal
+            here = goal if loads is not None else events[-1].depth_after
+            depth = stuck.depth(here) if by_force else here
             # Between events the force is linear in the depth and falls with it: it is lowest before one, or at the end.
             if (force := stuck.force(depth)) < lowest:
                 lowest, area = force, before

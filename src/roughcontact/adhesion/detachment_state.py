@@ -170,6 +170,16 @@ class DetachmentState:
         return self.contact_area / self.problem.grid.area
 
     @property
+    def largest_pressure(self) -> float:
+        """Largest pressure of a cell [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def largest_tension(self) -> float:
+        """Largest tension of a cell [Pa], positive."""
+        return max(0.0, -float(self.pressure.min()))
+
+    @property
     def elastic_energy(self) -> float:
         """Elastic energy of the body [J]."""
         return 0.5 * float(np.sum(self.pressure * self.displacement * self.problem.operator.weights))

@@ -106,27 +106,27 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
 
     Row 0 is the top of the picture, so y points down. On a line forces, areas and energies are per unit length.
     """
-    blank, kind = state.blank, state.geometry
-    grid = blank.operator.grid
+    problem, kind = state.problem, state.geometry
+    grid = problem.operator.grid
     data = {name: adhesive_variable(name, kind.axes, getattr(state, name), kind) for name in _MAPS}
-    if blank.surface is not None:
-        data["heights"] = variable("heights", kind.axes, blank.surface.heights)
+    if problem.surface is not None:
+        data["heights"] = variable("heights", kind.axes, problem.surface.heights)
     data |= {name: adhesive_variable(name, (), value, kind) for name, value in _scalars(state).items()}
     data["status"] = variable("status", (), state.status.value)
-    data |= adhesion_variables(blank.adhesion, kind) | jump_variables(state.jumps, _bracket(state), kind)
+    data |= adhesion_variables(problem.adhesion, kind) | jump_variables(state.jumps, _bracket(state), kind)
     dataset = dataset_of(data | sizes(grid), centres(grid, kind), "contact of surfaces that stick", kind)
-    return dataset.assign_attrs(law=blank.adhesion.law)
+    return dataset.assign_attrs(law=problem.adhesion.law)
 
 
 def state_record(state: AdhesiveState) -> dict[str, Any]:
     """Return the numbers of a state as plain values; units stand once, under ``"units"``."""
-    grid = state.blank.operator.grid
+    grid = state.problem.operator.grid
     numbers = _scalars(state) | {
         name: getattr(grid, name) for name in ("shape", "lengths", "spacing", "periodic")
     }
     record = {name: plain_values(value) for name, value in numbers.items()}
-    record |= adhesion_record(state.blank.adhesion) | jumps_record(state.jumps, _bracket(state))
-    record |= {"status": state.status.value, "tolerance": state.blank.tolerance}
+    record |= adhesion_record(state.problem.adhesion) | jumps_record(state.jumps, _bracket(state))
+    record |= {"status": state.status.value, "tolerance": state.problem.tolerance}
     return record | {"geometry": state.geometry.value, "units": units_of(record, state.geometry)}
 
 
@@ -135,14 +135,14 @@ def _scalars(state: AdhesiveState) -> dict[str, Any]:
     scalars = {name: getattr(state, name) for name in _SCALARS} | {
         "largest_pressure": float(state.pressure.max()),
         "largest_tension": float(np.maximum(-state.pressure, 0.0).max()),
-        "nominal_pressure": state.force / state.blank.operator.grid.area,
-        "modulus": state.blank.modulus,
+        "nominal_pressure": state.force / state.problem.operator.grid.area,
+        "modulus": state.problem.modulus,
     }
-    return scalars if state.blank.surface is None else scalars | {"rms": state.blank.surface.rms}
+    return scalars if state.problem.surface is None else scalars | {"rms": state.problem.surface.rms}
 
 
 def _bracket(state: AdhesiveState) -> str:
-    return "jump_force_bracket" if isinstance(state.blank.control, ForceControl) else "jump_depth_bracket"
+    return "jump_force_bracket" if isinstance(state.problem.control, ForceControl) else "jump_depth_bracket"
 
 
 def _columns(jumps: Sequence[Jump], bracket: str) -> dict[str, Any]:

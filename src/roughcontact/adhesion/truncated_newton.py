@@ -165,15 +165,15 @@ def conjugate_gradients(
     if rho <= 0:
         return step, False
     goal = rho * forcing**2
-    bent = curvature * mask
+    free_curvature = curvature * mask
     for _ in range(INNER):
         counter.products += 1
         image = form.stiffness(direction) * mask
-        image -= bent * direction
-        bend = form.dot(direction, image)
-        if bend <= 0:
+        image -= free_curvature * direction
+        quadratic = form.dot(direction, image)
+        if quadratic <= 0:
             return step, True
-        alpha = rho / bend
+        alpha = rho / quadratic
         step += alpha * direction
         residual -= alpha * image
         if constrained:

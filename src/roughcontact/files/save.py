@@ -160,22 +160,20 @@ def _netcdf(surface: Surface) -> bytes:
 
 
 def _solution(solution: Pressed) -> bytes:
-    origin = solution.blank if isinstance(solution, AdhesiveState) else _pressed(solution).problem
+    origin = _pressed(solution).problem
     lines = provenance(origin.surface, modulus=origin.modulus)
     return netcdf_bytes(solution.to_dataset().assign_attrs(lines))
 
 
 def _solution_vti(solution: Pressed) -> bytes:
-    if isinstance(solution, AdhesiveState):
-        return _vti_bytes(_fields(solution, solution.blank.surface), solution.blank.operator.grid)
     pressed = _pressed(solution)
     fields = _fields(pressed, pressed.problem.surface)
     if isinstance(solution, TangentialSolution):
         fields |= _tangential_fields(solution)
-    return _vti_bytes(fields, _pressed(solution).problem.grid)
+    return _vti_bytes(fields, pressed.problem.operator.grid)
 
 
-def _pressed(solution: Solution | TangentialSolution | DetachmentState) -> Solution | DetachmentState:
+def _pressed(solution: Pressed) -> Solution | AdhesiveState | DetachmentState:
     """Return the state under the normal force alone."""
     return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
 

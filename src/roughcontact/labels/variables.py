@@ -140,7 +140,7 @@ _VARIABLES = {
     "jump_approach": Variable("", "whether the depth or the force was growing"),
     "jump_ambiguous": Variable("", "whether two integrations of the flow after the jump end apart"),
     # detachment of stuck surfaces
-    "detached": Variable("1", "load, counted from 0, that the detachment came on the way to"),
+    "detached_at": Variable("1", "load, counted from 0, that the detachment came on the way to"),
     "detachment_depth": Variable("m", "depth at which cells let go"),
     "detachment_depth_after": Variable("m", "depth after cells let go"),
     "detachment_force_before": Variable("N", "force before cells let go"),

@@ -10,9 +10,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_state import DetachmentState
-from roughcontact.contact.problem import ContactProblem
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
@@ -56,14 +55,14 @@ def tension_map(state: State, ax: Axes | None = None) -> Axes:
     >>> axes.images[0].norm.vcenter, axes.images[0].norm.vmin < 0 < axes.images[0].norm.vmax
     (0, True)
     """
-    grid = _bodies(state).operator.grid
+    grid = state.problem.operator.grid
     cells, axes = part(grid, None), axes_for(ax)
     unit = VARIABLES["pressure"].unit
     # As in other maps, a few cells at the edges of spots do not take the colours for themselves.
     highest, cut = colour_limit(state.pressure[state.pressure > 0])
     lowest = float(np.maximum(-state.pressure, 0.0).max()) or highest
     chosen = scale(max(highest, lowest), unit)
-    measured = np.isfinite(_bodies(state).separation)
+    measured = np.isfinite(state.problem.separation)
     values = np.where(measured, state.pressure * chosen.factor, np.nan)
     most, least = pooled(values), -pooled(-values)  # of blocks of cells what is largest, pressure or tension
     if not measured.all():
@@ -106,7 +105,7 @@ def tension_profile(state: State, ax: Axes | None = None) -> Axes:
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('r [nm]', 'pressure, tension negative [MPa]')
     """
-    x, of_x, name = places_of(_bodies(state).operator.grid)
+    x, of_x, name = places_of(state.problem.operator.grid)
     axes = axes_for(ax, (7.0, 2.8))
     unit = unit_of("pressure", state.geometry)
     p = scale(float(np.abs(state.pressure).max()), unit)
@@ -143,19 +142,15 @@ def state_figure(state: State) -> Figure:
     >>> figure.axes[0].get_title()
     'force -440 nN,  depth 0 m,  contact 32.1 %,  stability 0.39'
     """
-    if _bodies(state).operator.grid.ndim == 1:
+    if state.problem.operator.grid.ndim == 1:
         figure = Figure(figsize=(7.0, 3.0), layout="constrained")
         axes = tension_profile(state, figure.subplots())
     else:
-        height, width = _bodies(state).operator.grid.lengths
+        height, width = state.problem.operator.grid.lengths
         figure = Figure(figsize=(6.2, min(max(1.2 + 3.6 * height / width, 2.0), 9.0)), layout="constrained")
         axes = tension_map(state, figure.subplots())
     axes.set_title(_summary(state), fontsize=LABEL)
     return figure
-
-
-def _bodies(state: State) -> Blank | ContactProblem:
-    return state.blank if isinstance(state, AdhesiveState) else state.problem
 
 
 def _outline(contact: Mask) -> Array:
