@@ -13,7 +13,7 @@ from roughcontact.files.aside import written_aside
 from roughcontact.files.write import netcdf_bytes
 from roughcontact.labels.labelled import attributes_of
 from roughcontact.slabs.agreement import by_each, by_first, entered_by_first
-from roughcontact.slabs.by_rows import rows_to_first
+from roughcontact.slabs.by_rows import gather_to_first
 from roughcontact.slabs.slab_array import SlabArray
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def write_netcdf_in_slabs(
         # Only the maps are too large to be made in memory, where a full disk does no harm to HDF5.
         by_first(communicator, lambda: aside.write_bytes(netcdf_bytes(numbers)))
         for name, field in maps.items():
-            for start, rows in rows_to_first(field, CHUNK):
+            for start, rows in gather_to_first(field, CHUNK):
 
                 def write(
                     name: str = name, field: SlabArray = field, start: int = start, rows: Any = rows

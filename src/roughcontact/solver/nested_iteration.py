@@ -10,7 +10,7 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
+from roughcontact.slabs.levels_of_slabs import divides, gathered_if_small, scatter_like
 from roughcontact.slabs.passes import passes_over
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Depth, Solver, Specification, Start
@@ -44,7 +44,7 @@ def nested_start(
     start = Start(*nested_start(part, small, control, solver))
     spec = Specification(control, tuning.COARSE_TOLERANCE)
     state, subdomain = SubdomainSolver(part).solve(solver, small, spec, start)
-    coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
+    coarse = scatter_like(prolong(state.pressure, subdomain, blocks.shape), blocks)
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 
