@@ -89,10 +89,10 @@ def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: 
     from roughcontact.plot.tension import state_figure
 
     source = provenance(
-        state.blank.surface,
-        modulus=state.blank.modulus,
+        state.problem.surface,
+        modulus=state.problem.modulus,
         control=control,
-        tolerance=state.blank.tolerance,
+        tolerance=state.problem.tolerance,
         command=command_line(),
     )
     with all_or_none(folder) as aside:
