@@ -1,6 +1,6 @@
 """Bound-constrained preconditioned conjugate gradients: the inner solve of the active set method.
 
-Labels B1 to B17 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
+Labels B1 to B18 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
 changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that the step is
 estimated before the product, so that one product serves projection and line search, is this package's own.
 """
@@ -161,7 +161,7 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
                 target = goal
             else:
                 break
-    p = vectors.pressure(start, unit)
+    p = vectors.pressure(start, unit)  # B18
     if vectors.upper is not None:
         p = conditions.measure.xp.where(vectors.upper, spec.hardness, p)
         return InnerSolution(inner.scatter(p), steps)
