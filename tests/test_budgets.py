@@ -16,7 +16,7 @@ OPTIONS = {
     "adhesion press": 26,
     "adhesion curve": 26,
     "adhesion loop": 24,
-    "adhesion detach": 23,
+    "adhesion detach": 25,
     "surface prepare": 22,
 }
 FILES = {

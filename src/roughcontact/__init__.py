@@ -17,7 +17,6 @@ if TYPE_CHECKING or _LATE is None:
         statistics as statistics,
         study as study,
         theory as theory,
-        thesis as thesis,
     )
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
     from roughcontact.adhesion.adhesive_loading import (

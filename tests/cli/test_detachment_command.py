@@ -60,6 +60,13 @@ def test_it_goes_by_forces(invoke, rough):
     np.testing.assert_allclose(record["force"], [5e-6, 0], atol=1e-12)
 
 
+def test_it_goes_by_pressures(invoke, rough):
+    words = ("adhesion", "detach", rough, "--pressure", "60kPa", *GIVEN, "--pressures", "30kPa,0Pa", "--json")
+    record = json.loads(invoke(*words).stdout)
+    assert record["control"] == "force"
+    np.testing.assert_allclose(record["force"], [3e4 * rc.read(rough).grid.area, 0], atol=1e-12)
+
+
 def test_a_small_preload_is_told(invoke, rough):
     words = ("adhesion", "detach", rough, *GIVEN)
     assert "The preload was too small" in invoke(*words, "--depth", "10nm").stdout

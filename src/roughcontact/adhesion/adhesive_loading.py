@@ -79,7 +79,7 @@ def adhesive_state(
     loads = Loads.of(depth=depth, force=force, pressure=pressure, mean_gap=mean_gap)
     state = next(states_under(surface, modulus, adhesion, loads, operator, tolerance))
     if not state.status.converged:
-        raise ConvergenceError(state, tolerance)
+        raise ConvergenceError(state)
     return state
 
 
@@ -221,13 +221,12 @@ def states_under(
             "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
             "for bodies of revolution see mdr.adhesion"
         )
-    goals = loads.as_forces(surface.grid)
     return states_along(
         body,
         separation_of(surface),
         adhesion,
+        loads.as_forces(surface.grid),
         modulus=value,
-        **{f"{goals.kind}s".replace(" ", "_"): goals.values},
         surface=surface,
         tolerance=checked_tolerance(tolerance),
     )

@@ -18,6 +18,7 @@ from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
@@ -68,11 +69,9 @@ def states_along(
     operator: Operator,
     separation: Array,
     adhesion: Adhesion,
+    loads: Loads,
     *,
     modulus: float,
-    depths: Array | None = None,
-    forces: Array | None = None,
-    mean_gaps: Array | None = None,
     surface: Surface | RadialProfile | None = None,
     tolerance: float = 1e-8,
 ) -> Iterator[AdhesiveState]:
@@ -84,12 +83,11 @@ def states_along(
     separation : array, shape of the grid
         Undeformed gap at first touch [m]; infinite where nothing was measured.
     adhesion : Adhesion
+    loads : Loads
+        Depths or forces of either sign, up and down, the first force at least 0; or mean gaps of a whole periodic
+        surface, above 0.
     modulus : float
         Reduced modulus E* [Pa].
-    depths, forces : array
-        One of them, or `mean_gaps`: [m] or [N]; of either sign, up and down, the first force at least 0.
-    mean_gaps : array
-        Mean gaps of a whole periodic surface [m], above 0, up and down.
     surface : Surface or RadialProfile, optional
         Where the separation comes from, for the record.
     tolerance : float
@@ -111,44 +109,43 @@ def states_along(
     if capabilities(operator).listed:
         raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
-    measured = np.isfinite(separation)
-    by_depth = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
+    control: DepthControl | ForceControl
+    control = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
+    if loads.kind == "force":
+        control, goals = ForceControl.of(control), _checked_forces(loads.values)
+        scale = max(float(np.max(np.abs(goals))), adhesion.strength * float(np.min(operator.weights)))
+    else:
+        goals = _checked_depths(loads, form, separation)
+        scale = max(0.0, *goals) + REACH * adhesion.range
     resolved = is_resolved(adhesion, operator, modulus)
-    if forces is not None:
-        control = ForceControl.of(by_depth)
-        problem = AdhesiveProblem(
-            operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved
-        )
-        cell = float(np.min(operator.weights))
-        bracket = BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
-        return _states(problem, _checked_forces(forces), bracket)
-    if mean_gaps is not None:
-        depths = _depths_of(mean_gaps, form, separation)
-    goals = [float(d) for d in (() if depths is None else depths)]
-    if form.mean_free and measured.all() and max(goals) >= (full := float(separation.mean())):
-        raise ValueError(
-            f"a depth of {max(goals):.6g} m is not below the mean separation {full:.6g} m: there a periodic surface is "
-            "in full contact; give a smaller depth"
-        )
     problem = AdhesiveProblem(
-        operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved
+        operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved
     )
-    return _states(problem, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
+    return _states(problem, goals, BRACKET * scale)
 
 
-def _depths_of(mean_gaps: Array, form: ElasticForm, separation: Array) -> Array:
-    """Return the depths at which a periodic surface, whose mean displacement is zero, has these mean gaps."""
-    if not (form.mean_free and np.isfinite(separation).all()):
-        why = "some cells are missing" if form.mean_free else "the body is not periodic"
+def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[float]:
+    """Return depths, or those at which a periodic surface, whose mean displacement is zero, has mean gaps."""
+    whole, values = form.mean_free and np.isfinite(separation).all(), loads.values
+    full = float(separation.mean()) if whole else math.inf
+    if loads.kind == "mean gap":
+        if not whole:
+            why = "some cells are missing" if form.mean_free else "the body is not periodic"
+            raise ValueError(
+                "a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; "
+                f"here {why}: give depths or forces"
+            )
+        if not values.min() > 0:
+            raise ValueError(
+                f"a mean gap of {values.min():.6g} m is full contact or beyond it: give mean gaps above 0"
+            )
+        values = full - values
+    if values.max() >= full:
         raise ValueError(
-            f"a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; here "
-            f"{why}: give depths or forces"
+            f"a depth of {values.max():.6g} m is not below the mean separation {full:.6g} m: there a periodic surface "
+            "is in full contact; give a smaller depth"
         )
-    if not mean_gaps.min() > 0:
-        raise ValueError(
-            f"a mean gap of {mean_gaps.min():.6g} m is full contact or beyond it: give mean gaps above 0"
-        )
-    return np.asarray(float(separation.mean()) - mean_gaps)
+    return [float(depth) for depth in values]
 
 
 def _checked_forces(forces: Array) -> list[float]:

@@ -14,7 +14,7 @@ from roughcontact.cli.load_options import AdhesiveLoads, unit_of_loads
 from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.path_progress import collected
+from roughcontact.cli.path_answer import collected
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import (
     ADHESIVE_COLUMNS,

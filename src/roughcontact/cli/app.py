@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from roughcontact import __version__
+from roughcontact.cli.added_commands import added_commands, refuse_missing
 from roughcontact.cli.late_group import late_group
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
@@ -23,13 +24,12 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         spectrum_command as spectrum_command,
         study_command as study_command,
         surface_command as surface_command,
-        thesis_command as thesis_command,
     )
 
 __all__ = ["app"]
 
 
-_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve", "thesis")}
+_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve")}
 _ADHESION = {
     "press": "adhesive_press_command",
     "curve": "adhesive_curve_command",
@@ -54,7 +54,7 @@ _STUDY = {
 
 app = typer.Typer(
     name="roughcontact",
-    cls=late_group(_ALONE),
+    cls=late_group(_ALONE, added_commands, refuse_missing),
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
     epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
     "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "

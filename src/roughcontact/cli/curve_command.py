@@ -168,19 +168,19 @@ def _suggested(
 
     with doing("Looking for the loads that suit this surface"):
         found = load_range(surface, modulus, operator=operator, hardness=hardness)
-    loads, end = found.forces, found.reasons[1]
+    loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
-    low, high = (quantity("force", float(load), kind) for load in (loads[0], loads[-1]))
+    low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
     below = found.below
     if kind is Geometry.LINE:  # whose forces are not searched for
-        below = load_outlook(surface, modulus, forces=loads, operator=operator).below
+        below = load_outlook(surface, modulus, loads, operator).below
     note(
-        f"the map is {pressed.words}; no loads are named: {loads.size} forces from {low} to {high}, to {end}, "
+        f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
         f"{below} of them below what the grid resolves (--forces for others)"
     )
     for line in found.notes:
         note(line)
-    return Loads("force", loads)
+    return loads
 
 
 def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operator | None) -> None:
@@ -188,9 +188,8 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
     from roughcontact.contact.load_outlook import load_outlook
 
     name = f"{loads.kind}s"
-    given: dict[str, Any] = {name: loads.values}
     with doing("Looking which of these loads the grid resolves"):
-        ahead = load_outlook(surface, modulus, operator=operator, **given)
+        ahead = load_outlook(surface, modulus, loads, operator)
     if ahead.resolved >= min(_FEWEST, ahead.count):
         return
     ends = ((ahead.below, "too small: the cells set the stiffness"), (ahead.above, "near full contact"))
@@ -209,12 +208,11 @@ def _load(
     There is a loop where more loads are given than the `count` of the curve. A bar on standard error moves on at every
     load. Ctrl-C ends the curve with the loads that are done.
     """
-    import roughcontact as rc
     from roughcontact.contact.curve import collect
+    from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop
 
-    given: dict[str, Any] = {f"{loads.kind}s": loads.values, **limits}
-    path, total = rc.loading_path(surface, modulus, **given), loads.values.size
+    path, total = solutions_along(surface, modulus, loads, **limits), loads.values.size
     notes: list[tuple[str, ...]] = []
     ends: list[Solution] = []
     turn: list[Solution] = []

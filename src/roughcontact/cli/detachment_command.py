@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import typer
 
@@ -13,7 +13,7 @@ from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.load_options import FallingLoads, OneLoad
 from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.path_progress import collected
+from roughcontact.cli.path_answer import collected
 from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import (
@@ -69,13 +69,11 @@ def detach(
             preload = best_state(rc.press, surface, modulus, **given, **limits)
             states = rc.detachment_path(preload, energy, **falling)
             count = 1 if loads is None else loads.values.size
+            control: Literal["depth", "force"] = "depth"
+            if loads is not None and loads.kind != "depth":
+                control = "force"
             found, whole = collected(
-                states,
-                lambda states: collect_detachments(
-                    states, by_force=loads is not None and loads.kind == "force"
-                ),
-                "Drawing back",
-                count,
+                states, lambda states: collect_detachments(states, control), "Drawing back", count
             )
             converged = preload.status.converged and found.converged
             record = {
@@ -89,9 +87,9 @@ def detach(
             }
             if folder is not None:
                 [(name, value)] = given.items()
-                control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
+                preloaded = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
                 with doing("Writing files"):
-                    _write(found, record, surface, folder, control, answer.ending)
+                    _write(found, record, surface, folder, preloaded, answer.ending)
         if answer.json:
             emit(record)
         else:

@@ -134,6 +134,7 @@ class FallingLoads:
         "50nm:-50nm:11",
     )
     forces: str | None = option("Falling normal forces, likewise.", "1mN,0N,-1mN")
+    pressures: str | None = option("Falling nominal pressures, likewise.", "1kPa,0Pa,-1kPa")
 
     def values(self, body: ProfileBody | None) -> Loads | None:
         """Return the loads; None where they were left out.
@@ -141,7 +142,7 @@ class FallingLoads:
         Raises
         ------
         UsageError
-            If both are named, or their text is none.
+            If several are named, or their text is none.
         """
         return None if _left_out(self) else _loads(self, parse_path, body)
 

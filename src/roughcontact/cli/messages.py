@@ -32,7 +32,7 @@ _OPTIONS = (
     (re.compile(r"Grid\(\.\.\., periodic=True\)"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
-    (re.compile(r"give an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
+    (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
 

@@ -151,10 +151,10 @@ def solutions_along(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     loads: Loads | None,
-    operator: Operator | None,
-    solver: Solver | None,
-    tolerance: float,
-    hardness: Hardness | None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    hardness: Hardness | None = None,
     flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, see `loading_path`; without loads, under 24 forces that suit the surface.

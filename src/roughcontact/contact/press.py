@@ -97,7 +97,7 @@ def press(
         solver=solver,
     )
     if not solution.status.converged:
-        raise ConvergenceError(solution, solution.problem.tolerance)
+        raise ConvergenceError(solution)
     return solution
 
 

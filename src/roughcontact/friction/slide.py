@@ -102,7 +102,7 @@ def slide(
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
     answer = advance(problem, problem.load(force=force, displacement=displacement), initial)
     if not answer.status.converged:
-        raise ConvergenceError(answer, problem.tolerance)
+        raise ConvergenceError(answer)
     return answer
 
 
