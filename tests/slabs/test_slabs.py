@@ -19,7 +19,7 @@ from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import complementarity
 from roughcontact.solver.complementarity import added_stiffness
 from roughcontact.solver.inner_product import Measure
-from roughcontact.surface import waves_in_slabs
+from roughcontact.surface import random_heights
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]
@@ -324,7 +324,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
     Those of one process without slabs have another common factor: its sum rounds otherwise.
     """
     monkeypatch.setattr(exchange, "FEWEST", 2 * shape[0])  # two columns at once
-    monkeypatch.setattr(waves_in_slabs, "BLOCK", 30)
+    monkeypatch.setattr(random_heights, "POWERS", 30)
     grid = rc.Grid(shape, (1e-6, 1.2e-6), periodic=True)
     if way == "of a band" and shape == (3, 40):
         return  # no such grid has this band
@@ -341,7 +341,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
 
         return real(kept, shape, functions)
 
-    monkeypatch.setattr(waves_in_slabs, "plane_of_waves", watched)
+    monkeypatch.setattr(random_heights, "plane_of_waves", watched)
 
     def work(communicator):
         slabs = rc.Slabs(communicator)

@@ -15,7 +15,7 @@ from roughcontact.cli.conductance_command import Materials
 from roughcontact.cli.curve_answer import CurveAnswer
 from roughcontact.cli.error_options import Errors
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.load_options import RisingLoads, unit_of_loads
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.output import output
@@ -75,15 +75,6 @@ def curve(
     """
     file, out = reading.source.file, asked.out
     with reported(file, out, as_json=asked.json):
-        refuse_in_slabs(
-            {
-                "--loop": plastic.loop,
-                "--flow": plastic.flow,
-                "--theory": theories.theory,
-                "--errors": errors.errors,
-                "--table": tables.table,
-            }
-        )
         in_slabs = slabs_of_job() is not None
         loads = given.values(reading.profile)
         if in_slabs and loads is None:

@@ -7,7 +7,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, flag, option
@@ -70,6 +70,7 @@ PERIODIC = option(
 LEVEL = option("What is removed from the heights (default: a least-squares plane).", rich_help_panel=_READING)
 DESPIKE = option(
     "Before levelling: the cells of spikes to missing points, or filled smoothly (default: kept).",
+    needs_whole=True,
     rich_help_panel=_READING,
 )
 OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
@@ -205,7 +206,6 @@ class Reading:
         """
         from roughcontact.contact.problem import require_memory_for
 
-        refuse_in_slabs({"--profile": self.profile, "--despike": self.despike})
         read = self.source.map if self.profile is None else self.source.line
         surface = read(self.periodic)
         require_memory_for(surface)

@@ -28,7 +28,8 @@ __all__ = ["AfterLoad", "LoopLoads", "write_loop"]
 FlowChoice = StrEnum("FlowChoice", ["REMOVED", "RAISED"])
 _FLOW = option(
     "Under a hardness, where material that flows goes: it vanishes, or raises the whole surface, its volume conserved "
-    "(default: removed)."
+    "(default: removed).",
+    needs_whole=True,
 )
 
 
@@ -41,6 +42,7 @@ class AfterLoad:
         "Press by this load first, of the same kind as the load, and unload from there: what has flowed stays. Takes a "
         "--hardness, or --materials.",
         "100N",
+        needs_whole=True,
     )
     flow: FlowChoice | None = _FLOW
 
@@ -129,6 +131,7 @@ class LoopLoads:
         "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
         "surface. Takes a --hardness, or --materials.",
         default=False,
+        needs_whole=True,
     )
     flow: FlowChoice | None = _FLOW
 

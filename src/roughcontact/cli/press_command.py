@@ -12,7 +12,7 @@ from roughcontact.arrays import max_abs
 from roughcontact.cli import options
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.job import communicator_of_job
 from roughcontact.cli.load_options import OneLoad
 from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
@@ -22,7 +22,6 @@ from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.cli.run_memory import require_memory_for_load
-from roughcontact.cli.write_from_slabs import write_from_slabs
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -41,9 +40,13 @@ roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """,
 }
 
+_DRAWN = 2**22  # cells of a picture: more are not gathered by the one process of a job that draws
+
 Theory = StrEnum("Theory", ["PERSSON"])
 _THEORY = option(
-    "With --out: draw the distribution of the pressure beside that of a theory.", rich_help_panel="Answer"
+    "With --out: draw the distribution of the pressure beside that of a theory.",
+    needs_whole=True,
+    rich_help_panel="Answer",
 )
 
 
@@ -62,15 +65,6 @@ def press(
 
     file, out = reading.source.file, answer.out
     with reported(file, out, as_json=answer.json):
-        slabs = slabs_of_job()
-        refuse_in_slabs(
-            {
-                "--after": plastic.after,
-                "--flow": plastic.flow,
-                "--theory": theory,
-                "--errors": errors.errors,
-            }
-        )
         given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:
@@ -103,13 +97,10 @@ def press(
                 [(name, value)] = given.items()
                 control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
                 control += "" if first is None else f" after {first!r}"
-                if slabs is not None and out is not None:
-                    drawn = write_from_slabs(
-                        slabs, solution, record, folder, _source(solution, control), ending
-                    )
-                elif folder is not None:
-                    _write(solution, record, folder, _source(solution, control), theory, ending)
-                    drawn = ("pressure", *plastic.draw(surface, solution, folder, ending))
+                if out is not None:
+                    drawn = _write(solution, record, folder, _source(solution, control), theory, ending)
+                if folder is not None:
+                    drawn += plastic.draw(surface, solution, folder, ending)
         per_area = "pressure" in given or all(surface.grid.periodic)
         _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
         pictures = (*(() if theory is None else ("distribution",)), *drawn)
@@ -152,23 +143,37 @@ def _source(solution: Solution, control: str) -> dict[str, Any]:
 def _write(
     solution: Solution,
     record: dict[str, Any],
-    folder: Path,
+    folder: Path | None,
     source: dict[str, Any],
     theory: Theory | None,
     ending: str,
-) -> None:
-    from roughcontact.contact.dataset import solution_dataset
+) -> tuple[str, ...]:
+    """Write a loaded state into the folder that the first process of a job has; return the names of its pictures."""
     from roughcontact.contact.theories import persson_pressures
-    from roughcontact.files.write import write_json, write_netcdf
+    from roughcontact.files.save import write_solution
+    from roughcontact.files.write import write_json
     from roughcontact.plot.canvas import pressure_distribution_figure, save, solution_figure
+    from roughcontact.slabs.agreement import by_first, entered_by_first
 
-    with all_or_none(folder) as aside:
-        write_netcdf(solution_dataset(solution), aside / "pressure.nc", source)
-        save(solution_figure(solution), aside / f"pressure.{ending}")
-        if theory is not None:
-            theories = {theory.value: persson_pressures(solution)}
-            save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
-        write_json(record, aside / "press.json", source)
+    communicator, size = communicator_of_job(), solution.problem.grid.size
+    drawn = solution.on_host() if communicator.size == 1 or size <= _DRAWN else None
+
+    with entered_by_first(communicator, lambda: all_or_none(folder or Path())) as aside:
+        write_solution(solution, aside / "pressure.nc", source)
+
+        def write() -> None:
+            if drawn is not None:
+                save(solution_figure(drawn), aside / f"pressure.{ending}")
+            if theory is not None:
+                theories = {theory.value: persson_pressures(solution)}
+                save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
+            write_json(record, aside / "press.json", source)
+
+        by_first(communicator, write)
+    if drawn is None:
+        note(f"no picture: {size} cells are more than the {_DRAWN} that one process draws")
+        return ()
+    return ("pressure",)
 
 
 def _tell(
