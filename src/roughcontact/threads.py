@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
 __all__ = [
-    "call_others",
     "controller",
     "join_in",
     "limit_threads",
     "no_fork",
     "once",
     "one_blas_thread",
-    "others_called",
     "spread",
     "threads",
+    "wake",
+    "wakes_pending",
 ]
 
 T = TypeVar("T")
@@ -131,20 +131,20 @@ def join_in(work: Callable[[int], None], count: int) -> None:
     wanted = [work]
     try:
         if count > 1:
-            _crew.call(wanted, range(1, count))
+            _helpers.call(wanted, range(1, count))
         work(0)
     finally:
         wanted.clear()  # who has not come holds nothing any more
 
 
-def call_others(work: Callable[[int], None], count: int) -> None:
-    """Have so many other threads, numbered from 0, do some work when they come to it; nobody waits for them."""
-    _crew.call([work], range(count))
+def wake(work: Callable[[int], None], count: int) -> None:
+    """Wake n other threads, numbered from 0, for some work; the caller does not wait for them."""
+    _helpers.call([work], range(count))
 
 
-def others_called() -> int:
-    """Return how many were called who have not come yet."""
-    return _crew.waiting
+def wakes_pending() -> int:
+    """Return how many threads were woken and have not begun yet."""
+    return _helpers.waiting
 
 
 @contextmanager
@@ -248,7 +248,7 @@ def _stated(variable: str) -> int:
     return int(text) if text.isdecimal() else 0
 
 
-class _Crew:
+class _HelperThreads:
     """Threads that wait for calls, of which nobody asks what became of them.
 
     A pool, which could tell, takes longer to call one.
@@ -284,13 +284,13 @@ class _Crew:
             del wanted
 
 
-_crew = _Crew()
+_helpers = _HelperThreads()
 
 
 def _in_child() -> None:
     """Go on in a forked process, which has one thread: the one that forked."""
-    global _crew
-    _crew = _Crew()
+    global _helpers
+    _helpers = _HelperThreads()
     for thread in _inside - {get_ident()}:
         _go_out(thread)
     no_fork.release()

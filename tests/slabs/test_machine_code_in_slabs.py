@@ -62,7 +62,7 @@ def test_planes(size, shape):
     region[-1, -1] = True
     extremes, levels = planes.extremes(p, u, f), planes.level_range(f, u, region)
     total, part = planes.positive_total(p, f), planes.positive_part(p, f, 0.25)
-    allowed = {"depth": 0.25, "least": -0.125, "own": 0.5}
+    allowed = {"depth": 0.25, "least": -0.125, "a_ii": 0.5}
     cells, *counts = planes.predict_active(p, u, f, **allowed)
 
     def scaled(zeros, *fields):

@@ -194,7 +194,7 @@ class Corner:
     def __init__(self, operator):
         pass
 
-    def solve(self, solver, separation, terms, guess):
+    def solve(self, solver, separation, spec, guess):
         p = np.zeros(separation.shape)
         p[-3:, -2:] = self.strength * (1 + np.arange(6).reshape(3, 2))
         self.answers.append(p)
@@ -229,10 +229,10 @@ def test_on_coarse_cells_a_depth_is_as_far_from_full_contact():
     mean, parts, coarse = float(surface.heights.max() - surface.heights.mean()), [], []
 
     class Watched:
-        def run(self, operator, separation, terms, initial):
-            parts.append(terms.depth / separation.mean())
+        def run(self, operator, separation, spec, initial):
+            parts.append(spec.depth / separation.mean())
             coarse.append(0.999 * mean / separation.mean())
-            return rc.ActiveSet().run(operator, separation, terms, initial)
+            return rc.ActiveSet().run(operator, separation, spec, initial)
 
     rc.press(surface, 1.0, depth=0.999 * mean, solver=Watched())
     assert len(parts) > 1

@@ -1,4 +1,7 @@
-"""The energy of the gap: elastic energy of the displacement, and attraction across the gap, above a hard wall."""
+"""The energy of the gap: elastic energy of the displacement, and attraction across the gap, above a hard wall.
+
+See docs/method-adhesion.md, section 1.
+"""
 
 from __future__ import annotations
 

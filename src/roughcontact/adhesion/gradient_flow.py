@@ -9,6 +9,8 @@ tension is held by cells of constant attraction alone, all cells are damped alik
 
 Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
 equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
+
+Labels E17 to E23 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -85,14 +87,14 @@ def flow(
     """
     counter.products += 1
     point = energy.at(energy.feasible(start))
-    damping, lost, wait = FIRST, 0.0, 0
+    damping, lost, wait = FIRST, 0.0, 0  # E17
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
-        # At rest, though a cell that the wall hardly holds may make the Hessian indefinite.
+        # E18: at rest, though a cell that the wall hardly holds may make the Hessian indefinite.
         if residual <= TOLERANCE * scale:
             return FlowResult(Equilibrium(point, residual / scale, True, lost), lost)
         close = residual <= CLOSE * scale
-        if close and damping < LEAST:
+        if close and damping < LEAST:  # E19
             if wait == 0:
                 end = _end(energy, point, convex, counter)
                 if end is not None:
@@ -102,11 +104,11 @@ def flow(
         free = point.free
         curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
         weights = energy.attraction.steepest if uniform else curvature
-        step, negative = conjugate_gradients(
+        step, negative = conjugate_gradients(  # E20
             energy.form, free, curvature - damping * weights, -point.reaction, FORCING, counter
         )
         found = None if negative else line_search(energy, point, step, counter)
-        if found is None:
+        if found is None:  # E21
             if damping <= MOST:
                 damping = max(4 * damping, UNDER)
             elif not uniform:
@@ -118,8 +120,9 @@ def flow(
         lost -= change
         too_far = _pushed_back(point, new) > residual
         point = new
-        if detached(energy, point):
+        if detached(energy, point):  # E22
             return FlowResult(Equilibrium(point, 0.0, True, lost), lost)
+        # E23
         damping = min(FULL, 2 * damping) if too_far else max(damping / 2, SOFTEST if close else LEAST)
     end = minimise(energy, point.displacement, counter)
     return FlowResult(end, lost + end.lost)

@@ -7,6 +7,8 @@ all changes y of the gap that vanish at the wall. It falls as the curvature D of
 leave the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and
 with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
 them are computed until this point is no lower than the lowest force that was found.
+
+Labels E35 and E36 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -71,13 +73,13 @@ class LowestForce:
 
         def add(upper: _BranchPoint, lower: _BranchPoint) -> None:
             interval = _Interval.of(control, upper, lower, threshold(), self.counter)
-            heappush(intervals, (interval.bound, next(order), interval))
+            heappush(intervals, (interval.bound, next(order), interval))  # E35
 
         def threshold() -> float:
             return min(self.force, 0.0) - FORCE_TOLERANCE * abs(self.force)
 
         add(upper, lower)
-        while intervals and intervals[0][0] < threshold():
+        while intervals and intervals[0][0] < threshold():  # E36
             _, _, interval = heappop(intervals)
             between = interval.state_between(control, self.counter)
             if between is not None:

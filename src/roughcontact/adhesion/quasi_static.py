@@ -3,6 +3,8 @@
 A step is taken if the energy at the new value is strictly convex on the box that holds the old state and the new: no
 other equilibrium lies in it, and the gradient flow from the old state ends in the new one. Else the step is halved,
 down to a bracket; what is left then is a limit point of the branch, and the body jumps.
+
+Labels E24 to E30 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -150,7 +152,7 @@ class QuasiStatic:
         lowest = LowestForce(self.control, self.counter, start.lowest_force)
         if retreats := target < start.value:
             lowest.start_branch(start.value, start.point)
-        here, steps = start, _StepControl(self.bracket, abs(target - start.value))
+        here, steps = start, _StepControl(self.bracket, abs(target - start.value))  # E24
         # Slope of the secant predictor: of the displacement with what is prescribed, in the last step, beyond the
         # displacement of the cells at the wall.
         slope: Array | float = 0.0
@@ -159,24 +161,24 @@ class QuasiStatic:
             length = min(steps.proposal(), abs(left))
             value = target if length == abs(left) else here.value + float(np.copysign(length, left))
             energy = self.control.energy_at(value)
-            moved = energy.at_depth(here.point)
+            moved = energy.at_depth(here.point)  # E25
             # On the way the residual may be larger, in proportion to the step: a step as short as the bracket has that
             # of a state that was asked for.
             tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
             # After a rejection more follow, and a coarse solution shows most of them.
             coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
             predicted = moved.displacement + length * slope
-            end = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))
+            end = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))  # E26, E27
             if end is not None:
                 slope = (end.point.displacement - moved.displacement) / length
                 here = PathPoint(value, end.point, end.residual, True)
                 if retreats:
                     lowest.extend(value, here.point)
-                steps.accept(length)
+                steps.accept(length)  # E28
             elif length > self.bracket:
                 steps.reject(length)
             else:
-                here, jump = self._jump(here, value, energy, moved)
+                here, jump = self._jump(here, value, energy, moved)  # E29
                 slope = 0.0
                 jumps += [jump] if jump else []
                 if detached(energy, here.point):
@@ -208,7 +210,7 @@ class QuasiStatic:
         scale = energy.attraction.range
         reached = PathPoint(value, end.point, end.residual, end.converged)
         change = float(np.abs(end.point.displacement - start).max())
-        if change < MOVED * scale and end.converged:
+        if change < MOVED * scale and end.converged:  # E30
             return reached, None  # the branch goes on, too flat for the test of convexity
         off = detached(energy, end.point)
         other = flow(energy, start, self._convex, self.counter, uniform=True).equilibrium

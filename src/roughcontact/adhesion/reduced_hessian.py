@@ -5,6 +5,8 @@ where an equilibrium ends. By the locally optimal block method (Knyazev, SIAM J.
 compliance being the preconditioner. A residual r of a vector of unit elastic norm means that an eigenvalue lies within
 ``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, C being the inverse of K: the inverse of
 a part is at most the part of the inverse.
+
+Labels E31 to E34 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -100,7 +102,7 @@ def smallest_ratio(
         return np.where(free, form.stiffness(x), 0.0)
 
     weight = np.where(free, curvature, 0.0)
-    first = [project(v) for v in start]
+    first = [project(v) for v in start]  # E31
     block = max(BLOCK, len(start) + 1)
     while len(first) < block:
         first.append(precondition(weight * rng.standard_normal(free.shape)))
@@ -108,7 +110,7 @@ def smallest_ratio(
     old: list[tuple[Array, Array]] = []
     value, bound, vectors = 1.0, np.inf, tuple(first)
     for _ in range(STEPS):
-        coefficients, values = _ritz(form, basis, images, weight)
+        coefficients, values = _ritz(form, basis, images, weight)  # E32
         count = min(block, len(values))
         chosen = [coefficients[:, k] for k in range(count)]
         x = [_combined(c, basis) for c in chosen]
@@ -118,8 +120,9 @@ def smallest_ratio(
         residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
         preconditioned = [precondition(r) for r in residuals]
         value = float(values[0])
-        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))
+        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
         vectors = tuple(x)
+        # E34
         if bound <= accuracy or (sign_only and (value < 0 or bound <= min(RELIABLE, value / 4))):
             break
         basis, images = [*x, *preconditioned], [*kx, *(image(s) for s in preconditioned)]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.cli import options
 from roughcontact.cli.error_options import Errors, LoadErrors
 from roughcontact.cli.exits import MISSED
@@ -120,7 +120,7 @@ def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
         "surface": history,
         **pressed.record(),
         **solution_record(solution),
-        "largest_pressure": largest(solution.pressure),
+        "largest_pressure": max_abs(solution.pressure),
         "tolerance": solution.problem.tolerance,
         "converged": solution.status.converged,
     }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.contact.flow_curve import flow_point
 from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
 from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
@@ -211,7 +211,7 @@ def _scales(solution: Solution) -> dict[str, float]:
     """Return the numbers by which one loaded state is judged and that it has no attribute for."""
     problem = solution.problem
     scales = {
-        "largest_pressure": largest(solution.pressure),
+        "largest_pressure": max_abs(solution.pressure),
         "nominal_pressure": solution.force / problem.grid.area,
         "stiffness_residual": solution.frozen.residual,
         "modulus": problem.modulus,

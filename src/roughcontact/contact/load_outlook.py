@@ -91,12 +91,12 @@ def load_outlook(
     pilot = pilot_of(problem)
     rough = problem if pilot is None else pilot
 
-    def above_cells(control: Control) -> bool:
-        if _pressed(rough, control).above_cells:
+    def resolved_from_below(control: Control) -> bool:
+        if _pressed(rough, control).resolved_from_below:
             return True
-        return pilot is not None and _pressed(problem, control).above_cells
+        return pilot is not None and _pressed(problem, control).resolved_from_below
 
-    below = _first(above_cells, controls)
+    below = _first(resolved_from_below, controls)
     near_full = _first(lambda control: _nearly_full(_pressed(rough, control)), controls[below:])
     return LoadOutlook(len(controls), below, len(controls) - below - near_full)
 
@@ -114,4 +114,4 @@ def _pressed(problem: ContactProblem, control: Control) -> Solution:
 
 def _nearly_full(solution: Solution) -> bool:
     """Return whether the contact is beyond the upper limit of what is resolved."""
-    return solution.above_cells and not solution.resolved
+    return solution.resolved_from_below and not solution.resolved

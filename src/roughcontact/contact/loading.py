@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.flow import FlowReading, flow_reading
+from roughcontact.contact.flow import FlowModel, flow_reading
 from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.load_range import load_range
 from roughcontact.contact.press import grid_of, make_problem
@@ -37,7 +37,7 @@ def loading_path(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
 
@@ -101,7 +101,7 @@ def loading_curve(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
 
@@ -159,7 +159,7 @@ def solutions_along(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, see `loading_path`; without loads, under 24 forces that suit the surface.
 

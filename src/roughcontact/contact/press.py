@@ -171,10 +171,10 @@ def solve_state(
     with one_blas_thread():
         start = initial or Start(*nested_start(problem.operator, problem.separation, problem.control, solver))
         if problem.size_law is not None:
-            return settle(problem, problem.size_law, solver, (start.take(), start.depth), subdomains)
+            return settle(problem, problem.size_law, solver, (start.move(), start.depth), subdomains)
         if problem.flow is not None:
             return problem, *_from_touch(problem, solver, start, subdomains)
-        return problem, *subdomains.solve(solver, problem.separation, problem.terms, start)
+        return problem, *subdomains.solve(solver, problem.separation, problem.spec, start)
 
 
 def lock(pressure: Array) -> None:
@@ -191,8 +191,8 @@ def _from_touch(
     separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
     control = problem.control
     nearer = Depth(control.value - touch) if isinstance(control, Depth) else control
-    terms = replace(problem.terms, control=nearer)
-    state, subdomain = subdomains.solve(solver, separation, terms, Start(start.take(), start.depth - touch))
+    spec = replace(problem.spec, control=nearer)
+    state, subdomain = subdomains.solve(solver, separation, spec, Start(start.move(), start.depth - touch))
     return replace(state, depth=state.depth + touch), subdomain
 
 

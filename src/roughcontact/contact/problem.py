@@ -17,7 +17,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.kernels import buffers
 from roughcontact.memory import require_memory
-from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
+from roughcontact.solver.control import Control, Depth, Force, Specification, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
@@ -123,7 +123,7 @@ class ContactProblem:
                 f"shape {tuple(self.hardness.shape)}"
             )
         if isinstance(self.control, Force) and self.plastic:
-            strongest = bearing_force(self.measure, self.measured, self.terms)
+            strongest = bearing_force(self.measure, self.measured, self.spec)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
@@ -158,9 +158,9 @@ class ContactProblem:
         return int(self.measure.xp.count_nonzero(~self.measured))
 
     @property
-    def terms(self) -> Terms:
+    def spec(self) -> Specification:
         """What is asked of a solver."""
-        return Terms(self.control, self.tolerance, self.hardness)
+        return Specification(self.control, self.tolerance, self.hardness)
 
     @property
     def geometry(self) -> Geometry:
@@ -175,7 +175,7 @@ class ContactProblem:
     @property
     def plastic(self) -> bool:
         """Whether a hardness limits the pressure."""
-        return self.terms.plastic
+        return self.spec.plastic
 
     @property
     def first_touch(self) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy, largest, on_host
+from roughcontact.arrays import is_numpy, max_abs, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.flow import Flow, flow_of
 from roughcontact.contact.histograms import gap_histogram, pressure_histogram
@@ -189,7 +189,7 @@ class Solution:
 
         Only at a knife edge is there any; a further load brings them into contact.
         """
-        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * largest(self.displacement)
+        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * max_abs(self.displacement)
         gap = self.displacement + self.problem.separation - self.depth
         return weakly_active(self.pressure, gap, allowed)
 
@@ -287,7 +287,7 @@ class Solution:
         return notes_on(self)
 
     @property
-    def above_cells(self) -> bool:
+    def resolved_from_below(self) -> bool:
         """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell

@@ -17,7 +17,7 @@ from roughcontact.slabs.agreement import by_each
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import tuning
 from roughcontact.solver.active_set import ActiveSet
-from roughcontact.solver.control import Control, Start, Terms
+from roughcontact.solver.control import Control, Specification, Start
 from roughcontact.solver.nested_iteration import block_separation, coarse_operator, nested_start
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 from roughcontact.surface.surface import Surface
@@ -39,10 +39,10 @@ def touch_of(surface: Surface, modulus: float, control: Control) -> Touch:
     operator, separation, solver = half_space(surface.grid, modulus), separation_of(surface), ActiveSet()
     while max(separation.shape) > SIDE and (coarser := coarse_operator(operator, separation.shape)):
         operator, separation = coarser[0], block_separation(separation, coarser[1])
-    terms = Terms(control, tuning.COARSE_TOLERANCE)
+    spec = Specification(control, tuning.COARSE_TOLERANCE)
     with one_blas_thread():
         start = Start(*nested_start(operator, separation, control, solver))
-        state, subdomain = SubdomainSolver(operator).solve(solver, separation, terms, start)
+        state, subdomain = SubdomainSolver(operator).solve(solver, separation, spec, start)
     pressed = prolong(state.pressure, subdomain, separation.shape) > 0
     overlap = (separation < state.depth) | pressed
     box = bounding_box(overlap)

@@ -22,7 +22,7 @@ from roughcontact.files.length_units import length_factor
 from roughcontact.files.numpy_files import NpyHeader, whole_npy_header
 from roughcontact.files.table_axes import axes_of
 from roughcontact.slabs.agreement import by_each, by_first
-from roughcontact.slabs.by_rows import dealt_from_first
+from roughcontact.slabs.by_rows import scatter_from_first
 from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
@@ -228,7 +228,7 @@ def _dealt(
         return surface.grid, surface.provenance, doubts
 
     grid, provenance, doubts = by_first(slabs.communicator, read_here)
-    heights: Any = dealt_from_first(slabs, whole[0] if whole else None, grid.shape)
+    heights: Any = scatter_from_first(slabs, whole[0] if whole else None, grid.shape)
     return Surface(heights, grid, provenance), doubts
 
 

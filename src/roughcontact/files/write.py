@@ -19,7 +19,7 @@ from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.files.installed import lacking
 from roughcontact.labels.labelled import attributes_of
 from roughcontact.slabs.agreement import by_first, entered_by_first
-from roughcontact.slabs.by_rows import rows_to_first
+from roughcontact.slabs.by_rows import gather_to_first
 from roughcontact.slabs.one_process import OneProcess
 from roughcontact.slabs.slab_array import SlabArray
 
@@ -69,7 +69,7 @@ def write_netcdf(
         # Only the maps are too large to be made in memory, where a full disk does no harm to HDF5.
         by_first(communicator, lambda: aside.write_bytes(netcdf_bytes(whole)))
         for name, field in maps.items():
-            for start, rows in rows_to_first(field, CHUNK):
+            for start, rows in gather_to_first(field, CHUNK):
                 by_first(communicator, partial(_write_rows, aside, name, field, start, rows))
 
 

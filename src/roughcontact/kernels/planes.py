@@ -117,14 +117,14 @@ def predict_active(
     *,
     depth: float,
     least: float,
-    own: float,
+    a_ii: float,
 ) -> tuple[Mask, int, int]:
-    """Return the cells under pressure or whose gap is below the least, but for wrong ones; and how many both are.
+    """Return the cells under pressure or whose gap is below the least, except dropped ones, and the numbers of both.
 
-    Those are wrong whose gap is more than their pressure would displace, if each moved itself by `own` alone [m/Pa].
+    A cell is dropped if its gap is more than ``a_ii p``, the displacement of the cell by its own pressure.
     """
     region = empty(pressure.shape, bool)
-    given = pressure, displacement, separation, depth, least, own, region
+    given = pressure, displacement, separation, depth, least, a_ii, region
     run = functions("plane_kernels", "float64")["predict_active"]
     stay, wrong = run_on_plane(run, 0, 2, *given, combine=combine)
     return region, int(stay), int(wrong)

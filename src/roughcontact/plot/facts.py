@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
@@ -60,7 +60,7 @@ def solution_facts(solution: Solution) -> list[tuple[str, str]]:
         ("reduced modulus E*", quantity("modulus", problem.modulus)),
         ("force", quantity("force", solution.force, kind)),
         ("nominal pressure", quantity("pressure", pressure, kind)),
-        ("largest pressure", quantity("pressure", largest(solution.pressure), kind)),
+        ("largest pressure", quantity("pressure", max_abs(solution.pressure), kind)),
         ("depth", quantity("depth", solution.depth, kind)),
         ("stiffness", quantity("stiffness", solution.stiffness, kind)),
         ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),

@@ -31,7 +31,7 @@ class Passes(Protocol):
         *,
         depth: float,
         least: float,
-        own: float,
+        a_ii: float,
     ) -> tuple[Mask, int, int]:
         """Return the cells predicted in contact, and counts."""
         ...
@@ -74,11 +74,11 @@ class SlabPasses:
         return planes.extremes(pressure.local, displacement.local, separation.local, self._combine)
 
     def predict_active(
-        self, pressure: Any, displacement: Any, separation: Any, *, depth: float, least: float, own: float
+        self, pressure: Any, displacement: Any, separation: Any, *, depth: float, least: float, a_ii: float
     ) -> tuple[Any, int, int]:
         """Return the cells predicted in contact, in slabs, and the counts of all rows."""
         here = pressure.local, displacement.local, separation.local, self._combine
-        found, stay, wrong = planes.predict_active(*here, depth=depth, least=least, own=own)
+        found, stay, wrong = planes.predict_active(*here, depth=depth, least=least, a_ii=a_ii)
         return pressure.like(found), stay, wrong
 
     def positive_total(self, pressure: Any, separation: Any) -> float:

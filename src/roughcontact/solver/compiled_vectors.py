@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.kernels import buffers as room, planes
+from roughcontact.kernels import buffers, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
@@ -66,7 +66,7 @@ class CompiledVectors:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(free, precision)
-        residual, base = (room.empty(free.shape, precision) for _ in range(2))
+        residual, base = (buffers.empty(free.shape, precision) for _ in range(2))
         into = inside, residual, base
         planes.scale_down(start, displacement, separation, free, into, depth=depth, unit=unit)
         return cls(inner, weight, inside, residual, base), unit
@@ -174,7 +174,7 @@ class CompiledVectors:
         return Operand(np.ascontiguousarray(field, self.free.dtype))
 
     def _zeros(self) -> Operand:
-        return Operand(room.zeros(self.free.shape, self.free.dtype))
+        return Operand(buffers.zeros(self.free.shape, self.free.dtype))
 
     @cached_property
     def _region(self) -> ActiveCells:

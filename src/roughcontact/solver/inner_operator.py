@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Protocol
 
-from roughcontact.arrays import is_numpy, largest, over, times
+from roughcontact.arrays import divide, is_numpy, max_abs, multiply
 from roughcontact.halfspace.operators.operator import (
     Capabilities,
     Linear,
@@ -130,8 +130,8 @@ class FullGrid:
     def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return the field over a unit, in the precision of the products."""
         if self.single:
-            return over(values, unit, "float32")
-        return values if unit == 1 else over(values, unit, "float64")
+            return divide(values, unit, "float32")
+        return values if unit == 1 else divide(values, unit, "float64")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -178,11 +178,11 @@ def first_product(
         # Where tiles will be used, no transfer function of single precision is made for the grid.
         if inner.contraction and _tiles_of(operator, pressure > 0) is not None:
             inner = FullGrid(operator)
-    size = largest(pressure) if inner.contraction else 0.0
+    size = max_abs(pressure) if inner.contraction else 0.0
     if not size > 0:
         return operator.apply(pressure), True
     part = inner.scaled(inner.gather(pressure), size)
-    return times(inner.scatter(inner.apply(part)), size), False
+    return multiply(inner.scatter(inner.apply(part)), size), False
 
 
 def factorisation_pays(operator: Operator, count: int, limit: int, tolerance: float = 0.0) -> bool:

@@ -10,10 +10,10 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
+from roughcontact.slabs.levels_of_slabs import divides, gathered_if_small, scatter_like
 from roughcontact.slabs.passes import passes_over
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
+from roughcontact.solver.control import Control, Depth, Solver, Specification, Start
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 from roughcontact.solver.summit_start import summit_start
@@ -42,9 +42,9 @@ def nested_start(
         control = _reachable(control, separation, blocks, xp)
     small = gathered_if_small(blocks)
     start = Start(*nested_start(part, small, control, solver))
-    terms = Terms(control, tuning.COARSE_TOLERANCE)
-    state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
-    coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
+    spec = Specification(control, tuning.COARSE_TOLERANCE)
+    state, subdomain = SubdomainSolver(part).solve(solver, small, spec, start)
+    coarse = scatter_like(prolong(state.pressure, subdomain, blocks.shape), blocks)
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 

@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol, get_args
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import less, namespace, require_floating, require_no_unit
+from roughcontact.arrays import namespace, require_floating, require_no_unit, subtract
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
@@ -117,7 +117,7 @@ class InfluenceOperator:
         # The mean apart: where it moves nothing, its rounding moves nothing either.
         xp, plane = namespace(pressure), {"axis": (-2, -1), "keepdims": True}
         mean = xp.mean(pressure, **plane)
-        displacement = self._sum.apply(less(pressure, mean))
+        displacement = self._sum.apply(subtract(pressure, mean))
         if self.constant:
             displacement += self.constant * mean
         return displacement

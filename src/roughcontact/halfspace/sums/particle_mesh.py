@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import over
+from roughcontact.arrays import divide
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
@@ -133,7 +133,7 @@ class TileOperator:
 
     def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return numbers over a unit, in single precision."""
-        return over(values, unit, "float32")
+        return divide(values, unit, "float32")
 
     def apply(self, pressure: Single) -> Single:
         """Return the displacement [m] under `pressure` [Pa]."""
