@@ -25,7 +25,6 @@ from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, note_files, quantity, screen
-from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.sticking_curve import curve_sticking
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
@@ -202,8 +201,6 @@ def curve(
                 loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
             elif name != "depths" and not in_slabs:
                 _look_ahead(surface, modulus, name, loads, operator)
-            largest = {name.removesuffix("s"): float(loads.max())}
-            require_memory_for_load(surface, modulus, largest, curve=True)
             path = {
                 "tolerance": tolerance,
                 "hardness": hardness,

@@ -22,7 +22,6 @@ from roughcontact.cli.plastic_options import AfterLoad
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
-from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.sticking_press import press_sticking
 from roughcontact.cli.unit_options import parse, parse_load
 from roughcontact.cli.write_from_slabs import write_from_slabs
@@ -133,7 +132,6 @@ def press(
             errors.check_for(surface)
             pressed = Pressed.of(surface, modulus, elasticity.softer())
             limits["operator"] = reading.body(surface, modulus)
-            require_memory_for_load(surface, modulus, given)
             if first is None and not plastic.raises:
                 solution = _solve(surface, modulus, **given, **limits)
             else:

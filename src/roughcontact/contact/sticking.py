@@ -10,7 +10,8 @@ import numpy as np
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.path_states import states_along
-from roughcontact.contact.problem import Body, require_memory_for, separation_of
+from roughcontact.contact.memory_needed import require_memory_for
+from roughcontact.contact.problem import Body, separation_of
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -52,7 +53,7 @@ def sticking_states(
     goals = np.atleast_1d(number(values, f"the list of {words}"))
     if goals.ndim != 1 or not len(goals) or not np.isfinite(goals).all():
         raise ValueError(f"the list of {words} must hold finite numbers in one row, not {shown(values)}")
-    require_memory_for(surface)
+    require_memory_for(surface, operator)
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
     if geometry_of(body) is Geometry.FOUNDATION:
