@@ -238,7 +238,7 @@ class Tables:
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
         large = self._largest  # another thread may put a larger one in its place
-        if all(n <= have for n, have in zip(needed, large.values.shape, strict=True)):
+        if _holds(large.values.shape, needed):
             return large.at(a, b)
         a, b = np.broadcast_arrays(a, b)
         near = (a < large.values.shape[0]) & (b < large.values.shape[1])
@@ -340,7 +340,7 @@ def _to_all_sides(table: Array) -> Array:
 
 
 def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
-    return all(n <= have for n, have in zip(small, large, strict=True))
+    return small[0] <= large[0] and small[1] <= large[1]  # a table has two axes
 
 
 def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], columns: slice = ALL) -> Array:
