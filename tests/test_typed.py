@@ -20,7 +20,6 @@ UNTYPED = {
     "roughcontact.Curve.to_dataframe",
     "roughcontact.plot.surface_view",
     "roughcontact.study.Range.values",
-    "roughcontact.study.Slurm",
     "roughcontact.thesis.SimpleFigure.case",
 }
 WRONG = (

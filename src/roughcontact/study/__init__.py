@@ -19,7 +19,6 @@ from roughcontact.study.executors import (
     Dask as Dask,
     Processes as Processes,
     Serial as Serial,
-    Slurm as Slurm,
 )
 from roughcontact.study.export import export as export
 from roughcontact.study.perform import perform as perform
