@@ -35,4 +35,4 @@ def test_a_scheduler_takes_the_keys_and_asks_everybody_for_them(tmp_path):
         security = distributed.Security()
     for role in "client", "scheduler", "worker":
         assert security.get_connection_args(role)["require_encryption"]
-        assert security.get_connection_args(role)["ssl_context"].get_ca_certs()
+        assert security.get_tls_config_for_role(role)["key"] == key
