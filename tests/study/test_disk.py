@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from roughcontact.study import field_files as fields_module
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import perform
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError

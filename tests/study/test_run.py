@@ -4,8 +4,8 @@ import pytest
 import xarray
 
 from roughcontact.study.executors.serial import Serial
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import perform
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.task import Summary

@@ -7,8 +7,8 @@ import pytest
 import xarray
 
 from roughcontact import __version__
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import perform
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import xarray
 
 from roughcontact.study.export import assemble
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import perform
 
 
 @dataclass(frozen=True)

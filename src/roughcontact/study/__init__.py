@@ -21,10 +21,10 @@ from roughcontact.study.executors import (
     Serial as Serial,
 )
 from roughcontact.study.export import export as export
-from roughcontact.study.perform import perform as perform
 from roughcontact.study.ranges import Range as Range
 from roughcontact.study.record import Row as Row
 from roughcontact.study.run import run as run
+from roughcontact.study.run_task import perform as perform
 from roughcontact.study.store import Store as Store
 from roughcontact.study.study import Study as Study
 from roughcontact.study.study_errors import StoreError as StoreError, StudyError as StudyError

@@ -13,7 +13,7 @@ import numpy as np
 
 from roughcontact import __version__
 from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
-from roughcontact.study.gathering import Gathering
+from roughcontact.study.collect import Gathering
 from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:

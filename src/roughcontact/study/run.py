@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
 from roughcontact.study.executors.serial import Serial
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import perform
 from roughcontact.study.store import Store
 
 if TYPE_CHECKING:

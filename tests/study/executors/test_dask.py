@@ -11,7 +11,7 @@ import psutil
 import pytest
 
 from roughcontact.study.case import Case
-from roughcontact.study.executors import dask, farm
+from roughcontact.study.executors import dask, submission
 from roughcontact.study.executors.dask import Dask
 from roughcontact.study.executors.worker import WorkersError
 from study.executors.workload import FATE, NUMBERS, Numbers, bits, perform, tasks, truth, workers
@@ -106,14 +106,14 @@ def test_a_scheduler_that_goes_is_told_of(threads):
 
 
 def test_a_scheduler_that_does_not_answer_is_told_of(monkeypatch):
-    monkeypatch.setattr(farm, "ANSWER", 0.2)
+    monkeypatch.setattr(submission, "ANSWER", 0.2)
     with pytest.raises(WorkersError, match="no scheduler answers at tcp"):
         list(Dask("tcp://127.0.0.1:9").outcomes(perform, tasks(NUMBERS, [{}])))
 
 
 def test_workers_of_another_version_are_refused(threads, monkeypatch):
     from_elsewhere = Dask(threads.scheduler_address).outcomes(perform, tasks(NUMBERS, [{}]))
-    monkeypatch.setattr(farm, "__version__", "0.0.7")
+    monkeypatch.setattr(submission, "__version__", "0.0.7")
     with pytest.raises(WorkersError, match=r"and here is 0\.0\.7"):
         list(from_elsewhere)
 
@@ -122,7 +122,7 @@ def test_a_case_that_cannot_be_sent_or_loaded_is_refused(threads, monkeypatch):
     engine = Dask(cluster=threads)
     with pytest.raises(WorkersError, match="'local' cannot be sent to another process"):
         list(engine.outcomes(perform, tasks(Case("local", 1, Numbers, lambda p, rng: None), [{}])))
-    monkeypatch.setattr(farm, "pickled", lambda *_: b"cfleeting\nrun\n.")
+    monkeypatch.setattr(submission, "pickled", lambda *_: b"cfleeting\nrun\n.")
     with pytest.raises(WorkersError, match="No module named 'fleeting'"):
         list(engine.outcomes(perform, tasks(NUMBERS, [{}])))
 

@@ -11,9 +11,9 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.study.executors.farm import Site, connected, farmed
 from roughcontact.study.executors.keys import NO_PAGES, require_keys
 from roughcontact.study.executors.processes import usable_cores
+from roughcontact.study.executors.submission import Site, connected, farmed
 from roughcontact.study.executors.worker import WorkersError, require_cluster
 
 if TYPE_CHECKING:

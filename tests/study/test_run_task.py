@@ -4,7 +4,7 @@ import threadpoolctl
 import xarray
 
 from roughcontact.study.case import Case, Parameters
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import perform
 from roughcontact.study.study import Study
 from roughcontact.study.task import Task, generator
 from study.trial import CASE, NAME, WITH_FIELDS
