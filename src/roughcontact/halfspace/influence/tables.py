@@ -303,7 +303,7 @@ class Tables:
 
 def spans(*places: Offsets) -> tuple[int, int]:
     """Return the shape of the table that holds all offsets between cells of these rows and columns."""
-    down, across = (int(np.ptp(one)) + 1 if one.size else 1 for one in places)
+    down, across = [int(np.ptp(one)) + 1 if one.size else 1 for one in places]
     return down, across
 
 
