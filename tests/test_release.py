@@ -58,7 +58,7 @@ def test_the_recipe_has_the_dependencies_of_the_package():
 
 def test_what_a_cluster_needs_is_in_the_extra_that_messages_name():
     extras = PROJECT["project"]["optional-dependencies"]
-    needed = {"distributed", "dask-jobqueue", "cryptography"}
+    needed = {"distributed", "cryptography"}
     assert {re.match(r"[\w-]+", text)[0] for text in extras["cluster"]} == needed
     assert {*extras["cluster"]} <= {*extras["test"]}
 

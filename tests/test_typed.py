@@ -21,7 +21,6 @@ UNTYPED = {
     "roughcontact.Curve.to_dataframe",
     "roughcontact.plot.surface_view",
     "roughcontact.study.Range.values",
-    "roughcontact.study.Slurm",
     "roughcontact_thesis.SimpleFigure.case",
 }
 WRONG = (

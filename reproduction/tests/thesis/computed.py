@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import xarray
 
 from roughcontact.study.export import assemble
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import run_task
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ def exported(study, *, seconds=False):
     """Return what a study exports once it is run; a case that fails is an error here."""
     rows = []
     for task in study.tasks():
-        outcome = perform(task)
-        assert not outcome.message, outcome.message
-        rows.append(Row(task.key, "done", outcome.seconds, "test", outcome.record))
+        result = run_task(task)
+        assert not result.message, result.message
+        rows.append(Row(task.key, "done", result.seconds, "test", result.record))
     return assemble(study, rows, seconds=seconds)

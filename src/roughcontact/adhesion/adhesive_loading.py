@@ -9,7 +9,8 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.path_states import states_along
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.problem import Body, require_memory_for, separation_of
+from roughcontact.contact.memory_needed import require_memory_for
+from roughcontact.contact.problem import Body, separation_of
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -213,7 +214,7 @@ def states_under(
     ValueError
         If the input makes no sense, at once and not at the first load.
     """
-    require_memory_for(surface)
+    require_memory_for(surface, operator)
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
     if geometry_of(body) is Geometry.FOUNDATION:

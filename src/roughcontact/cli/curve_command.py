@@ -22,7 +22,6 @@ from roughcontact.cli.output import output
 from roughcontact.cli.plastic_options import LoopLoads, write_loop
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import doing, note_files, quantity, screen
-from roughcontact.cli.run_memory import require_memory_for_load
 from roughcontact.cli.table_options import InterfaceTables
 from roughcontact.cli.theory_options import Theories
 from roughcontact.cli.units_of_answer import Units
@@ -104,7 +103,6 @@ def curve(
             elif loads.kind != "depth" and not in_slabs:
                 _look_ahead(surface, modulus, loads, operator)
             values, option = loads.values, f"--{loads.kind}s"
-            require_memory_for_load(surface, modulus, {loads.kind: float(values.max())}, curve=True)
             limits = {
                 "tolerance": tolerance,
                 "hardness": hardness,

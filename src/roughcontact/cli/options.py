@@ -201,14 +201,9 @@ class Reading:
         ------
         UsageError
             If reading it needs more memory than is free.
-        ValueError
-            If no press of it fits in the memory of this machine.
         """
-        from roughcontact.contact.problem import require_memory_for
-
         read = self.source.map if self.profile is None else self.source.line
         surface = read(self.periodic)
-        require_memory_for(surface)
         if slabs_of_job() is not None and not all(surface.grid.periodic):
             raise UsageError(
                 "several processes press periodic surfaces only, and this one is free: give --periodic, or start one "

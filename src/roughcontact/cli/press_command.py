@@ -21,7 +21,6 @@ from roughcontact.cli.plastic_options import AfterLoad
 from roughcontact.cli.pressed import Pressed, best_state
 from roughcontact.cli.profile_options import kinds_of
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
-from roughcontact.cli.run_memory import require_memory_for_load
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -83,7 +82,6 @@ def press(
             errors.check_for(surface)
             pressed = Pressed.of(surface, modulus, bodies.softer())
             limits["operator"] = reading.body(surface, modulus)
-            require_memory_for_load(surface, modulus, given)
             if first is None and not plastic.raises:
                 solution = best_state(rc.press, surface, modulus, **given, **limits)
             else:

@@ -13,7 +13,6 @@ from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
@@ -177,10 +176,9 @@ def solutions_along(
     if not keeps:
         loads.rising("only under a hardness and in adhesive_path do loads go up and down")
     controls = loads.controls(grid_of(surface))
-    problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
-    if operator is None:
-        largest = max(controls, key=lambda control: control.value)
-        require_memory_for_load(surface, problem.modulus, largest, curve=True)
+    problem = make_problem(
+        surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness, curve=True
+    )
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
     if keeps:

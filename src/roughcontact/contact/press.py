@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
+from roughcontact.contact.memory_needed import require_memory_for
+from roughcontact.contact.problem import Body, ContactProblem, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
-from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -92,8 +92,6 @@ def press(
     'converged'
     """
     control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
-    if operator is None:
-        require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
         solver=solver,
@@ -118,10 +116,11 @@ def make_problem(
     *,
     tolerance: float,
     hardness: Hardness | None = None,
+    curve: bool = False,
 ) -> ContactProblem:
-    """Return the problem of a surface against a flat."""
+    """Return the problem of a surface against a flat; refuse what the memory never suffices for."""
     value = as_modulus(modulus)
-    require_memory_for(surface)
+    require_memory_for(surface, operator, curve=curve)
     body = body_on(surface.grid, value, operator)
     separation, allowed = separation_of(surface), scalar(tolerance, "tolerance")
     strength, law = as_hardness(hardness, separation)

@@ -16,7 +16,6 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.kernels import buffers
-from roughcontact.memory import require_memory
 from roughcontact.solver.control import Control, Depth, Force, Specification, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
@@ -28,7 +27,6 @@ from roughcontact.validation import Array, Mask, scalar
 __all__ = [
     "Body",
     "ContactProblem",
-    "require_memory_for",
     "separation_of",
 ]
 
@@ -38,9 +36,6 @@ Body = Surface | RadialProfile
 """What is pressed: heights on a grid."""
 
 
-# A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
-# `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
-LEAST_BYTES = 9
 _UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m", "lifting": "J"}
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
@@ -329,21 +324,6 @@ class ContactProblem:
             self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
         value: T = self._memo[name]
         return value
-
-
-def require_memory_for(surface: Body) -> None:
-    """Refuse what cannot be pressed in the memory of this machine, whatever the load.
-
-    Raises
-    ------
-    ValueError
-        If less memory is left than every press takes.
-    """
-    if is_numpy(surface.heights):
-        shape = " x ".join(map(str, surface.grid.shape))
-        require_memory(
-            LEAST_BYTES * surface.grid.size, f"pressing {shape} cells", "press a part, or average cells"
-        )
 
 
 def separation_of(surface: Body) -> Array:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -16,7 +14,7 @@ from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.maps import colour_limit
-from roughcontact.plot.profile_plot import places_of
+from roughcontact.plot.profile_plot import draw_contact, places_of
 from roughcontact.plot.raster import colour_bar, length_scale, part, pooled, show
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.validation import Array, Mask
@@ -112,10 +110,8 @@ def tension_profile(state: State, ax: Axes | None = None) -> Axes:
     for sign, colour in ((1, _PRESSED), (-1, _PULLED)):
         some = np.maximum(sign * state.pressure, 0.0) * (sign * p.factor)
         axes.stairs(some, x, fill=True, color=colour, linewidth=0)
-    touched = np.flatnonzero(state.contact)
-    if touched.size:
-        style: Any = {"color": _CONTACT, "linewidth": 2.5, "label": "in contact", "zorder": 3}
-        axes.hlines(0.0 * touched, x[touched], x[touched + 1], **style)
+    if state.contact.any():
+        draw_contact(axes, x, state.contact, color=_CONTACT, linewidth=2.5)
         axes.legend(fontsize=TICK, frameon=False)
     axes.set_xlim(x[0], x[-1])
     label_axes(axes, f"{name} [{of_x}]", f"pressure, tension negative [{p.unit}]", grid=True)

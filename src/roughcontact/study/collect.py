@@ -13,7 +13,7 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Gathering"]
+__all__ = ["Collector"]
 
 Array = npt.NDArray[Any]
 Place = tuple[int, ...]
@@ -88,11 +88,11 @@ class Column:
         there = sum(each.size for each in self._values)
         if dtype.kind in "iu" and there < math.prod(cases) * math.prod(sizes):
             dtype = np.dtype(np.float64)
-        laid = np.full((*cases, *sizes), _NOTHING[dtype.kind], dtype=dtype)
+        filled = np.full((*cases, *sizes), _NOTHING[dtype.kind], dtype=dtype)
         for place, values in zip(self._places, self._values, strict=True):
             where: tuple[int | slice, ...] = (*place, *(slice(n) for n in values.shape))
-            laid[where] = values
-        return laid
+            filled[where] = values
+        return filled
 
     def _agree(self, attributes: dict[Any, Any]) -> None:
         if attributes == self.attributes:
@@ -108,7 +108,7 @@ class Column:
 
 
 @dataclass(slots=True, eq=False)
-class Gathering:
+class Collector:
     """The records of many cases.
 
     Parameters
@@ -156,7 +156,7 @@ class Gathering:
         self.attributes = {key: value for key, value in agreed.items() if record.attrs.get(key) == value}
         self._count += 1
 
-    def laid(self) -> tuple[Variables, Variables]:
+    def variables(self) -> tuple[Variables, Variables]:
         """Return variables and coordinates, each with its dimensions and attributes; what was gathered is gone."""
         data: Variables = {}
         coordinates: Variables = {}

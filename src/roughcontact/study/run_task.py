@@ -1,4 +1,4 @@
-"""One task, computed: whatever happens, there is an outcome."""
+"""One task, computed: whatever happens, there is a result."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from roughcontact.study.record import require_record
-from roughcontact.study.task import Outcome, Task, generator
+from roughcontact.study.task import Result, Task, generator
 from roughcontact.threads import controller, limit_threads
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
-__all__ = ["perform"]
+__all__ = ["run_task"]
 
 _LONGEST = 1000  # characters of a message that are worth keeping
 
 
-def perform(task: Task) -> Outcome:
+def run_task(task: Task) -> Result:
     """Return what comes of a task, computed on one thread.
 
     An exception makes it a failed one, and goes no further.
@@ -34,7 +34,7 @@ def perform(task: Task) -> Outcome:
 
     Returns
     -------
-    Outcome
+    Result
         The record, or the reason why there is none.
 
     Examples
@@ -42,7 +42,7 @@ def perform(task: Task) -> Outcome:
     >>> import roughcontact as rc
     >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
     >>> task = next(rc.study.Study(name="few", case="curve", parameters=fixed).tasks())
-    >>> rc.study.perform(task).record["residual"].max().item() < 1e-8
+    >>> rc.study.run_task(task).record["residual"].max().item() < 1e-8
     True
     """
     start = time.perf_counter()
@@ -53,8 +53,8 @@ def perform(task: Task) -> Outcome:
     except (Exception, SystemExit) as error:
         if isinstance(error, SystemExit) and _of_a_signal(error):
             raise
-        return Outcome(task.key, None, _reason(error), time.perf_counter() - start)
-    return Outcome(task.key, record, "", time.perf_counter() - start)
+        return Result(task.key, None, _reason(error), time.perf_counter() - start)
+    return Result(task.key, record, "", time.perf_counter() - start)
 
 
 def _of_a_signal(end: SystemExit) -> bool:

@@ -4,7 +4,7 @@ import threadpoolctl
 import xarray
 
 from roughcontact.study.case import Case, Parameters
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import run_task
 from roughcontact.study.study import Study
 from roughcontact.study.task import Task, generator
 from study.trial import CASE, NAME, WITH_FIELDS
@@ -19,11 +19,11 @@ def of(function):
 
 
 def test_a_task_gives_what_its_case_returns():
-    outcome = perform(task(seconds=0.01))
-    assert (outcome.key, outcome.message) == ("key", "")
-    assert outcome.seconds >= 0.01
+    result = run_task(task(seconds=0.01))
+    assert (result.key, result.message) == ("key", "")
+    assert result.seconds >= 0.01
     expected = CASE.run(CASE.parameters(hurst=0.8), generator(1, 2))
-    xarray.testing.assert_identical(outcome.record, expected)
+    xarray.testing.assert_identical(result.record, expected)
 
 
 @pytest.mark.parametrize(
@@ -36,14 +36,14 @@ def test_a_task_gives_what_its_case_returns():
         (WITH_FIELDS, "no field", "ValueError: the record lacks 'pressure'"),
     ],
 )
-def test_whatever_happens_is_an_outcome(case, end, message):
-    outcome = perform(task(case, end=end))
-    assert outcome.record is None
-    assert outcome.message.startswith(message)
+def test_whatever_happens_is_an_result(case, end, message):
+    result = run_task(task(case, end=end))
+    assert result.record is None
+    assert result.message.startswith(message)
 
 
-def test_running_out_of_memory_is_an_outcome():
-    assert perform(of(lambda parameters, rng: np.empty(2**50))).message.startswith(
+def test_running_out_of_memory_is_an_result():
+    assert run_task(of(lambda parameters, rng: np.empty(2**50))).message.startswith(
         "MemoryError: Unable to allocate"
     )
 
@@ -52,14 +52,14 @@ def test_a_long_message_is_cut():
     def failing(parameters, rng):
         raise ValueError("x" * 10_000)
 
-    assert len(perform(of(failing)).message) < 1100
+    assert len(run_task(of(failing)).message) < 1100
 
 
 def test_an_error_without_words_has_a_name():
     def failing(parameters, rng):
         raise AssertionError
 
-    assert perform(of(failing)).message.startswith("AssertionError (test_perform.py, line ")
+    assert run_task(of(failing)).message.startswith("AssertionError (test_run_task.py, line ")
 
 
 @pytest.mark.parametrize("end", [KeyboardInterrupt(), SystemExit(143)])
@@ -68,7 +68,7 @@ def test_whoever_stops_the_program_stops_it(end):
         raise end
 
     with pytest.raises(type(end)):
-        perform(of(stopped))
+        run_task(of(stopped))
 
 
 def test_a_case_has_one_thread():
@@ -76,14 +76,14 @@ def test_a_case_has_one_thread():
         found = threadpoolctl.threadpool_info()
         return xarray.Dataset({"threads": ("pool", [pool["num_threads"] for pool in found])})
 
-    record = perform(of(run)).record
+    record = run_task(of(run)).record
     assert record["threads"].size > 0
     assert set(record["threads"].values.tolist()) == {1}
 
 
 def test_samples_are_paired_across_parameters_and_independent_of_each_other():
     study = Study(name="a", case=NAME, seed=4, samples=2, table={"hurst": [0.1, 0.9]})
-    force = [perform(each).record["force"].values for each in study.tasks()]
+    force = [run_task(each).record["force"].values for each in study.tasks()]
     np.testing.assert_array_equal(force[0], force[1])
     np.testing.assert_array_equal(force[2], force[3])
     assert (force[0] != force[2]).all()

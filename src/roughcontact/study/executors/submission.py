@@ -22,9 +22,9 @@ from roughcontact.study.executors.worker import WorkersError, cannot_load, lost,
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-    from roughcontact.study.task import Outcome, Perform, Task
+    from roughcontact.study.task import Result, RunTask, Task
 
-__all__ = ["Site", "connected", "farmed"]
+__all__ = ["Cluster", "connected", "submitted"]
 
 ANSWER = 20.0  # [s] for a scheduler to answer
 MOMENT = 5.0  # [s] between two looks at the workers
@@ -33,7 +33,7 @@ GONE = "the scheduler is gone; start it again, and run the study again to go on"
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
+class Cluster:
     """A scheduler, and what is done for its workers.
 
     Parameters
@@ -51,14 +51,14 @@ class Site:
     patience: float = math.inf
 
 
-def farmed(
-    opened: Callable[[], AbstractContextManager[Site]], perform: Perform, tasks: Iterable[Task]
-) -> Iterator[Outcome]:
-    """Yield one outcome for each task; the site is opened once there is one."""
+def submitted(
+    opened: Callable[[], AbstractContextManager[Cluster]], run_task: RunTask, tasks: Iterable[Task]
+) -> Iterator[Result]:
+    """Yield one result for each task; the cluster is opened once there is one."""
     tasks = iter(tasks)
     for first in tasks:
-        with opened() as site, connected(site.target) as client:
-            yield from _Farm(client, site, perform, chain([first], tasks)).outcomes()
+        with opened() as cluster, connected(cluster.target) as client:
+            yield from _Submission(client, cluster, run_task, chain([first], tasks)).results()
 
 
 @contextmanager
@@ -81,12 +81,12 @@ def connected(target: Any) -> Iterator[Client]:
 
 
 @dataclass(slots=True)
-class _Farm:
+class _Submission:
     """What is under way at the workers of a client."""
 
     client: Client
-    site: Site
-    perform: Perform
+    cluster: Cluster
+    run_task: RunTask
     tasks: Iterator[Task]
     compute: Compute = field(default_factory=lambda: _by_value())
     under_way: dict[Future, Task] = field(default_factory=dict)
@@ -96,8 +96,8 @@ class _Farm:
     looked: float = -math.inf  # when the workers were last counted
     seen: float = field(default_factory=time.monotonic)  # when there last were any
 
-    def outcomes(self) -> Iterator[Outcome]:
-        """Yield one outcome for each task."""
+    def results(self) -> Iterator[Result]:
+        """Yield one result for each task."""
         from distributed import KilledWorker
 
         last: Future | None = None
@@ -112,17 +112,17 @@ class _Farm:
             future = self._next_done()
             task = self.under_way.pop(future)
             try:
-                outcome = self._outcome(future)
+                result = self._result(future)
             except KilledWorker as error:
                 if future is not last:
                     self.alone.append(task)
                     continue
                 tries = 2 * (error.allowed_failures + 1)
-                outcome = lost(task, f"its worker died in each of {tries} tries (killed; out of memory?)")
-            yield outcome
+                result = lost(task, f"its worker died in each of {tries} tries (killed; out of memory?)")
+            yield result
 
     def _submit(self, task: Task) -> Future:
-        message = pickled((self.perform, task), f"the case {task.case.name!r}")
+        message = pickled((self.run_task, task), f"the case {task.case.name!r}")
         path = [os.path.abspath(place) for place in sys.path]
         future = self.client.submit(self.compute, message, path, __version__, pure=False)
         self.under_way[future] = task
@@ -143,9 +143,9 @@ class _Farm:
         self.room = 2 * count + 2
         if count:
             self.seen = now
-        elif now > self.seen + self.site.patience:
+        elif now > self.seen + self.cluster.patience:
             raise WorkersError("the workers have died, and no new ones start")
-        self.site.keep()
+        self.cluster.keep()
 
     def _next_done(self) -> Future:
         while True:
@@ -154,11 +154,11 @@ class _Farm:
             except queue.Empty:
                 self._look()
 
-    def _outcome(self, future: Future) -> Outcome:
+    def _result(self, future: Future) -> Result:
         while True:
             try:
                 answer: bytes | str = future.result(timeout=MOMENT)
-            except TimeoutError:  # it died before the outcome was fetched: the task is being computed again
+            except TimeoutError:  # it died before the result was fetched: the task is being computed again
                 self._look()
             except CancelledError as error:
                 raise WorkersError(GONE) from error
@@ -166,8 +166,8 @@ class _Farm:
                 break
         if isinstance(answer, str):
             raise cannot_load(answer)
-        outcome: Outcome = pickle.loads(answer)
-        return outcome
+        result: Result = pickle.loads(answer)
+        return result
 
 
 def _by_value() -> Compute:
@@ -189,9 +189,9 @@ def _by_value() -> Compute:
                 return f"it has roughcontact {roughcontact.__version__}, and here is {version}"
             from roughcontact.study.executors.worker import computed
 
-            perform, task = pickle.loads(message)
+            run_task, task = pickle.loads(message)
         except Exception as error:
             return f"{type(error).__name__}: {error}"
-        return computed(perform, task)
+        return computed(run_task, task)
 
     return compute
