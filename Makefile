@@ -3,6 +3,7 @@
 #   make demo               press two rough surfaces: tables, files and pictures in out/demo/
 #   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm";
 #                           of what bodies: ARGS="--materials steel,aluminium")
+#   make thesis FIG=fig27   compute and draw a figure of the thesis in out/thesis/ (FIG=list: which there are)
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
 #   make mpi                the tests on several processes, if mpi4py and an MPI can be had
@@ -17,12 +18,14 @@
 
 PYTHON ?= python3
 FILE ?=
+FIG ?= list
 ARGS ?=
 
 ENV := .venv
 BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
 MPI_ENV := build/mpi-env
+ASKED := pyproject.toml reproduction/pyproject.toml
 # Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
 # Without a network six tries, pip's own number, take as long as a hang.
@@ -34,16 +37,20 @@ STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check .
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo test browser mpi nox check lint docs bench clean
+.PHONY: help demo thesis test browser mpi nox check lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,16s/^# *//p' Makefile
+	@sed -n '3,17s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
 	@$(BIN)/python examples/demo.py $(if $(FILE),--file "$(FILE)") $(ARGS) \
 	  && echo "demo: OK - see out/demo/" || { status=$$?; echo "demo: FAILED"; exit $$status; }
+
+thesis: $(ENV)/.ready
+	@$(BIN)/roughcontact thesis $(FIG) --out out/thesis $(ARGS) \
+	  && echo "thesis: OK" || { status=$$?; echo "thesis: FAILED"; exit $$status; }
 
 test: $(ENV)/.ready-to-test
 	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
@@ -93,15 +100,15 @@ clean:
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean: OK"
 
-# pip is called where what pyproject.toml asks for has changed, not whenever the file is newer.
-$(ENV)/.ready: pyproject.toml
+# pip is called where what pyproject.toml asks for has changed, here or in reproduction/, not whenever the file is newer.
+$(ENV)/.ready: $(ASKED)
 	@$(call create,$(ENV))
-	@$(BIN)/python .ci/install.py $@ "Installing roughcontact into $(ENV) ..."
+	@$(BIN)/python .ci/install.py $@ "Installing roughcontact and the figures of the thesis into $(ENV) ..."
 
-$(ENV)/.ready-to-read: $(ENV)/.ready pyproject.toml
+$(ENV)/.ready-to-read: $(ENV)/.ready $(ASKED)
 	@$(BIN)/python .ci/install.py $@ "Installing the readers of instrument formats ..." formats
 
-$(ENV)/.ready-to-test: $(ENV)/.ready pyproject.toml
+$(ENV)/.ready-to-test: $(ENV)/.ready $(ASKED)
 	@$(BIN)/python .ci/install.py $@ "Installing what the tests need ..." formats page test lint
 	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
 
@@ -113,7 +120,7 @@ $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
-$(ENV)/.ready-to-write: $(ENV)/.ready-to-read pyproject.toml
+$(ENV)/.ready-to-write: $(ENV)/.ready-to-read $(ASKED)
 	@$(BIN)/python .ci/install.py $@ "Installing what the site is built with ..." docs
 	@$(BIN)/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 

@@ -27,11 +27,9 @@ BLAS = ("Haswell", "SkylakeX", "Zen", "Nehalem")
 CPU = ("off", "x86-64", "haswell", "native")  # what machine code is made for
 PAIRS = {("Haswell", "off"), ("SkylakeX", "haswell"), ("Zen", "native"), ("Nehalem", "x86-64")}
 NUMERICAL = [
-    f"tests/{room}"
-    for room in (
-        *("contact", "friction", "halfspace", "kernels", "mdr", "solver"),
-        *("statistics", "surface", "theory", "thesis"),
-    )
+    *(f"tests/{room}" for room in ("contact", "friction", "halfspace", "kernels", "mdr", "solver")),
+    *(f"tests/{room}" for room in ("statistics", "surface", "theory")),
+    "reproduction/tests/thesis",
 ]
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
@@ -106,7 +104,9 @@ def kernels(session: nox.Session, blas: str, cpu: str) -> None:
 
 def install(session: nox.Session, *options: str) -> None:
     """Install what the tests need into the environment of the session, from wheels."""
-    session.install("--only-binary=:all:", *options, "--editable", ".[formats,page,test]")
+    session.install(
+        "--only-binary=:all:", *options, "--editable", ".[formats,page,test]", "--editable", "./reproduction"
+    )
 
 
 def lower_bound(requirement: Requirement) -> str:

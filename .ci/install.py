@@ -1,4 +1,4 @@
-"""Install what pyproject.toml asks for into the environment of this Python; pip is called only where that has changed.
+"""Install what pyproject.toml asks for, here and in reproduction/; pip is called only where that has changed.
 
 python .ci/install.py STAMP WORDS [EXTRA ...]
 
@@ -20,29 +20,32 @@ from pathlib import Path
 
 from pip._vendor.packaging.requirements import Requirement
 
+# Of the package, and of that of the thesis' figures.
+FOLDERS = (".", "./reproduction")
 # Wheels only: nothing is compiled here, and a missing wheel is an error at once.
-PIP = ("-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:", "-e")
+PIP = ("-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:")
 
 
 def main(stamp: Path, words: str, *extras: str) -> None:
-    """Install the package and some of its extras, in place."""
-    tables = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))
-    project = tables["project"]
-    wanted = json.dumps([project, tables["build-system"], tables["tool"]["hatch"], extras], sort_keys=True)
+    """Install both packages, and some extras of the first, in place."""
+    tables = [tomllib.loads(Path(each, "pyproject.toml").read_text(encoding="utf-8")) for each in FOLDERS]
+    first, *others = (table["project"] for table in tables)
+    asked = [[table["project"], table["build-system"], table["tool"]["hatch"]] for table in tables]
+    wanted = json.dumps([asked, extras], sort_keys=True)
     digest = hashlib.sha256(wanted.encode()).hexdigest()
     if stamp.exists() and stamp.read_text(encoding="utf-8") == digest:
         stamp.touch()
         return
     print(words, flush=True)
-    target = f".[{','.join(extras)}]" if extras else "."
-    done = subprocess.run([sys.executable, *PIP, target], capture_output=True, text=True, check=False)
+    targets = [f"{FOLDERS[0]}[{','.join(extras)}]" if extras else FOLDERS[0], *FOLDERS[1:]]
+    command = [sys.executable, *PIP, *(word for target in targets for word in ("-e", target))]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 0:
         stamp.write_text(digest, encoding="utf-8")
         return
-    required = [project["dependencies"], *(project["optional-dependencies"][extra] for extra in extras)]
+    required = [first["dependencies"], *(first["optional-dependencies"][extra] for extra in extras)]
+    required.append([first["name"], *(project["name"] for project in others)])
     lacking = [text for texts in required for text in texts if is_lacking(text)]
-    if is_lacking(project["name"]):
-        lacking.append(project["name"])
     reason = (re.findall(r"ERROR: (.*)", done.stderr) or done.stderr.split("\n"))[-1] or "it failed"
     if lacking:
         sys.exit(

@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 HOME = Path(__file__).parent.parent
+TESTS = (HOME / "tests", HOME / "reproduction" / "tests")  # each beside the folder of its code
 # What looks at every file, every public name with its examples, and every number at the border.
 HOUSE = ("structure", "docstrings", "links", "release", "bad_input", "validation", "late", "typed")
 
@@ -31,8 +32,8 @@ def tests() -> set[Path]:
     for path in changed():
         if path.name.startswith("test_"):
             found |= {path} if path.exists() else set()
-        elif path.suffix == ".py" and path.is_relative_to(HOME / "src"):
-            found |= set((HOME / "tests").rglob(f"test_{path.name}"))
+        elif path.suffix == ".py" and any(path.is_relative_to(folder.parent / "src") for folder in TESTS):
+            found |= {each for folder in TESTS for each in folder.rglob(f"test_{path.name}")}
     return found
 
 

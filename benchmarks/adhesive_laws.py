@@ -59,7 +59,7 @@ def unloaded(theory: DugdaleSphere) -> float:
 
 def contact_radius(state: rc.AdhesiveState) -> float:
     """Return where the gap becomes zero."""
-    radii = state.blank.operator.grid.radii
+    radii = state.problem.operator.grid.radii
     first = int(state.contact.sum()) + 1  # the ring next to the contact is the least exact
     near, far = state.gap[first : first + 2] ** (2 / 3)
     return float(radii[first] - near * (radii[first + 1] - radii[first]) / (far - near))

@@ -27,14 +27,13 @@ from cases import CASES
 import roughcontact as rc
 from roughcontact.halfspace.influence import tables
 from roughcontact.halfspace.sums import particle_mesh
-from roughcontact.kernels import active_cells, buffers, compiled_convolution
+from roughcontact.kernels import active_cells, buffers, compiled_convolution, planes
 from roughcontact.solver import tuning
-from roughcontact.solver.optimality import Iterate
 
 # The names of what is taken away, and what each replaces: where, which name, and by what.
 IDEAS: dict[str, tuple[Any, str, Any]] = {
     "memory that is kept": (buffers, "SMALL", buffers.LARGE),
-    "judging in one pass": (Iterate, "fits_machine_code", lambda *_: False),
+    "judging in one pass": (planes, "fit", lambda *_: False),
 }
 # Constants that decide which way costs least: no answer and hardly a product depends on them.
 TUNED = {

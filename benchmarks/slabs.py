@@ -63,10 +63,10 @@ def main(cells, curve, whole):
     held = 8 + tracemalloc.get_traced_memory()[1] / share
     sent = world.sent / share
     everyone = world.gather((held, sent))
-    needed = 8 + rc.memory_needed(surface, curve=curve) / share
+    light, full = (8 + needed / share for needed in rc.memory_needed(surface, curve=curve))
     if world.rank == 0:
         print(f"{cells} x {cells} cells, {contact:.1%} in contact: {products}{min(seconds):.2f} s")
-        print(f"memory_needed: {needed:.0f} bytes a cell")
+        print(f"memory_needed: {light:.0f} to {full:.0f} bytes a cell")
         for rank, (bytes_held, bytes_sent) in enumerate(everyone):
             print(f"process {rank} of {world.size}: {bytes_held:.0f} bytes a cell, sent {bytes_sent:.0f}")
 

@@ -19,7 +19,7 @@ import numpy as np
 import psutil
 import xarray
 
-from roughcontact.study import Case, Dask, Executor, Outcome, Parameters, Processes, Study, run
+from roughcontact.study import Case, Dask, Executor, Parameters, Processes, Result, Study, run
 
 WAIT = 0.5  # [s], what a case of the second table takes
 PATIENCE = 3  # times the rounds asked for, before a busy machine is given up on
@@ -44,7 +44,7 @@ class Run:
     """What one run of a study took [s]."""
 
     start: float  # until the first case began
-    stop: float  # from the last outcome until the workers had gone
+    stop: float  # from the last result until the workers had gone
     each: float  # time over cases, once all workers are at work
     alone: float  # mean of what the cases say they took
     others: float  # share of the cores that other programs took
@@ -54,14 +54,14 @@ def measured(study: Study, engine: Executor) -> Run:
     """Run a study in a new store, and take times."""
     times: list[tuple[float, float]] = []
 
-    def note(outcome: Outcome) -> None:
-        if outcome.record is None:
-            raise SystemExit(f"a case failed: {outcome.message}")
-        times.append((time.perf_counter(), outcome.seconds))
+    def note(result: Result) -> None:
+        if result.record is None:
+            raise SystemExit(f"a case failed: {result.message}")
+        times.append((time.perf_counter(), result.seconds))
 
     with tempfile.TemporaryDirectory() as folder:
         busy, begin = _busy(), time.perf_counter()
-        run(study, folder, engine, on_outcome=note)
+        run(study, folder, engine, on_result=note)
         end = time.perf_counter()
         busy = _busy() - busy
     # All workers have been at work for a while after a quarter of the cases; then comes a multiple of their number.

@@ -34,7 +34,6 @@ TITLES = {  # in this order
     "study": "Studies",
     "plot": "Pictures",
     "files": "Files",
-    "thesis": "Figures of the thesis",
 }
 
 

@@ -80,14 +80,14 @@ def options() -> dict[str, int]:
     return dict(sorted(walk("", get_command(app)), key=lambda item: -item[1]))
 
 
-def import_graph(*, typed: Collection[str] = ()) -> dict[str, set[str]]:
-    """Return the modules that each module imports, in functions too; of those in `typed` also for type checkers alone.
+def import_graph(source: Path = SOURCE, *, typed: Collection[str] = ()) -> dict[str, set[str]]:
+    """Return the modules of a package that each of them imports, in functions too; those in `typed` for types, too.
 
     A package is imported where a name is taken of it that is none of its modules.
     """
     trees = {}
-    for path in SOURCE.rglob("*.py"):
-        parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    for path in source.rglob("*.py"):
+        parts = path.relative_to(source.parent).with_suffix("").parts
         trees[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(path.read_text("utf-8"))
     return {
         name: set(_imports(tree, trees, typed=name in typed)) & trees.keys() - {name}

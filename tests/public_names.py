@@ -66,10 +66,10 @@ class PublicName:
         return function.__name__ in used or bool(getattr(owner, "_is_protocol", False) and shown.body)
 
 
-def public_names() -> list[PublicName]:
-    """Return all public objects, each once."""
+def public_names(package: ModuleType = roughcontact) -> list[PublicName]:
+    """Return all public objects of a package, each once."""
     found: dict[int, PublicName] = {}
-    for path, value in sorted(_reached("roughcontact", roughcontact), key=lambda pair: pair[0].count(".")):
+    for path, value in sorted(_reached(package.__name__, package), key=lambda pair: pair[0].count(".")):
         found.setdefault(id(value), PublicName(path, value))
     return list(found.values())
 

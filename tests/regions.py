@@ -36,6 +36,7 @@ class Bare:
     operator: Operator
     diagonal_correction: ClassVar[float] = 0.0
     local_inverse: ClassVar[None] = None
+    combine: ClassVar[None] = None
 
     @property
     def weights(self):
@@ -57,6 +58,7 @@ class Seeing:
     weights = 0.25
     diagonal_correction = 0.0
     local_inverse = None
+    combine = None
     part = 1 / 256
 
     @classmethod

@@ -149,7 +149,6 @@ def test_what_is_no_number_is_refused(call, name, optional):
         lambda: rc.loading_curve(CUT, 1e9, forces=[1e-5, 1e-4]).fit((None, 1.0)),
         lambda: rc.slide(PRESSED, STEEL, friction=0.3, force=(1e-5, [1.0, 2.0])),
         lambda: rc.conductance(PRESSED, resistivities=(np.ones(2), 1.0)),
-        lambda: rc.mdr.calibration.calibrated_lambda(0.8, line_prefactor=1e300, surface_prefactor=1.0),
     ],
 )
 def test_lists_and_extremes_are_refused(call):

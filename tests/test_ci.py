@@ -3,6 +3,7 @@
 import importlib.util
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -29,6 +30,14 @@ optional-dependencies = {{ test = ["pytest>=1"] }}
 [tool.ruff]
 line-length = {length}
 """
+BESIDE = """
+[build-system]
+requires = []
+[project]
+name = "scipy"
+version = "{version}"
+[tool.hatch]
+"""
 
 
 @pytest.fixture
@@ -39,16 +48,18 @@ def pip(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def run(words, **_):
-        calls.append(words[-1])
+        calls.append([word for before, word in pairwise(words) if before == "-e"])
         stderr = "ERROR: no route to the index\n[end of output]\nnote: read this"
         return SimpleNamespace(returncode=int(online is False), stderr=stderr)
 
     online = True
 
-    def installed(*, more="", length=1, network=True):
+    def installed(*, more="", length=1, version=1, network=True):
         nonlocal online
         online = network
         Path("pyproject.toml").write_text(PROJECT.format(more=more, length=length), encoding="utf-8")
+        Path("reproduction").mkdir(exist_ok=True)
+        Path("reproduction/pyproject.toml").write_text(BESIDE.format(version=version), encoding="utf-8")
         before = len(calls)
         install.main(Path("stamp"), "Installing ...", "test")
         return calls[before:]
@@ -58,13 +69,15 @@ def pip(tmp_path, monkeypatch):
 
 
 def test_pip_is_called_only_where_the_requirements_have_changed(pip, capsys):
-    assert pip() == [".[test]"]
+    both = [[".[test]", "./reproduction"]]
+    assert pip() == both
     assert capsys.readouterr().out == "Installing ...\n"
     assert pip() == []
     assert pip(length=2) == []
     assert capsys.readouterr().out == ""
-    assert pip(more=', "numpy>=1"') == [".[test]"]
+    assert pip(more=', "numpy>=1"') == both
     assert pip(more=', "numpy>=1"') == []
+    assert pip(more=', "numpy>=1"', version=2) == both
 
 
 def test_without_a_network_what_is_installed_is_used_if_it_suits(pip, capsys):
@@ -72,22 +85,25 @@ def test_without_a_network_what_is_installed_is_used_if_it_suits(pip, capsys):
     capsys.readouterr()
     words = "pip cannot look for newer packages (no route to the index): what is installed is used\n"
     for _ in range(2):  # it is looked for until it is there
-        assert pip(more=', "numpy>=1"', network=False) == [".[test]"]
+        assert pip(more=', "numpy>=1"', network=False) == [[".[test]", "./reproduction"]]
         assert capsys.readouterr().out == f"Installing ...\n{words}"
     with pytest.raises(
         SystemExit, match=r"^pip cannot install numpy>=99, no-such-package \(no route to the "
     ):
         pip(more=', "numpy>=99", "no-such-package"', network=False)
-    assert pip(more=', "numpy>=1"') == [".[test]"]
+    assert pip(more=', "numpy>=1"') == [[".[test]", "./reproduction"]]
 
 
 def test_quick_tests_are_those_of_the_house_and_of_what_changed(monkeypatch):
     quick = script("quick")
     house = {HOME / "tests" / f"test_{name}.py" for name in quick.HOUSE}
     assert all(path.exists() for path in house)
-    answers = {"diff": ["src/roughcontact/files/sur.py", "README.md", "tests/test_law.py"], "ls-files": []}
+    figure = "reproduction/src/roughcontact_thesis/ruling.py"
+    changes = ["src/roughcontact/files/sur.py", figure, "README.md", "tests/test_loops.py"]
+    answers = {"diff": changes, "ls-files": []}
     monkeypatch.setattr(quick, "git", lambda verb, *_: answers[verb])
-    assert quick.tests() - house == {HOME / "tests" / name for name in ("files/test_sur.py", "test_law.py")}
+    named = ("tests/files/test_sur.py", "reproduction/tests/thesis/test_ruling.py", "tests/test_loops.py")
+    assert quick.tests() - house == {HOME / name for name in named}
     answers = {"diff": [], "ls-files": []}
     assert quick.tests() == house
 

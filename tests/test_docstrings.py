@@ -5,9 +5,10 @@ import doctest
 import matplotlib.pyplot as plt
 import pytest
 
+import roughcontact_thesis
 from public_names import PublicName, public_names
 
-NAMES = public_names()
+NAMES = [*public_names(), *public_names(roughcontact_thesis)]
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.REPORT_NDIFF
 
 

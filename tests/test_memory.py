@@ -9,9 +9,9 @@ import pytest
 
 import roughcontact as rc
 from roughcontact import memory
-from roughcontact.contact.problem import LEAST_BYTES
 
-SIDE = 1536  # of so many cells it is asked
+SIDE = 512
+CELLS = 9 * SIDE**2  # bytes of the lightest load
 
 
 @pytest.fixture
@@ -41,38 +41,34 @@ def spike():
 
 
 def test_a_press_that_cannot_fit_is_refused(spike, machine):
-    """With an operator of the caller's, of which no more is known than what every press takes."""
-    machine(free=LEAST_BYTES * SIDE**2 - 1)
-    told = (
-        "pressing 1536 x 1536 cells needs 0.0212 GB of memory at least, and 0.0212 GB are there: press a part"
-    )
+    machine(free=CELLS - 1)
+    told = "on 512 x 512 cells needs 0.0.* GB of memory at least, and 0.00236 GB are there: press a part"
     for verb in (rc.press, rc.loading_path, rc.loading_curve):
         loads = {"force": 1e-9} if verb is rc.press else {"forces": [1e-9]}
-        with pytest.raises(ValueError, match=told):
-            verb(spike, 1e9, operator=rc.half_space(spike.grid, 1e9), **loads)
+        for operator in (None, rc.half_space(spike.grid, 1e9)):
+            with pytest.raises(ValueError, match=told):
+                verb(spike, 1e9, operator=operator, **loads)
 
 
-def test_a_press_within_the_bound_is_tried(spike, machine):
-    machine(free=LEAST_BYTES * SIDE**2)
-    body = rc.half_space(spike.grid, 1e9)
-    assert rc.press(spike, 1e9, force=1e-9, operator=body).contact.sum() == 1
+def test_a_press_that_may_not_fit_is_tried_with_a_warning(spike, machine):
+    machine(free=CELLS)
+    told = "a load on 512 x 512 cells needs up to 0.0498 GB of memory, and 0.00236 GB are there: press a part"
+    with pytest.warns(rc.MemoryWarning, match=told) as caught:
+        assert rc.press(spike, 1e9, force=1e-9).contact.sum() == 1
+    assert [each.filename for each in caught] == [__file__]
 
 
-@pytest.mark.parametrize("verb", [rc.press, rc.loading_curve])
-def test_a_load_that_cannot_fit_is_refused_at_once(verb, machine, monkeypatch):
-    """A light one on the same cells is tried: it takes less than half."""
-    grid = rc.Grid((512, 512), 1 / 512)
-    rough = rc.self_affine(grid, hurst=0.8, rms=0.01, rng=np.random.default_rng(0))
-    curve = verb is rc.loading_curve
-    machine(free=0.7 * rc.memory_needed(grid, curve=curve))
+def test_a_press_that_fits_is_tried_in_silence(spike, machine):
+    machine(free=rc.memory_needed(spike)[1])
+    assert rc.press(spike, 1e9, force=1e-9).contact.sum() == 1
 
-    def load(force):
-        return verb(rough, 1.0, forces=[force]) if curve else verb(rough, 1.0, force=force)
 
-    told = "a curve on" if curve else "this load on"
-    with pytest.raises(ValueError, match=f"{told} 512 x 512 cells needs 0.0.* GB of memory at least"):
-        load(0.1)
-    assert load(1e-6) is not None
+def test_the_memory_is_asked_once_for_each_press(spike, machine, monkeypatch):
+    machine(free=1e12)
+    asked = []
+    monkeypatch.setattr(memory, "most_memory", lambda: asked.append(1) or 1e12)
+    rc.press(spike, 1e9, force=1e-9)
+    assert len(asked) == 1
 
 
 def test_small_grids_are_not_asked_about(machine):
@@ -94,7 +90,7 @@ def test_every_press_takes_the_bound(periodic):
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert most >= LEAST_BYTES * surface.grid.size
+    assert most >= 9 * surface.grid.size
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,11 @@ import tomllib
 from pathlib import Path
 
 import roughcontact as rc
+from roughcontact.cli.added_commands import PACKAGES
 
 HOME = Path(__file__).parent.parent
 PROJECT = tomllib.loads((HOME / "pyproject.toml").read_text(encoding="utf-8"))
+THESIS = tomllib.loads((HOME / "reproduction" / "pyproject.toml").read_text(encoding="utf-8"))
 RECIPE = (HOME / "conda" / "recipe.yaml").read_text(encoding="utf-8")
 WORKFLOW = (HOME / ".github" / "workflows" / "check.yml").read_text(encoding="utf-8")
 # What conda calls otherwise: Matplotlib without the libraries of windows.
@@ -21,8 +23,27 @@ def test_the_version_is_one():
         PROJECT["project"]["version"],
         re.search(r"^version: (.*)$", citation, re.MULTILINE)[1],
         re.search(r'^  version: "(.*)"$', RECIPE, re.MULTILINE)[1],
+        THESIS["project"]["version"],
     ]
-    assert written == [rc.__version__] * 3
+    assert written == [rc.__version__] * 4
+
+
+def test_the_package_of_the_figures_belongs_to_this_version():
+    """It uses modules that are not public, and adds the command by whose name the program tells how to install it."""
+    assert THESIS["project"]["dependencies"] == [f"roughcontact=={rc.__version__}"]
+    assert THESIS["project"]["requires-python"] == PROJECT["project"]["requires-python"]
+    commands = THESIS["project"]["entry-points"]["roughcontact.commands"]
+    assert dict.fromkeys(commands, (THESIS["project"]["name"], "./reproduction")) == PACKAGES
+    for name, place in commands.items():
+        module, _, function = place.partition(":")
+        assert function == name
+        assert name in importlib.import_module(module).EXAMPLES
+
+
+def test_each_package_holds_its_own_folder():
+    for project, name in ((PROJECT, "roughcontact"), (THESIS, "roughcontact_thesis")):
+        targets = project["tool"]["hatch"]["build"]["targets"]
+        assert targets["wheel"]["packages"] == [f"src/{name}"]
 
 
 def test_the_recipe_has_the_dependencies_of_the_package():
@@ -37,7 +58,7 @@ def test_the_recipe_has_the_dependencies_of_the_package():
 
 def test_what_a_cluster_needs_is_in_the_extra_that_messages_name():
     extras = PROJECT["project"]["optional-dependencies"]
-    needed = {"distributed", "dask-jobqueue", "cryptography"}
+    needed = {"distributed", "cryptography"}
     assert {re.match(r"[\w-]+", text)[0] for text in extras["cluster"]} == needed
     assert {*extras["cluster"]} <= {*extras["test"]}
 
@@ -82,4 +103,6 @@ def test_the_pythons_are_those_of_the_package():
 def test_the_source_archive_is_a_whole_checkout():
     included = PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
     assert [name for name in included if not (HOME / name).exists()] == []
+    assert {"src", "reproduction", "tests"} <= set(included)
+    assert (HOME / "reproduction" / "LICENSE").read_bytes() == (HOME / "LICENSE").read_bytes()
     assert {path.name for path in HOME.glob("*.md")} <= set(included)

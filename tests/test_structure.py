@@ -7,12 +7,14 @@ from collections import Counter
 from functools import cache
 from pathlib import Path
 
+import house_sizes
 import roughcontact
 from roughcontact import methods
 from roughcontact.late import LateMethod
 
 SOURCE = Path(roughcontact.__file__).parent
 FILES = sorted(SOURCE.rglob("*.py"))
+THESIS = sorted((Path(__file__).parents[1] / "reproduction" / "src").rglob("*.py"))  # its figures
 # Each room may look into those before it, and into itself.
 ORDER = [
     {"cached", "memory", "threads", "units", "version"},
@@ -36,7 +38,6 @@ ORDER = [
     {"files"},
     {"study"},
     {"plot"},
-    {"thesis"},
     {"page"},
     {"cli"},
 ]
@@ -115,7 +116,7 @@ def test_every_file_belongs_to_a_room_that_the_design_knows():
 
 
 def test_no_file_is_longer_than_400_lines():
-    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in FILES}
+    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in [*FILES, *THESIS]}
     assert {path: length for path, length in lengths.items() if length > 400} == {}
 
 
@@ -126,6 +127,20 @@ def test_imports_point_one_way():
         if room_of(path) in RANK
     }
     assert {path: rooms for path, rooms in wrong.items() if rooms} == {}
+
+
+def test_nothing_needs_the_package_of_the_figures():
+    names = set().union(*(imported(tree) for tree in trees().values()))
+    assert not any(name.startswith("roughcontact_thesis") for name in names)
+
+
+def test_the_figures_are_there_without_a_circle():
+    parsed = {
+        f"roughcontact_thesis.{path.stem}": ast.parse(path.read_text(encoding="utf-8")) for path in THESIS
+    }
+    assert len(parsed) > 50
+    assert house_sizes.circles(house_sizes.import_graph(THESIS[0].parent)) == []
+    assert [name for name, tree in parsed.items() if "print" in called(tree)] == []
 
 
 def test_theory_needs_arrays_alone():
@@ -176,8 +191,7 @@ def test_bundlers_of_programs_find_what_is_opened_late():
         wanted = {name for module in left for name in names[module]}
         packages = {name.rpartition(".")[0] for name in wanted}
         left = (wanted | packages) & names.keys() - found
-    # Figures of the thesis are looked for in their folder.
-    assert {name.split(".")[1] for name in names.keys() - found} == {"__main__", "thesis"}
+    assert names.keys() - found == {"roughcontact.__main__"}
 
 
 def test_the_checks_see_what_they_look_for():
@@ -233,7 +247,7 @@ def test_help_of_a_command_loads_no_solver():
 
 
 def test_each_base_name_stands_once():
-    names = Counter(path.name for path in FILES if path.name != "__init__.py")
+    names = Counter(path.name for path in [*FILES, *THESIS] if path.name != "__init__.py")
     assert [name for name, count in names.items() if count > 1] == []
 
 
@@ -241,7 +255,7 @@ def test_each_public_class_stands_once():
     """Two classes of one name cannot be told apart in a message, a search or a page of documentation."""
     names = Counter(
         node.name
-        for path in FILES
+        for path in [*FILES, *THESIS]
         for node in ast.parse(path.read_text(encoding="utf-8")).body
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )

@@ -93,7 +93,7 @@ def test_so_many_items_are_shared():
 def test_who_comes_late_is_not_waited_for(monkeypatch):
     """It finds nothing left, and does nothing."""
     done, late = [], []
-    monkeypatch.setattr(threads_module._crew, "call", lambda wanted, numbers: late.extend(wanted))
+    monkeypatch.setattr(threads_module._helpers, "call", lambda wanted, numbers: late.extend(wanted))
     with limit_threads(3):
         spread(done.append, range(6))
     for work in late:
@@ -109,8 +109,8 @@ def test_where_nobody_can_come_all_is_done_and_nothing_is_held(monkeypatch):
             raise RuntimeError("can't start new thread")
 
     monkeypatch.setattr(threads_module, "Thread", Refused)
-    crew = threads_module._Crew()
-    monkeypatch.setattr(threads_module, "_crew", crew)
+    helpers = threads_module._HelperThreads()
+    monkeypatch.setattr(threads_module, "_helpers", helpers)
     field = np.zeros(3)
     held = weakref.ref(field)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import roughcontact as rc
+import roughcontact_thesis
 from public_names import public_names
 from roughcontact.theory.laws import Knowns, SurfaceFacts
 
@@ -20,8 +21,7 @@ UNTYPED = {
     "roughcontact.Curve.to_dataframe",
     "roughcontact.plot.surface_view",
     "roughcontact.study.Range.values",
-    "roughcontact.study.Slurm",
-    "roughcontact.thesis.SimpleFigure.case",
+    "roughcontact_thesis.SimpleFigure.case",
 }
 WRONG = (
     "roughcontact.Curv",
@@ -34,8 +34,12 @@ WRONG = (
 @pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
 def test_the_types_of_all_public_names_are_known(pytestconfig, tmp_path):
     """As mypy reveals them in a script of a user, in which it also sees a misspelt name."""
-    paths = [name.path for name in public_names()]
-    lines = ["import roughcontact", *(f"reveal_type({path})" for path in [*paths, *WRONG])]
+    packages = (rc, roughcontact_thesis)
+    paths = [name.path for package in packages for name in public_names(package)]
+    lines = [
+        "import roughcontact, roughcontact_thesis",
+        *(f"reveal_type({path})" for path in [*paths, *WRONG]),
+    ]
     script = tmp_path / "script.py"
     script.write_text("\n".join(lines), encoding="utf-8")
     cache = pytestconfig.cache.mkdir("mypy")  # of libraries, which take most of the time
@@ -49,7 +53,8 @@ def test_the_types_of_all_public_names_are_known(pytestconfig, tmp_path):
         str(cache),
         str(script),
     ]
-    environment = os.environ | {"MYPYPATH": str(Path(rc.__file__).parent.parent)}
+    places = [str(Path(package.__file__).parent.parent) for package in packages]
+    environment = os.environ | {"MYPYPATH": os.pathsep.join(places)}
     answer = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=tmp_path).stdout
     revealed = {
         paths[int(line) - 2]: what

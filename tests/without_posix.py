@@ -1,4 +1,4 @@
-"""Import every module of the package and every file of tests as Windows would: without what POSIX alone has.
+"""Import every module of both packages and every file of tests as Windows would: without what POSIX alone has.
 
 python tests/without_posix.py [FILE...]      prints a line for each that fails, and ends with 1 if one does; so for FILE
 
@@ -19,6 +19,7 @@ from pkgutil import walk_packages
 import pytest
 
 HOME = Path(__file__).parent
+THESIS = HOME.parent / "reproduction"  # the package of its figures, which need not be installed
 # By the stubs of typeshed: functions that Windows lacks, beginnings of the names of constants, and what it does have.
 OS_FUNCTIONS = """
     chown chroot confstr copy_file_range ctermid eventfd fchdir fchown fdatasync fork forkpty fstatvfs fwalk getegid
@@ -41,8 +42,8 @@ MODULES = "crypt fcntl grp nis posix pty pwd readline resource spwd syslog termi
 
 def main() -> int:
     """Return 1 if a module cannot be imported, else 0."""
-    files = [*sorted(HOME.rglob("*.py")), *map(Path, sys.argv[1:])]
-    sys.path.insert(0, str(HOME))
+    files = [*sorted(HOME.rglob("*.py")), *sorted((THESIS / "tests").rglob("*.py")), *map(Path, sys.argv[1:])]
+    sys.path[:0] = [str(HOME), str(THESIS / "tests"), str(THESIS / "src")]
     warnings.simplefilter("ignore")
     for name in sorted(set().union(*map(libraries, files + packaged()))):
         attempt(importlib.import_module, name)
@@ -69,17 +70,19 @@ def hide() -> None:
 
 
 def packaged() -> list[Path]:
-    """Return the files of the package."""
+    """Return the files of both packages."""
     import roughcontact
 
-    return sorted(Path(roughcontact.__file__).parent.rglob("*.py"))
+    return sorted([*Path(roughcontact.__file__).parent.rglob("*.py"), *(THESIS / "src").rglob("*.py")])
 
 
 def modules() -> list[str]:
-    """Return the names of all modules of the package, but for the one that starts the command."""
+    """Return the names of all modules of both packages, but for the one that starts the command."""
     import roughcontact
+    import roughcontact_thesis
 
-    found = (each.name for each in walk_packages(roughcontact.__path__, "roughcontact."))
+    packages = (roughcontact, roughcontact_thesis)
+    found = [each.name for one in packages for each in walk_packages(one.__path__, f"{one.__name__}.")]
     return [name for name in found if not name.endswith("__main__")]
 
 
@@ -91,7 +94,8 @@ def libraries(path: Path) -> set[str]:
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             found.add(node.module)
-    here = {each.stem for each in HOME.iterdir()} | {"roughcontact", *MODULES.split()}
+    here = {each.stem for folder in (HOME, THESIS / "tests") for each in folder.iterdir()}
+    here |= {"roughcontact", "roughcontact_thesis", *MODULES.split()}
     return {name for name in found if name.split(".")[0] not in here}
 
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING or _LATE is None:
         statistics as statistics,
         study as study,
         theory as theory,
-        thesis as thesis,
     )
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
     from roughcontact.adhesion.adhesive_loading import (
@@ -98,6 +97,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.materials import Material as Material, handbook as handbook
     from roughcontact.mdr.foundation import foundation as foundation
+    from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
     from roughcontact.solver.control import Depth as Depth, Force as Force, Status as Status

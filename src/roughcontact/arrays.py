@@ -1,4 +1,4 @@
-"""Arrays of any library: where they live, what computes with them, and copies beside them."""
+"""Arrays of any library: where they live, what computes with them, and copies on their devices."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from roughcontact.kernels import buffers
 from roughcontact.validation import Array
 
 __all__ = [
-    "Placed",
-    "beside",
+    "DeviceTable",
+    "as_like",
+    "divide",
     "inner",
     "is_array",
     "is_numpy",
-    "largest",
-    "less",
+    "max_abs",
+    "multiply",
     "namespace",
     "numbers",
     "on_host",
-    "over",
     "require_floating",
     "require_no_unit",
     "require_numpy",
-    "times",
+    "subtract",
     "wants_gradient",
 ]
 
@@ -87,8 +87,8 @@ def on_host(array: Any) -> Array:
     return np.asarray(xp.astype(here, xp.float64, copy=False))  # some precisions NumPy has no name for
 
 
-def beside(values: Array, array: Any) -> Any:
-    """Return some numbers of the host in the library, on the device and in the precision of `array`."""
+def as_like(values: Array, array: Any) -> Any:
+    """Return an array of the host in the library, on the device and in the precision of `array`."""
     if isinstance(array, np.ndarray):
         return values
     return namespace(array).asarray(values, dtype=array.dtype, device=array_api_compat.device(array))
@@ -107,16 +107,16 @@ def inner(a: Any, b: Any) -> float:
     return float(np.vdot(a, b)) if isinstance(a, np.ndarray) else float(namespace(a).sum(a * b))
 
 
-def largest(array: Any) -> float:
-    """Return the largest size of an entry; not a number if one is none."""
+def max_abs(array: Any) -> float:
+    """Return max(abs(array)); NaN if any entry is NaN."""
     if isinstance(array, np.ndarray):
         return max(float(array.max()), -float(array.min()))
     xp = namespace(array)
     return max(float(xp.max(array)), -float(xp.min(array)))
 
 
-def over(values: Any, unit: float, precision: str) -> Any:
-    """Return floating numbers over a unit, in "float32" or "float64"."""
+def divide(values: Any, unit: float, precision: str) -> Any:
+    """Return an array divided by a unit, in "float32" or "float64"."""
     if isinstance(values, np.ndarray):
         answer = buffers.empty(values.shape, precision)
         return np.divide(values, unit, out=answer, dtype=np.float64, casting="same_kind")
@@ -124,23 +124,23 @@ def over(values: Any, unit: float, precision: str) -> Any:
     return xp.astype(values / unit, getattr(xp, precision))
 
 
-def less(values: Any, number: Any) -> Any:
-    """Return numbers less another, in their precision if they have one."""
+def subtract(values: Any, number: Any) -> Any:
+    """Return an array less a number, in the precision of a floating array."""
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
         return np.subtract(values, number, out=buffers.empty(values.shape, values.dtype), casting="same_kind")
     return values - number
 
 
-def times(values: Any, unit: float) -> Any:
-    """Return floating numbers times a unit, in double precision."""
+def multiply(values: Any, unit: float) -> Any:
+    """Return an array times a unit, in double precision."""
     if isinstance(values, np.ndarray):
         return np.multiply(values, unit, out=buffers.empty(values.shape, np.float64), dtype=np.float64)
     xp = namespace(values)
     return unit * xp.astype(values, xp.float64)
 
 
-class Placed:
-    """A table that was made on the host, and its copies beside the arrays that it is multiplied with."""
+class DeviceTable:
+    """A table that was made on the host, and its copies on the devices of the arrays that it is multiplied with."""
 
     __slots__ = ("_copies", "host")
 
@@ -148,7 +148,7 @@ class Placed:
         self.host = host
         self._copies: dict[Any, Any] = {}
 
-    def beside(self, array: Any) -> Any:
+    def as_like(self, array: Any) -> Any:
         """Return the table in the library, on the device and in the precision of `array`.
 
         Raises

@@ -1,17 +1,18 @@
 """How much memory there is, and a refusal before the machine comes to a halt.
 
-What is known by a lower bound is held against all that there could be, what is estimated against what is free.
+What is known by bounds is compared with all that there could be, what is estimated with what is free.
 """
 
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
 import psutil
 
-__all__ = ["free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
+__all__ = ["MemoryWarning", "free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
 
 SMALL = 2**24  # [bytes] what every machine has: nothing is asked
 GROUPS = Path("/sys/fs/cgroup")  # where Linux says what a container or a job may use
@@ -19,27 +20,48 @@ OWN = Path("/proc/self/cgroup")
 _ELSEWHERE = "or use a machine with more memory"
 
 
-def require_memory(least: int, what: str, remedy: str) -> None:
-    """Refuse what cannot be done in the memory that work here could have at most, see `most_memory`.
+class MemoryWarning(UserWarning):
+    """The memory of this machine suffices for light loads on a surface, but may not for heavy ones.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import roughcontact as rc
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", rc.MemoryWarning)  # stop instead
+    ...     solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> solution.status.value
+    'converged'
+    """
+
+
+def require_memory(least: int, most: int, what: str, remedy: str) -> None:
+    """Refuse what cannot be done in the memory that work here could have, see `most_memory`; warn if it may not fit.
 
     Parameters
     ----------
-    least : int
-        A lower bound of the memory that it takes [bytes]: what could be done is never refused.
+    least, most : int
+        Bounds of the memory that it takes [bytes]: what could be done is never refused.
     what, remedy : str
         For the message.
 
     Raises
     ------
     ValueError
-        If the bound exceeds what there is.
+        If the lower bound exceeds what there is.
     """
-    if least < SMALL:
+    if most < SMALL:
         return
-    most = most_memory()
-    if least > most:
-        problem = f"{what} needs {gigabytes(least)} of memory at least, and {gigabytes(most)} are there"
-        raise ValueError(f"{problem}: {remedy}, {_ELSEWHERE}")
+    there = most_memory()
+    if most > there:
+        impossible = least > there
+        need = (
+            f"{gigabytes(least)} of memory at least" if impossible else f"up to {gigabytes(most)} of memory"
+        )
+        text = f"{what} needs {need}, and {gigabytes(there)} are there: {remedy}, {_ELSEWHERE}"
+        if impossible:
+            raise ValueError(text)
+        warnings.warn(text, MemoryWarning, stacklevel=6)  # whoever calls `press`
 
 
 def require_free(need: int, what: str, remedy: str, error: Callable[[str, str], Exception]) -> None:

@@ -8,25 +8,25 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from contextvars import ContextVar
-from functools import cache, update_wrapper
+from functools import cache, wraps
 from queue import SimpleQueue
 from threading import Lock, RLock, Thread, get_ident
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, TypeVarTuple
+from typing import TYPE_CHECKING, Any, TypeVar, TypeVarTuple, cast
 
 if TYPE_CHECKING:
     from threadpoolctl import ThreadpoolController
 
 __all__ = [
-    "call_others",
     "controller",
     "join_in",
     "limit_threads",
     "no_fork",
     "once",
     "one_blas_thread",
-    "others_called",
     "spread",
     "threads",
+    "wake",
+    "wakes_pending",
 ]
 
 T = TypeVar("T")
@@ -43,28 +43,27 @@ _limit: ContextVar[int | None] = ContextVar("threads", default=None)
 no_fork = RLock()
 
 
-class once(Generic[*Ts, T]):  # noqa: N801  # a decorator
+def once(function: Callable[[*Ts], T]) -> Callable[[*Ts], T]:
     """Keep what a function returns, as `functools.cache` does; one thread computes it, and others and forks wait.
 
     For what takes long, or takes locks that a fork must not catch, as an import does.
     """
+    computed = cache(function)
 
-    def __init__(self, function: Callable[[*Ts], T]) -> None:
-        self._function = function
-        self._kept: dict[tuple[*Ts], T] = {}
-        update_wrapper(self, function)
+    def waiting(*arguments: *Ts) -> T:
+        with no_fork:
+            return computed(*arguments)
 
-    def __call__(self, *arguments: *Ts) -> T:
-        """Return what the function does."""
-        if arguments not in self._kept:
-            with no_fork:
-                if arguments not in self._kept:
-                    self._kept[arguments] = self._function(*arguments)
-        return self._kept[arguments]
+    # What is kept is found without a lock, and without a frame of Python's.
+    kept: Any = wraps(function)(cache(waiting))
+    clear = kept.cache_clear
 
-    def cache_clear(self) -> None:
-        """Forget it all."""
-        self._kept.clear()
+    def cache_clear() -> None:
+        clear()
+        computed.cache_clear()
+
+    kept.cache_clear = cache_clear
+    return cast(Callable[[*Ts], T], kept)
 
 
 def threads() -> int:
@@ -132,20 +131,20 @@ def join_in(work: Callable[[int], None], count: int) -> None:
     wanted = [work]
     try:
         if count > 1:
-            _crew.call(wanted, range(1, count))
+            _helpers.call(wanted, range(1, count))
         work(0)
     finally:
         wanted.clear()  # who has not come holds nothing any more
 
 
-def call_others(work: Callable[[int], None], count: int) -> None:
-    """Have so many other threads, numbered from 0, do some work when they come to it; nobody waits for them."""
-    _crew.call([work], range(count))
+def wake(work: Callable[[int], None], count: int) -> None:
+    """Wake n other threads, numbered from 0, for some work; the caller does not wait for them."""
+    _helpers.call([work], range(count))
 
 
-def others_called() -> int:
-    """Return how many were called who have not come yet."""
-    return _crew.waiting
+def wakes_pending() -> int:
+    """Return how many threads were woken and have not begun yet."""
+    return _helpers.waiting
 
 
 @contextmanager
@@ -249,7 +248,7 @@ def _stated(variable: str) -> int:
     return int(text) if text.isdecimal() else 0
 
 
-class _Crew:
+class _HelperThreads:
     """Threads that wait for calls, of which nobody asks what became of them.
 
     A pool, which could tell, takes longer to call one.
@@ -285,13 +284,13 @@ class _Crew:
             del wanted
 
 
-_crew = _Crew()
+_helpers = _HelperThreads()
 
 
 def _in_child() -> None:
     """Go on in a forked process, which has one thread: the one that forked."""
-    global _crew
-    _crew = _Crew()
+    global _helpers
+    _helpers = _HelperThreads()
     for thread in _inside - {get_ident()}:
         _go_out(thread)
     no_fork.release()

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import Placed, is_numpy, namespace, require_floating
-from roughcontact.kernels import loader
+from roughcontact.arrays import DeviceTable, is_numpy, namespace, require_floating
+from roughcontact.kernels import buffers, loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution
 from roughcontact.kernels.plane_plan import fits
 from roughcontact.slabs.exchange import filtered_in_slabs, is_in_slabs
@@ -45,12 +45,12 @@ class Convolution:
         ``(My, Mx)`` of the transforms, at least those of the fields.
     """
 
-    __slots__ = ("_dealt", "_multiplier", "_placed", "_ready", "lengths")
+    __slots__ = ("_dealt", "_multiplier", "_ready", "_table", "lengths")
 
     def __init__(self, multiplier: Array | Callable[[slice], Array], lengths: Pair) -> None:
         self.lengths = lengths
         self._multiplier: Array | Callable[[slice], Array] | None = multiplier
-        self._placed: Placed | None = None
+        self._table: DeviceTable | None = None
         self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
         # Of planes in slabs, None where not all processes have machine code for them.
         self._dealt: dict[tuple[Edges, int, np.dtype[Any]], SlabConvolution | None] = {}
@@ -64,9 +64,9 @@ class Convolution:
             if is_numpy(field) and field.dtype.kind in "biu":
                 return self.apply(field.astype(np.float64))
             if not _in_machine_code(field, self.lengths):
-                if self._placed is None:
-                    self._placed = Placed(self._kernel())
-                return convolve(field, self._placed.beside(field), self.lengths)
+                if self._table is None:
+                    self._table = DeviceTable(self._kernel())
+                return convolve(field, self._table.as_like(field), self.lengths)
             ready = self._prepare((field.shape[0], field.shape[1]), field.dtype)
         answer: Array = ready.apply(field)
         return answer
@@ -82,6 +82,7 @@ class Convolution:
         return ready
 
     def _in_slabs(self, field: Any) -> Array:
+        buffers.release()  # planes in slabs are large, and memory is short while columns go round
         kind = field.edges, field.functions.rank, field.dtype
         if kind not in self._dealt:
             self._dealt[kind] = self._deal(field)
@@ -169,19 +170,19 @@ def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
     return np.asarray(scipy.fft.dctn(even, type=1, overwrite_x=True))
 
 
-def convolve(field: Array, multiplier: Placed | Array, padded: tuple[int, int]) -> Array:
+def convolve(field: Array, multiplier: DeviceTable | Array, padded: tuple[int, int]) -> Array:
     """Return the convolution of `field`, padded by zeros to `padded`, cut back to its own shape.
 
     Parameters
     ----------
     field : array, shape (ny, nx)
         Of any library, on any device, in double or single precision: so is the answer.
-    multiplier : array or Placed array, shape (My//2 + 1, Mx//2 + 1)
+    multiplier : array or DeviceTable, shape (My//2 + 1, Mx//2 + 1)
         Real transform of an even kernel, as `even_multiplier` returns it.
     padded : tuple of int
         Lengths ``(My, Mx)`` of the transforms, at least those of the field.
     """
-    factors = multiplier.beside(field) if isinstance(multiplier, Placed) else multiplier
+    factors = multiplier.as_like(field) if isinstance(multiplier, DeviceTable) else multiplier
 
     def multiply(spectrum: Any, columns: slice) -> None:
         _multiply_even(spectrum, factors[:, columns])

@@ -328,7 +328,7 @@ def test_a_curve_collects_its_path():
     for name in ("depth", "force", "contact_area", "energy", "mean_gap", "lowest_force", "contact_fraction"):
         np.testing.assert_array_equal(getattr(curve, name), [getattr(state, name) for state in path])
     assert curve.detachments == tuple(event for state in path for event in state.detachments)
-    assert curve.detached == tuple(k for k, state in enumerate(path) for _ in state.detachments)
+    assert curve.detached_at == tuple(k for k, state in enumerate(path) for _ in state.detachments)
     assert curve.lost == pytest.approx(math.fsum(state.lost for state in path))
     assert curve.converged
     missed = dataclasses.replace(curve, status=(*curve.status[:-1], rc.Status.STAGNATED))

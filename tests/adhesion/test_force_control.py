@@ -85,12 +85,12 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
     assert not last_jump().ambiguous
     flow = quasi_static.flow
 
-    def one_stays(energy, start, convex, counter, *, even=False):
-        landing = flow(energy, start, convex, counter)
+    def one_stays(energy, start, convex, counter, *, uniform=False):
+        result = flow(energy, start, convex, counter)
         return (
-            replace(landing, equilibrium=replace(landing.equilibrium, point=energy.at(start)))
-            if even
-            else landing
+            replace(result, equilibrium=replace(result.equilibrium, point=energy.at(start)))
+            if uniform
+            else result
         )
 
     monkeypatch.setattr(quasi_static, "flow", one_stays)
@@ -102,11 +102,11 @@ def test_a_jump_after_which_one_integration_alone_pulls_the_body_off_is_ambiguou
 def test_stability_under_a_force_is_the_smallest_eigenvalue_with_the_depth_free(kind):
     surface, adhesion = rough(16, periodic=kind == "periodic", slope=0.3, seed=2), sticky(3.0)
     state = rc.adhesive_state(surface, 1.0, adhesion, force=1.0)
-    free = np.ones(state.blank.form.shape, bool)
-    free[state.blank.form.inside] = ~state.contact
+    free = np.ones(state.problem.form.shape, bool)
+    free[state.problem.form.inside] = ~state.contact
     curvature = np.zeros(free.shape)
-    curvature[state.blank.form.inside] = state.attraction.curvature(np.maximum(state.gap, 0.0))
-    values = eigenvalues_by_matrices(state.blank.control.form, free, curvature)
+    curvature[state.problem.form.inside] = state.attraction.curvature(np.maximum(state.gap, 0.0))
+    values = eigenvalues_by_matrices(state.problem.control.form, free, curvature)
     wanted = values[0]
     assert wanted - 1e-9 <= state.stability <= wanted + 1e-3
     assert np.abs(values - state.stability).min() <= state.stability_residual <= 1e-3

@@ -1,4 +1,4 @@
-"""Surfaces that stick, on the command line: the numbers of the library, files, refusals, Ctrl-C."""
+"""The commands `adhesion ...`: the numbers of the library, files, refusals, Ctrl-C."""
 
 import json
 from typing import get_args
@@ -27,13 +27,21 @@ def rough(tmp_path):
     return tmp_path / "rough.npz"
 
 
+@pytest.fixture
+def whole(tmp_path):
+    """Return the file of a small periodic surface on which the attraction is resolved."""
+    grid = rc.Grid((16, 16), 1e-6, periodic=True)
+    rc.write(rc.self_affine(grid, 0.8, rms=1e-7, rng=np.random.default_rng(5)), tmp_path / "whole.npz")
+    return tmp_path / "whole.npz"
+
+
 def test_the_laws_are_those_of_the_library():
     assert [law.value for law in LawChoice] == list(get_args(Law))
 
 
 def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     answer = invoke(
-        "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"
+        "adhesion", "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"
     )
     assert answer.exit_code == 0, answer.stderr
     state = rc.adhesive_state(rc.read(rough), 10e6, ADHESION, depth=-20e-9)
@@ -48,14 +56,26 @@ def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     assert json.loads((tmp_path / "out" / "press.json").read_text())["provenance"]["input_sha256"]
 
 
-def test_a_press_tells_tension_jumps_and_stability(invoke, rough):
-    told = invoke("press", rough, "--force", "0N", *MODULUS, *STICKS).stdout
+def test_a_press_takes_a_pressure_and_a_mean_gap(invoke, whole):
+    words = ("adhesion", "press", whole, *MODULUS, *STICKS, "--json")
+    surface = rc.read(whole)
+    pressed = rc.adhesive_state(surface, 10e6, ADHESION, pressure=1e3)
+    record = json.loads(invoke(*words, "--pressure", "1kPa").stdout)
+    assert record["force"] == pressed.force == pytest.approx(1e3 * surface.grid.area)
+    near = rc.adhesive_state(surface, 10e6, ADHESION, mean_gap=2e-7)
+    record = json.loads(invoke(*words, "--mean-gap", "2e-7m").stdout)
+    assert record["force"] == near.force
+    assert record["mean_gap"] == pytest.approx(2e-7)
+
+
+def test_a_press_tells_tension_and_stability(invoke, rough):
+    told = invoke("adhesion", "press", rough, "--force", "0N", *MODULUS, *STICKS).stdout
     for words in ("largest tension", "Irwin's length", "stability", "jump", "certificate", "10 mJ/m²"):
         assert words in told
 
 
 def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
-    answer = invoke("curve", rough, *FEW, *MODULUS, *STICKS, "--json", "--out", tmp_path / "out")
+    answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--json", "--out", tmp_path / "out")
     assert answer.exit_code == 0, answer.stderr
     depths = [-0.2e-6, 0.05e-6, -0.1e-6]
     curve = rc.adhesive_curve(rc.read(rough), 10e6, ADHESION, depths=depths)
@@ -75,7 +95,7 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
 
 
 def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
-    words = ("curve", rough, *FEW, *MODULUS, *STICKS)
+    words = ("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS)
     answer = invoke(*words)
     assert answer.exit_code == 0
     assert "is ambiguous" not in answer.stderr
@@ -84,7 +104,7 @@ def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
 
 
 def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, rough):
-    words = ("curve", rough, *MODULUS, *STICKS, "--loop", "--depths", "50nm", "--points", "6")
+    words = ("adhesion", "loop", rough, *MODULUS, *STICKS, "--depth", "50nm", "--points", "6")
     record = json.loads(invoke(*words, "--json").stdout)
     turn = record["depth"][6]  # 50 nm as it was read
     loop = rc.adhesive_loop(rc.read(rough), 10e6, ADHESION, depth=turn, points=6)
@@ -99,25 +119,28 @@ def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, roug
 
 
 def test_forces_go_up_and_down(invoke, rough):
-    words = ("curve", rough, "--forces", "0N:1uN:3,-1uN", *MODULUS, *STICKS, "--json")
+    words = ("adhesion", "curve", rough, "--forces", "0N:1uN:3,-1uN", *MODULUS, *STICKS, "--json")
     record = json.loads(invoke(*words).stdout)
     assert record["control"] == "force"
     np.testing.assert_allclose(record["force"], [0, 0.5e-6, 1e-6, -1e-6], atol=1e-12)
     assert record["branch"] == ["approach"] * 3 + ["retreat"]
 
 
-def test_mean_gaps_are_those_of_the_library(invoke, tmp_path):
-    surface = rc.self_affine(
-        rc.Grid((16, 16), 1e-6, periodic=True), 0.8, rms=1e-7, rng=np.random.default_rng(5)
-    )
-    rc.write(surface, tmp_path / "whole.npz")
-    words = ("curve", tmp_path / "whole.npz", *MODULUS, *STICKS, "--mean-gaps", "0.5um:0.2um:3,0.4um")
+def test_pressures_go_up_and_down(invoke, rough):
+    words = ("adhesion", "curve", rough, "--pressures", "0Pa:2kPa:3,-1kPa", *MODULUS, *STICKS, "--json")
+    record = json.loads(invoke(*words).stdout)
+    area = rc.read(rough).grid.area
+    np.testing.assert_allclose(record["force"], [0, 1e3 * area, 2e3 * area, -1e3 * area], atol=1e-12)
+    assert record["branch"] == ["approach"] * 3 + ["retreat"]
+
+
+def test_mean_gaps_are_those_of_the_library(invoke, whole):
+    gaps = ("--mean-gaps", "0.5um:0.2um:3,0.4um")
+    words = ("adhesion", "curve", whole, *MODULUS, *STICKS, *gaps)
     answer = invoke(*words, "--json")
     assert answer.exit_code == 0, answer.stderr
     record = json.loads(answer.stdout)
-    curve = rc.adhesive_curve(
-        rc.read(tmp_path / "whole.npz"), 10e6, ADHESION, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7]
-    )
+    curve = rc.adhesive_curve(rc.read(whole), 10e6, ADHESION, mean_gaps=[5e-7, 3.5e-7, 2e-7, 4e-7])
     # Texts and numbers are of the last digit apart, and the tolerance of the states is 1e-8.
     np.testing.assert_allclose(record["mean_gap"], [5e-7, 3.5e-7, 2e-7, 4e-7], rtol=1e-9)
     np.testing.assert_allclose(record["force"], curve.force, rtol=1e-8)
@@ -126,14 +149,10 @@ def test_mean_gaps_are_those_of_the_library(invoke, tmp_path):
 
 def test_mean_gaps_are_refused_where_the_library_refuses_them(invoke, rough):
     gaps = ("--mean-gaps", "0.5um,0.2um")
-    answer = invoke("curve", rough, *MODULUS, *STICKS, *gaps)
+    words = ("adhesion", "curve", rough, *MODULUS, *STICKS, *gaps)
+    answer = invoke(*words)
     assert (answer.exit_code, "the body is not periodic" in answer.stderr) == (2, True)
-    answer = invoke("curve", rough, *MODULUS, *gaps)
-    assert (answer.exit_code, "--mean-gaps is about surfaces that stick" in answer.stderr) == (2, True)
-    both = invoke("curve", rough, *MODULUS, *STICKS, *gaps, "--depths", "10nm")
-    assert "--depths and --mean-gaps exclude each other" in both.stderr
-    loop = invoke("curve", rough, *MODULUS, *STICKS, *gaps, "--loop")
-    assert "--loop of surfaces that stick goes by depth" in loop.stderr
+    assert "--depths and --mean-gaps exclude each other" in invoke(*words, "--depths", "10nm").stderr
 
 
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
@@ -146,51 +165,53 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(adhesive_loading, "states_under", interrupted)
-    answer = invoke("curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
+    answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
-    assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick begins anew" in answer.stderr
+    assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
     assert len(rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")) == 2
-    loop = ("--loop", "--depths", "50nm", "--points", "4", "--out", tmp_path / "loop")
-    answer = invoke("curve", rough, *MODULUS, *STICKS, *loop)
+    loop = ("--depth", "50nm", "--points", "4", "--out", tmp_path / "loop")
+    answer = invoke("adhesion", "loop", rough, *MODULUS, *STICKS, *loop)
     assert answer.exit_code == 130
     assert "stopped: the loop is not closed" in answer.stderr
 
 
 def test_a_missed_tolerance_is_told_and_ends_with_its_status(invoke, rough):
-    answer = invoke("press", rough, "--depth", "50nm", *MODULUS, *STICKS, "--tolerance", "1.1e-14")
+    answer = invoke(
+        "adhesion", "press", rough, "--depth", "50nm", *MODULUS, *STICKS, "--tolerance", "1.1e-14"
+    )
     assert answer.exit_code == 1
     assert "MISSED" in answer.stdout
 
 
 def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, rough):
-    words = ("press", rough, "--depth", "10nm", *MODULUS, "--work", "10mJ/m^2")
+    words = ("adhesion", "press", rough, "--depth", "10nm", *MODULUS, "--work", "10mJ/m^2")
     answer = invoke(*words, "--range", "20nm")
     assert answer.exit_code == 2
     assert "give --allow-unresolved" in answer.stderr
     longer = answer.stderr.split("a range of at least ")[1].split(" m")[0]
     assert invoke(*words, "--range", longer).exit_code == 0
-    marked = invoke(*words, "--range", "20nm", "--allow-unresolved")
-    assert marked.exit_code == 0
-    assert "the lattice traps every state" in marked.stderr
+    path = ("adhesion", "curve", rough, "--depths", "-10nm,10nm", *MODULUS, "--work", "10mJ/m^2")
+    for command in (words, path):
+        marked = invoke(*command, "--range", "20nm", "--allow-unresolved")
+        assert marked.exit_code == 0
+        assert "the lattice traps every state" in marked.stderr
+        assert "the lattice traps" not in invoke(*command, "--range", longer).stderr
 
 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--range", "2nm"), "--range is about adhesion: give the work of adhesion"),
-        (("--law", "exponential"), "--law is about adhesion"),
-        (("--allow-unresolved",), "--allow-unresolved is about adhesion"),
-        (("--work", "50mJ/m^2"), "--work and --range belong together"),
+        (("--range", "2nm"), "Missing option '--work'"),
+        (("--work", "50mJ/m^2"), "Missing option '--range'"),
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
+        (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
-        ((*STICKS, "--hardness", "2GPa"), "--hardness is about surfaces that do not stick"),
-        ((*STICKS, "--errors"), "--errors is about surfaces that do not stick"),
-        ((*STICKS, "--flow", "raised"), "--flow is about surfaces that do not stick"),
+        ((*STICKS, "--law", "sharp"), "'sharp' is not one of 'exponential', 'dugdale'"),
     ],
 )
-def test_what_does_not_fit_together_is_refused(invoke, rough, given, says):
+def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
     for command in (("press", rough, "--depth", "10nm"), ("curve", rough, "--depths", "10nm")):
-        answer = invoke(*command, *MODULUS, *given)
+        answer = invoke("adhesion", *command, *MODULUS, *given)
         assert answer.exit_code == 2
         assert says in answer.stderr
 
@@ -198,30 +219,54 @@ def test_what_does_not_fit_together_is_refused(invoke, rough, given, says):
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("press", "--pressure", "1kPa", *STICKS), "give --force, pressure times area, or --depth"),
-        (("press", "--force", "-1uN", *STICKS), "give 'curve --forces 0N,-1uN'"),
-        (("press", "--force", "1uN", *STICKS, "--after", "2uN"), "--after is about surfaces"),
-        (("press", "--force", "1uN", *STICKS, "--theory", "persson"), "--theory is about surfaces"),
+        (("adhesion", "press", "--force", "-1uN", *STICKS), "give 'adhesion curve --forces 0,-1uN'"),
+        (("adhesion", "press", "--pressure", "-1kPa", *STICKS), "give 'adhesion curve --pressures 0,-1kPa'"),
+        (("adhesion", "press", *STICKS), "give one load (--force or --pressure or --depth or --mean-gap)"),
         (("press", "--depth", "-5nm"), "the depth counts from first touch"),
-        (("curve", "--pressures", "1kPa", *STICKS), "give --forces, pressures times area, or --depths"),
-        (("curve", *STICKS), "give the loads of surfaces that stick (--depths or --forces or --mean-gaps)"),
-        (("curve", "--loop", "--forces", "1uN", *STICKS), "goes by depth"),
-        (("curve", "--loop", "--depths", "1nm,2nm", *STICKS), "give one, such as --depths 20nm"),
-        (("curve", "--loop", "--depths", "1nm", "--points", "1", *STICKS), "from 2 to 10000 depths, not 1"),
-        (("curve", "--depths", "1nm", "--points", "9", *STICKS), "--points is about a --loop"),
-        (("curve", "--forces", "1uN", "--points", "9"), "--points is about a --loop of surfaces that stick"),
-        (("curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is no range"),
-        (("curve", "--depths", ",", *STICKS), "no load given"),
-        (("curve", "--depths", "1nm:2nm:1", *STICKS), "from 2 to 100000 loads, not 1"),
-        (("curve", "--depths", "1nm", "--theory", "persson", *STICKS), "--theory is about surfaces"),
-        (("curve", "--depths", "1nm", "--conductivity", "copper", *STICKS), "--conductivity is about"),
-        (("curve", "--depths", "1nm", "--unit-pressure", "MPa", *STICKS), "--unit-pressure is about"),
-        (("curve", "--depths", "1nm", "--table", "csv", *STICKS), "--table is about"),
+        (
+            ("adhesion", "curve", *STICKS),
+            "give the loads (--depths or --forces or --pressures or --mean-gaps)",
+        ),
+        (("adhesion", "loop", *STICKS), "Missing option '--depth'"),
+        (
+            ("adhesion", "loop", "--depth", "1nm", "--points", "1", *STICKS),
+            "Invalid value for '--points'",
+        ),
+        (("adhesion", "curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is no range"),
+        (("adhesion", "curve", "--depths", ",", *STICKS), "no load given"),
+        (("adhesion", "curve", "--depths", "1nm:2nm:1", *STICKS), "from 2 to 100000 loads, not 1"),
         (("curve", "--depths", "-1nm,2nm"), "every load must be positive"),
     ],
 )
 def test_each_refusal_names_what_to_do(invoke, rough, given, says):
-    command, *options = given
-    answer = invoke(command, rough, *options, *MODULUS)
+    group, command, *options = given if given[0] == "adhesion" else ("", *given)
+    answer = invoke(*filter(None, (group, command)), rough, *options, *MODULUS)
     assert answer.exit_code == 2
     assert says in answer.stderr
+
+
+@pytest.mark.parametrize(
+    "option", ["--hardness", "--errors", "--flow", "--after", "--theory", "--table", "--loop"]
+)
+@pytest.mark.parametrize("command", ["press", "curve", "loop"])
+def test_what_is_elastic_or_plastic_is_no_option_of_adhesion(invoke, command, option):
+    assert f" {option} " not in invoke("adhesion", command, "--help").stdout
+
+
+@pytest.mark.parametrize("command", ["press", "curve"])
+def test_what_is_adhesive_is_no_option_of_the_others(invoke, command):
+    told = invoke(command, "--help").stdout
+    for option in ("--work", "--range", "--law", "--allow-unresolved", "--mean-gap", "--points"):
+        assert option not in told
+
+
+def test_an_option_of_the_other_press_says_where_it_is(invoke, rough):
+    words = (rough, "--force", "1uN", *MODULUS)
+    answer = invoke("press", *words, "--work", "10mJ/m^2")
+    assert answer.exit_code == 2
+    assert "No such option: --work; use 'roughcontact adhesion press' for it" in answer.stderr
+    answer = invoke("adhesion", "press", *words, *STICKS, "--hardness", "1GPa")
+    assert "No such option: --hardness; use 'roughcontact press' for it" in answer.stderr
+    told = invoke("press", *words, "--pressures", "1kPa").stderr  # of curve, which is no press
+    assert "Possible options" in told
+    assert "for it" not in told

@@ -8,6 +8,7 @@ import xarray
 
 import roughcontact as rc
 from roughcontact.cli.report import quantity
+from roughcontact.contact import loading
 from roughcontact.plot import canvas
 from roughcontact.theory.waves import Waves
 
@@ -141,14 +142,14 @@ def test_one_folder_serves_press_and_curve(invoke, rough, tmp_path):
 
 
 def test_one_load_that_misses_its_tolerance_gives_status_1(invoke, rough, monkeypatch):
-    path = rc.loading_path
+    path = loading.solutions_along
 
     def last_one_stagnates(*arguments, **named):
         solutions = list(path(*arguments, **named))
         solutions[-1] = dataclasses.replace(solutions[-1], status=rc.Status.STAGNATED)
         return iter(solutions)
 
-    monkeypatch.setattr(rc, "loading_path", last_one_stagnates)
+    monkeypatch.setattr(loading, "solutions_along", last_one_stagnates)
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--json")
     assert answer.exit_code == 1
     record = json.loads(answer.stdout)
@@ -163,7 +164,7 @@ def test_an_interrupt_before_the_first_load_leaves_nothing(invoke, rough, monkey
         raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr(rc, "loading_path", interrupted)
+    monkeypatch.setattr(loading, "solutions_along", interrupted)
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert answer.stdout == ""
@@ -417,7 +418,7 @@ def test_without_a_resolved_load_there_are_no_errors_and_a_note_says_so(invoke, 
 
 
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
-    whole = rc.loading_path
+    whole = loading.solutions_along
 
     def interrupted(*arguments, **named):
         path = whole(*arguments, **named)
@@ -425,7 +426,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
         yield next(path)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(rc, "loading_path", interrupted)
+    monkeypatch.setattr(loading, "solutions_along", interrupted)
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
@@ -485,7 +486,7 @@ def test_a_loop_takes_the_hardness_of_the_softer_material(invoke, rough):
 
 
 def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, tmp_path):
-    whole = rc.loading_path
+    whole = loading.solutions_along
 
     def interrupted(*arguments, **named):
         path = whole(*arguments, **named)
@@ -493,7 +494,7 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
             yield next(path)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(rc, "loading_path", interrupted)
+    monkeypatch.setattr(loading, "solutions_along", interrupted)
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--hardness", "20MPa")
     answer = invoke(*words, "--loop", "--out", tmp_path / "out")
     assert answer.exit_code == 130

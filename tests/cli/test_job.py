@@ -1,8 +1,11 @@
+import json
 import sys
 
 import pytest
+from typer.testing import CliRunner
 
 from roughcontact.cli import job
+from roughcontact.cli.app import app
 from roughcontact.cli.messages import UsageError
 
 STATED = [name for pair in job._STATED.items() for name in pair]
@@ -30,7 +33,7 @@ def test_a_launcher_is_known_by_what_it_states(size, rank, monkeypatch):
 def test_one_process_is_no_job(monkeypatch):
     assert job.slabs_of_job() is None
     assert job.refusal(["study", "run", "s.toml"]) is None
-    job.refuse_in_slabs({"--loop": True})
+    job.require_one_process({"--loop": True})
     monkeypatch.setenv("PMI_SIZE", "1")
     monkeypatch.setenv("PMI_RANK", "0")
     assert job.slabs_of_job() is None
@@ -50,6 +53,7 @@ def third_of_four(monkeypatch):
         (["curve", "--json", "a.npz"], None),
         (["surface", "make", "a.npz"], None),
         (["surface", "info", "a.npz"], "'surface info'"),
+        (["adhesion", "press", "a.npz"], "'adhesion press'"),
         (["study", "run", "s.toml"], "'study run'"),
         (["serve"], "'serve'"),
         (["study", "--help"], None),
@@ -66,9 +70,32 @@ def test_other_commands_are_refused(arguments, named):
 
 @pytest.mark.usefixtures("third_of_four")
 def test_options_about_the_whole_surface_are_refused():
-    job.refuse_in_slabs({"--theory": None, "--errors": False})
+    job.require_one_process({"--theory": None, "--errors": False})
     with pytest.raises(UsageError, match=r"--errors needs the whole surface, of which each of 4 processes"):
-        job.refuse_in_slabs({"--theory": None, "--errors": True})
+        job.require_one_process({"--theory": None, "--errors": True})
+
+
+@pytest.mark.usefixtures("third_of_four")
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [
+        *(("press", option) for option in ("--after 2MPa", "--theory persson")),
+        *(("curve", option) for option in ("--loop", "--theory persson", "--table csv")),
+        *(
+            (command, option)
+            for command in ("press", "curve")
+            for option in ("--flow removed", "--errors", "--despike missing", "--profile line")
+        ),
+    ],
+)
+def test_commands_refuse_them_before_any_work(command, option):
+    """There is no such file, and no MPI: neither is asked for."""
+    words = [command, "none.npz", *option.split(), "--modulus", "1GPa", "--json"]
+    answer = CliRunner().invoke(app, words)
+    assert answer.exit_code == 2
+    assert json.loads(answer.stdout)["error"]["message"].startswith(
+        f"{option.split()[0]} needs the whole surface"
+    )
 
 
 @pytest.mark.usefixtures("third_of_four")

@@ -33,6 +33,10 @@ def test_version():
             ["--force", "--pressure", "--depth", "--modulus", "--young", "--periodic", "--level", "--out"],
         ),
         (("curve",), ["--forces", "--pressures", "--depths", "--tolerance", "--json", "--channel", "--size"]),
+        (("adhesion", "press"), ["--work", "--range", "--law", "--mean-gap", "--allow-unresolved"]),
+        (("adhesion", "curve"), ["--depths", "--forces", "--pressures", "--mean-gaps", "--young", "--level"]),
+        (("adhesion", "detach"), ["--force", "--depths", "--forces", "--work", "--tolerance"]),
+        (("adhesion", "loop"), ["--depth", "--points", "--format", "--profile"]),
         (("surface", "info"), ["--json", "--unit"]),
         (
             ("surface", "make"),
@@ -184,13 +188,13 @@ def test_help_waits_for_no_library_of_numerics():
     assert answer.stdout.endswith("set()\n")
 
 
-@pytest.mark.parametrize("group", [[], ["surface"], ["study"]])
+@pytest.mark.parametrize("group", [[], ["adhesion"], ["surface"], ["study"]])
 def test_help_of_a_group_holds_the_first_words_of_its_commands(group, invoke):
     told = invoke(*group, "--help").stdout
     lines = [line.strip("│|* ") for line in told.partition("Commands")[2].splitlines()[1:]]
     names = [line.split()[0] for line in lines if line and line[0].isalpha() and "  " in line]
     assert len(names) >= 4
-    for name in set(names) - {"surface", "study"}:
+    for name in set(names) - {"adhesion", "surface", "study"}:
         summary = next(line for line in lines if line.startswith(f"{name} ")).removeprefix(name).strip()
         assert summary[:40] in invoke(*group, name, "--help").stdout
 

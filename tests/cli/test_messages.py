@@ -145,13 +145,18 @@ class TestMemory:
             "cut the map or subsample it, or use a machine with more memory\n"
         )
 
-    def test_a_surface_that_was_read_may_be_too_large_to_press(self, invoke, rough, monkeypatch):
+    @pytest.mark.parametrize("verb", ["press", "curve"])
+    def test_a_surface_that_was_read_may_be_too_large_to_press(self, invoke, rough, monkeypatch, verb):
         monkeypatch.setattr(memory, "SMALL", 0)
+        words = (verb, rough, "--force" if verb == "press" else "--forces", "1mN", "--modulus", "1GPa")
         monkeypatch.setattr(memory, "most_memory", lambda: 6e3)
-        monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
-        answer = invoke("press", rough, "--force", "1mN", "--modulus", "1GPa")
+        answer = invoke(*words)
         assert answer.exit_code == BAD_INPUT
-        assert "pressing 24 x 32 cells needs" in answer.stderr
+        assert "Error: a load on 24 x 32 cells needs 6.91e-06 GB of memory at least" in answer.stderr
+        monkeypatch.setattr(memory, "most_memory", lambda: 6e4)
+        answer = invoke(*words)
+        assert answer.exit_code == 0
+        assert f"Note: a {'load' if verb == 'press' else 'curve'} on 24 x 32 cells needs up to 0.000" in answer.stderr
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
         read = options.Source.map_or_line

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact import loading
 from roughcontact.theory import plasticity
 
 FORCE = ("--force", "10mN")
@@ -73,7 +74,7 @@ def test_a_curve_says_what_the_map_is(invoke, tmp_path, make, kind):
 
 def test_forces_that_the_grid_does_not_resolve_are_told_before_the_work(invoke, rough, monkeypatch):
     words = ("curve", rough, "--modulus", "110GPa", "--forces")
-    monkeypatch.setattr(rc, "loading_path", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
+    monkeypatch.setattr(loading, "solutions_along", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
     for forces, message in (
         ("1nN:1uN:4", "none of the 4 forces can be resolved by this grid (4 too small"),
         ("100N:1kN:4", "none of the 4 forces can be resolved by this grid (4 near full contact)"),
@@ -90,7 +91,7 @@ def test_fewer_resolved_forces_than_a_power_law_takes_are_told(invoke, tmp_path,
     found = rc.load_range(surface, 110e9)
     small, between = 1e-3 * found.lowest, math.sqrt(found.lowest * found.highest)
     words = ("curve", tmp_path / "map.npz", "--modulus", "110GPa", "--level", "none", "--forces")
-    monkeypatch.setattr(rc, "loading_path", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
+    monkeypatch.setattr(loading, "solutions_along", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
     for resolved, told in ((2, True), (3, False)):
         forces = (small, 2 * small, *(between * 1.1**k for k in range(resolved)))
         message = f"{resolved} of the {len(forces)} forces can be resolved by this grid (2 too small"

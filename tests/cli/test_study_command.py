@@ -142,7 +142,6 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
             ["run", "tried.toml", "--executor", "serial", "--workers", "2"],
             "--workers: --executor serial computes one",
         ),
-        (["run", "tried.toml", "--executor", "slurm"], "--workers: say how many cases SLURM shall compute"),
         (
             ["run", "tried.toml", "--executor", "dask", "--scheduler", "a", "--workers", "2"],
             "leave out one of the two",

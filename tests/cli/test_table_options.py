@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact import loading
 
 LOADS = ("--pressures", "10MPa,30MPa,100MPa,1GPa", "--modulus", "110GPa")
 HEAT = ("--conductivity", "50W/m/K,160W/m/K")
@@ -72,7 +73,7 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     ],
 )
 def test_what_makes_no_sense_is_refused_before_the_work(invoke, joint, tmp_path, monkeypatch, words, message):
-    monkeypatch.setattr(rc, "loading_path", lambda *_, **__: pytest.fail("it went to work"))
+    monkeypatch.setattr(loading, "solutions_along", lambda *_, **__: pytest.fail("it went to work"))
     words = [tmp_path / "out" if word == "OUT" else word for word in words]
     answer = invoke("curve", joint, *LOADS, *words)
     assert answer.exit_code == 2

@@ -20,11 +20,11 @@ class OutOfSteps:
     missed: float = MISSED
     starts: dict = field(default_factory=dict)
 
-    def run(self, operator, separation, terms, initial):
-        load = round(terms.control.value, 12)
+    def run(self, operator, separation, spec, initial):
+        load = round(spec.control.value, 12)
         self.starts.setdefault(load, []).append(np.array(initial).ravel())
         method = rc.PolonskyKeer(max_steps=3) if load == self.missed else rc.ActiveSet()
-        return method.run(operator, separation, terms, initial)
+        return method.run(operator, separation, spec, initial)
 
 
 def plane():

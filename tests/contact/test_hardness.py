@@ -6,7 +6,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.solver import plastic as hard
-from roughcontact.solver.control import Depth, Force, State, Status, Terms
+from roughcontact.solver.control import Depth, Force, Specification, State, Status
 from roughcontact.solver.nested_iteration import nested_start
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 
@@ -229,17 +229,17 @@ def test_a_flat_body_by_the_depth_that_carries_the_force(monkeypatch):
     grid = rc.Grid((8, 8), 1.0)
     flat, force, hardness = rc.Surface(np.zeros((8, 8)), grid), 0.9 * 64 * 1e-3, 1e-3
     plain = rc.press(flat, MODULUS, force=force, hardness=hardness)
-    terms = Terms(Force(force), hardness=hardness)
+    spec = Specification(Force(force), hardness=hardness)
     elastic = rc.press(flat, MODULUS, force=force).pressure
     circling = State(elastic, 0.0, 1.0, 0, Status.STAGNATED)
     run = PolonskyKeer.run
 
-    def at_depth_only(self, operator, separation, terms, initial):
-        return circling if terms.depth is None else run(self, operator, separation, terms, initial)
+    def at_depth_only(self, operator, separation, spec, initial):
+        return circling if spec.depth is None else run(self, operator, separation, spec, initial)
 
     monkeypatch.setattr(PolonskyKeer, "run", at_depth_only)
     half = rc.half_space(grid, MODULUS)
-    pressure, _ = hard._by_depth(half, np.zeros((8, 8)), terms, PolonskyKeer())
+    pressure, _ = hard._by_depth(half, np.zeros((8, 8)), spec, PolonskyKeer())
     assert pressure.sum() == pytest.approx(force, rel=1e-8)
     np.testing.assert_allclose(pressure, plain.pressure, rtol=1e-6)
     monkeypatch.undo()
@@ -259,9 +259,9 @@ def test_the_depth_is_sought_soon_where_the_projection_comes_no_nearer(rough, mo
     ends = []
     run = PolonskyKeer.run
 
-    def spied(self, operator, separation, terms, initial):
-        state = run(self, operator, separation, terms, initial)
-        if terms.depth is None:
+    def spied(self, operator, separation, spec, initial):
+        state = run(self, operator, separation, spec, initial)
+        if spec.depth is None:
             ends.append(state)
         return state
 
@@ -269,8 +269,8 @@ def test_the_depth_is_sought_soon_where_the_projection_comes_no_nearer(rough, mo
     monkeypatch.setattr(hard.tuning, "DEPTH_TRIALS", 1)
     operator = rc.half_space(rough.grid, MODULUS)
     separation = rough.heights.max() - rough.heights
-    terms = Terms(Force(2e-3), tolerance=0.0, hardness=0.05)
-    hard.press_plastic(operator, separation, terms, np.zeros(rough.grid.shape), 20000)
+    spec = Specification(Force(2e-3), tolerance=0.0, hardness=0.05)
+    hard.press_plastic(operator, separation, spec, np.zeros(rough.grid.shape), 20000)
     first, last = ends
     assert first.status is last.status is Status.STAGNATED
     assert first.steps < 500 < last.steps

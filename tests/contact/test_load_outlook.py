@@ -5,6 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact.load_outlook import load_outlook
+from roughcontact.solver.loads import Loads
 from roughcontact.statistics.fit_window import CELLS
 
 MODULUS, RMS = 1e11, 1e-7
@@ -23,7 +24,7 @@ def test_it_says_what_the_curve_will_say(cells, hurst, periodic, ends):
     """Of maps on which the blocks are the map itself, and of larger ones."""
     surface = surface_of(cells, hurst, periodic)
     forces = np.geomspace(*ends, 7) * MODULUS * RMS * cells * 1e-6
-    ahead = load_outlook(surface, MODULUS, forces=forces)
+    ahead = load_outlook(surface, MODULUS, Loads("force", forces))
     curve = rc.loading_curve(surface, MODULUS, forces=forces)
     assert ahead.below == np.count_nonzero(curve.stiffness < CELLS * curve.cell_stiffness)
     assert (ahead.count, ahead.resolved) == (7, np.count_nonzero(curve.resolved))
@@ -32,8 +33,8 @@ def test_it_says_what_the_curve_will_say(cells, hurst, periodic, ends):
 def test_pressures_are_forces_over_the_area():
     surface = surface_of(64, 0.8, False)
     forces = np.geomspace(1e-3, 30.0, 6) * MODULUS * RMS * 64e-6
-    by_force = load_outlook(surface, MODULUS, forces=forces)
-    assert load_outlook(surface, MODULUS, pressures=forces / surface.grid.area) == by_force
+    by_force = load_outlook(surface, MODULUS, Loads("force", forces))
+    assert load_outlook(surface, MODULUS, Loads("pressure", forces / surface.grid.area)) == by_force
     assert 0 < by_force.below < by_force.below + by_force.above < 6
 
 
@@ -43,15 +44,12 @@ def test_of_profiles(body):
     operator = body(line.grid, MODULUS)
     length = 1.0 if body is rc.line else 512e-6
     forces = np.geomspace(1e-5, 100.0, 9) * MODULUS * RMS * length
-    ahead = load_outlook(line, MODULUS, forces=forces, operator=operator)
+    ahead = load_outlook(line, MODULUS, Loads("force", forces), operator)
     curve = rc.loading_curve(line, MODULUS, forces=forces, operator=operator)
     assert ahead.resolved == np.count_nonzero(curve.resolved)
     assert 0 < ahead.below < 9
 
 
-def test_loads_of_one_kind_are_wanted():
-    surface = surface_of(64, 0.8, False)
-    with pytest.raises(ValueError, match=r"force.*pressure"):
-        load_outlook(surface, MODULUS)
+def test_a_pressure_is_positive():
     with pytest.raises(ValueError, match="positive"):
-        load_outlook(surface, MODULUS, pressures=[-1.0])
+        load_outlook(surface_of(64, 0.8, False), MODULUS, Loads("pressure", [-1.0]))

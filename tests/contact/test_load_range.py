@@ -185,9 +185,9 @@ def test_a_map_on_one_feature_goes_on_until_others_carry():
     particle = 3e-7 * np.exp(-(((x[:, None] - 40e-6) ** 2 + (y - 70e-6) ** 2) / (2 * 6e-6**2)))
     dirty = rc.Surface(surface.heights + particle, surface.grid)
     found, clean = rc.load_range(dirty, 1e9), rc.load_range(surface, 1e9)
-    assert found.one_feature
+    assert found.single_feature
     assert any("one feature" in note and "up to" in note for note in found.notes)
-    assert not clean.one_feature
+    assert not clean.single_feature
     assert not clean.notes
     light, heavy = (rc.press(dirty, 1e9, force=f) for f in (found.lowest, found.highest))
     assert light.spots.loads.max() > 0.5 * light.force

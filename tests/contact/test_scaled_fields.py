@@ -11,7 +11,7 @@ from regions import close, plane, region
 from roughcontact.kernels import loader
 from roughcontact.kernels.constants import NEVER
 from roughcontact.solver.compiled_vectors import CompiledVectors
-from roughcontact.solver.control import Depth, Force, Terms
+from roughcontact.solver.control import Depth, Force, Specification
 from roughcontact.solver.inner_operator import FullGrid
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate
@@ -27,7 +27,7 @@ class Asked:
     """What a solve is asked to begin with: a driver, what is asked, who is free, and what there is so far."""
 
     driver: FullGrid
-    terms: Terms
+    spec: Specification
     kept: np.ndarray
     start: np.ndarray
     separation: np.ndarray
@@ -42,14 +42,14 @@ class Asked:
     def depth(self):
         return (
             (self.separation + self.displacement)[self.kept].mean()
-            if self.terms.depth is None
-            else self.terms.depth
+            if self.spec.depth is None
+            else self.spec.depth
         )
 
     def fields(self):
         measure = Measure(self.driver.weights)
         trial = Iterate(self.start, self.displacement, self.separation)
-        return scaled_vectors(self.driver, measure, self.terms, self.kept, trial, otherwise=self.otherwise)
+        return scaled_vectors(self.driver, measure, self.spec, self.kept, trial, otherwise=self.otherwise)
 
     def both(self):
         with pytest.MonkeyPatch.context() as patch:
@@ -72,8 +72,8 @@ def asked(draw):
     start = carries * np.abs(rng.standard_normal(shape)) * draw(st.sampled_from([1e-9, 1.0, 1e9]))
     separation = np.where(there, np.abs(rng.standard_normal(shape)), np.inf)
     driver = draw(st.sampled_from([FullGrid, partial(FullGrid, single=True)]))(plane(shape))
-    terms = Terms(draw(st.sampled_from([Force(1.0), Depth(0.3)])))
-    return Asked(driver, terms, kept, start, separation, rng.standard_normal(shape))
+    spec = Specification(draw(st.sampled_from([Force(1.0), Depth(0.3)])))
+    return Asked(driver, spec, kept, start, separation, rng.standard_normal(shape))
 
 
 @many
@@ -113,12 +113,12 @@ def test_scaled_fields(start):
 
 @pytest.mark.parametrize("kind", [FullGrid, partial(FullGrid, single=True)])
 @pytest.mark.parametrize(("otherwise", "wanted"), [(0.0, 1.0), (1e-3, 1e-3)])
-@pytest.mark.parametrize("terms", [Terms(Force(1.0)), Terms(Depth(0.25))])
-def test_the_unit_where_nothing_is_lacking(kind, otherwise, wanted, terms):
+@pytest.mark.parametrize("spec", [Specification(Force(1.0)), Specification(Depth(0.25))])
+def test_the_unit_where_nothing_is_lacking(kind, otherwise, wanted, spec):
     """Cells outside lack some, or what they have too much."""
     kept = region((5, 9))
     level, start = np.where(kept, 0.25, 3.0), np.full((5, 9), 0.75)
-    given = kind(plane((5, 9))), terms, kept, start, level, np.zeros((5, 9)), otherwise
+    given = kind(plane((5, 9))), spec, kept, start, level, np.zeros((5, 9)), otherwise
     for fields, unit in Asked(*given).both():
         assert unit == wanted
         assert fields.residual_max() == 0.0
@@ -205,7 +205,7 @@ def test_what_scaled_fields_are_made_of_may_lie_otherwise(order, kind):
     answers = []
     for lay in ("C", order):
         given = (np.array(f, order=lay) for f in (kept, start, separation, displacement))
-        fields, unit = Asked(kind(plane((9, 14))), Terms(Force(1.0)), *given).fields()
+        fields, unit = Asked(kind(plane((9, 14))), Specification(Force(1.0)), *given).fields()
         moved = lifted_alone(fields, True)
         answers.append((unit, fields.r, moved, fields.pressure(np.array(start, order=lay), unit)))
     for one, other in zip(*answers, strict=True):

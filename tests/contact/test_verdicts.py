@@ -24,13 +24,14 @@ def test_the_peak_of_the_stress_is_resolved_from_two_cells_below_the_surface(for
 
 
 @pytest.mark.parametrize(
-    ("force", "above_cells", "resolved"), [(1e-6, False, False), (3e-2, True, True), (10.0, True, False)]
+    ("force", "resolved_from_below", "resolved"),
+    [(1e-6, False, False), (3e-2, True, True), (10.0, True, False)],
 )
-def test_a_contact_is_resolved_between_a_cell_and_the_whole_map(force, above_cells, resolved):
+def test_a_contact_is_resolved_between_a_cell_and_the_whole_map(force, resolved_from_below, resolved):
     solution = pressed(force=force)
-    assert solution.contact.sum() > 1 or not above_cells
-    assert (solution.contact.mean() > 0.9) == (above_cells and not resolved)
-    assert solution.above_cells is above_cells
+    assert solution.contact.sum() > 1 or not resolved_from_below
+    assert (solution.contact.mean() > 0.9) == (resolved_from_below and not resolved)
+    assert solution.resolved_from_below is resolved_from_below
     assert solution.resolved is resolved
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import bounds, punch
+from roughcontact.theory import punch
 from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact_thesis import bounds
 
 
 def printed_4_14(modulus, length):

@@ -7,11 +7,11 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.mdr.calibration import calibrated_lambda
 from roughcontact.mdr.equivalent_line import line_spectrum
 from roughcontact.mdr.lattice_sums import lambda_rms
 from roughcontact.mdr.random_lines import rough_lines
 from roughcontact.mdr.rough_line import loading_curves
+from roughcontact_thesis.calibration import calibrated_lambda
 
 MODES, LENGTH = 6, 3.0
 

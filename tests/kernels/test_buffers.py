@@ -6,7 +6,7 @@ from threading import Barrier
 import numpy as np
 import pytest
 
-from roughcontact.kernels import buffers as room
+from roughcontact.kernels import buffers
 from roughcontact.kernels.buffers import (
     FITTING,
     LARGE,
@@ -15,7 +15,7 @@ from roughcontact.kernels.buffers import (
     SMALL,
     aligned,
     empty,
-    large_ones_kept,
+    keep_large_buffers,
     zeros,
 )
 from roughcontact.kernels.calls import address
@@ -25,8 +25,8 @@ COUNT = SMALL // 4  # numbers of which some memory is kept
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch):
-    monkeypatch.setattr(room, "_kept", {})
-    monkeypatch.setattr(room, "_total", [0])
+    monkeypatch.setattr(buffers, "_kept", {})
+    monkeypatch.setattr(buffers, "_total", [0])
 
 
 def where(array):
@@ -35,9 +35,9 @@ def where(array):
 
 def kept():
     """Return the bytes that are kept, as they are counted."""
-    sizes = [memory.nbytes - LINE for blocks in room._kept.values() for _, memory in blocks]
-    assert room._total[0] == sum(sizes)
-    return room._total[0]
+    sizes = [memory.nbytes - LINE for blocks in buffers._kept.values() for _, memory in blocks]
+    assert buffers._total[0] == sum(sizes)
+    return buffers._total[0]
 
 
 @pytest.mark.parametrize("make", [empty, zeros])
@@ -135,7 +135,7 @@ def large(size=LARGE):
 
 
 def test_a_large_one_is_kept_within_a_loop():
-    with large_ones_kept():
+    with keep_large_buffers():
         first = large()
         place = where(first)
         assert place % LINE == 0
@@ -151,7 +151,7 @@ def test_a_large_one_is_kept_within_a_loop():
     ("part", "taken"), [(0.5 * (1 + 1 / FITTING), True), (0.9 / FITTING, False), (1.1, False)]
 )
 def test_a_smaller_one_takes_the_piece_of_a_larger_one_if_that_fits(part, taken):
-    with large_ones_kept():
+    with keep_large_buffers():
         first = large(2 * LARGE)
         place, end = where(first), where(first) + first.nbytes
         del first
@@ -161,7 +161,7 @@ def test_a_smaller_one_takes_the_piece_of_a_larger_one_if_that_fits(part, taken)
 
 
 def test_the_smallest_piece_that_fits_is_taken():
-    with large_ones_kept():
+    with keep_large_buffers():
         pieces = [large(size) for size in (LARGE + 2000, LARGE + 1000, LARGE + 3000)]
         places = [where(piece) for piece in pieces]
         pieces.clear()
@@ -170,16 +170,16 @@ def test_the_smallest_piece_that_fits_is_taken():
 
 def test_a_loop_keeps_nothing_beyond_its_end(monkeypatch):
     ended = []
-    monkeypatch.setattr(room._Loop, "end", lambda loop: ended.append(loop))
+    monkeypatch.setattr(buffers._LoopPool, "end", lambda loop: ended.append(loop))
 
     def interrupted():
-        with large_ones_kept():
+        with keep_large_buffers():
             large()
             raise KeyError
 
     with pytest.raises(KeyError):
         interrupted()
-    assert room._loop.get() is None
+    assert buffers._loop.get() is None
     (loop,) = ended
     monkeypatch.undo()
     assert len(loop._left) == 1
@@ -191,12 +191,12 @@ def test_a_loop_keeps_nothing_beyond_its_end(monkeypatch):
 
 
 def test_an_array_outlives_its_loop():
-    with large_ones_kept():
+    with keep_large_buffers():
         array = zeros((2, LARGE), "bool")
         array[1] = True
         part = array[1]
         del array
-    with large_ones_kept():
+    with keep_large_buffers():
         other = large(2 * LARGE)
         assert not np.shares_memory(other, part)
         other[:] = False
@@ -204,10 +204,10 @@ def test_an_array_outlives_its_loop():
 
 
 def test_each_loop_has_its_own():
-    with large_ones_kept():
+    with keep_large_buffers():
         outer = large()
         place = where(outer)
         del outer
-        with large_ones_kept():
+        with keep_large_buffers():
             assert where(large()) != place
         assert where(large()) == place

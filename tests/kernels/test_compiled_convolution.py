@@ -5,7 +5,7 @@ import pytest
 import scipy.fft
 from hypothesis import given, settings, strategies as st
 
-from roughcontact.kernels import buffers as room, loader
+from roughcontact.kernels import buffers, loader
 from roughcontact.kernels.compiled_convolution import LARGE, CompiledConvolution
 from roughcontact.kernels.constants import HALF
 from roughcontact.kernels.plane_plan import _plan, fits
@@ -221,7 +221,7 @@ def test_memory_is_kept_to(precision, lengths, monkeypatch):
         rooms.append((np.full(size + 2 * margin, nothing(dtype), dtype), margin))
         return rooms[-1][0][margin : margin + size].reshape(shape)
 
-    monkeypatch.setattr(room, "_kept", [])
+    monkeypatch.setattr(buffers, "_kept", [])
     monkeypatch.setattr(np, "empty", surrounded)
     found = convolution.apply(field)
     monkeypatch.undo()

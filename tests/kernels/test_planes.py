@@ -120,7 +120,7 @@ def test_predict_active(sized, share, own):
     p, u, s = given_to(rng, shape, share)
     read_only(p, u, s)
     depth, least = 0.5, -0.25
-    region, count, wrong = predict_active(p, u, s, depth=depth, least=least, own=own)
+    region, count, wrong = predict_active(p, u, s, depth=depth, least=least, a_ii=own)
     gap = u + s - depth
     asked = (p > 0) | (gap < least)
     pulls = asked & (p * own < gap) if own < math.inf else np.zeros(shape, bool)
@@ -135,7 +135,7 @@ def test_predict_active(sized, share, own):
 def test_limits_of_a_prediction_are_not_in_it():
     """What stands at the least gap stays out; what moves as far as its gap stays in."""
     p, u, s = np.array([0.0, 0.0, 2.0, 2.0]), np.zeros(4), np.array([1.0, 0.875, 2.5, 2.75])
-    region, count, wrong = predict_active(p, u, s, depth=1.5, least=-0.5, own=0.5)
+    region, count, wrong = predict_active(p, u, s, depth=1.5, least=-0.5, a_ii=0.5)
     assert region.tolist() == [False, True, True, False]
     assert (count, wrong) == (2, 1)
 
@@ -240,12 +240,12 @@ def test_totals_do_not_hang_on_the_number_of_threads(precision):
         with limit_threads(count):
             totals = [
                 extremes(p, u, s),
-                predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[1:],
+                predict_active(p, u, s, depth=0.5, least=-0.25, a_ii=0.75)[1:],
                 level_range(s, u, region),
             ]
             scale_down(p, u, s, region, tuple(written), depth=0.5, unit=0.3)
             written.append(add_scaled(p, change, inside, 0.3))
-            written.append(predict_active(p, u, s, depth=0.5, least=-0.25, own=0.75)[0])
+            written.append(predict_active(p, u, s, depth=0.5, least=-0.25, a_ii=0.75)[0])
         answers.append((totals, written))
     for totals, written in answers[1:]:
         assert totals == answers[0][0]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.plot.canvas import curve_figure
-from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, stiffness_curve
+from roughcontact.plot.curves import areal_curve, force_curve
 from roughcontact.plot.engineering_units import Scale
 from roughcontact.plot.ticks import readable_ticks
 
@@ -42,7 +42,7 @@ def level(axes: Axes) -> list[float]:
 
 def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
     assert 0 < curve.resolved.sum() < len(curve), "both kinds are needed here"
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     for label, mask in (("resolved", curve.resolved), ("not resolved", ~curve.resolved)):
         drawn = line(axes, label)
         # Units of the axes are powers of ten: ratios tell whether the points are the curve's.
@@ -57,7 +57,7 @@ def test_points_are_filled_where_resolved_and_open_elsewhere(axes, curve):
 
 
 def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     factor = line(axes, "resolved").get_ydata()[0] / curve.stiffness[curve.resolved][0]
     expected = [20 * curve.cell_stiffness * factor, curve.full_contact_stiffness * factor]
     assert level(axes) == pytest.approx(expected, rel=1e-12)
@@ -67,7 +67,7 @@ def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
 
 def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
     law = curve.fit((float(curve.force[2]), float(curve.force[-1])))
-    stiffness_curve(curve, axes, law=law)
+    force_curve(curve, axes, law=law)
     (drawn,) = [each for each in axes.lines if each.get_linewidth() == 2]
     points = line(axes, "resolved")
     x, y = (
@@ -83,7 +83,7 @@ def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
 def test_the_outer_axes_have_no_dimension(curve):
     figure = Figure()
     axes = figure.subplots()
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     figure.draw_without_rendering()
     right, upper = axes.child_axes
     x, y = line(axes, "resolved").get_data()
@@ -101,7 +101,7 @@ def test_an_infinite_full_contact_stiffness_has_no_line(axes):
     surface = rc.self_affine(grid, hurst=0.8, rms=1e-9, rng=np.random.default_rng(3))
     curve = rc.loading_curve(surface, MODULUS, pressures=[1e7, 1e8, 1e10])
     assert np.isinf(curve.stiffness[-1])  # full contact
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     assert len(level(axes)) == 1
     drawn = sum(len(each.get_xdata()) for each in axes.lines if each.get_marker() == "o")
     assert drawn == 2
@@ -111,21 +111,22 @@ def test_an_infinite_full_contact_stiffness_has_no_line(axes):
 def test_a_flat_surface_has_a_curve(axes):
     surface = rc.Surface(np.zeros((8, 8)), rc.Grid((8, 8), 1e-3))
     curve = rc.loading_curve(surface, MODULUS, forces=[1.0, 10.0])
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     axes.figure.draw_without_rendering()
     assert not any("force /" in each.get_xlabel() for each in axes.child_axes)
 
 
 def test_area_and_depth(curve):
-    for draw, values in ((area_curve, curve.contact_area), (depth_curve, curve.depth)):
+    for quantity in ("contact_area", "depth"):
         figure = Figure()
         axes = figure.subplots()
-        draw(curve, axes)
+        values = getattr(curve, quantity)
+        force_curve(curve, axes, quantity=quantity)
         data = line(axes, "resolved").get_ydata()
         np.testing.assert_allclose(
             data / data[0], values[curve.resolved] / values[curve.resolved][0], rtol=1e-13
         )
-        if draw is area_curve:
+        if quantity == "contact_area":
             figure.draw_without_rendering()
             (right,) = axes.child_axes
             share = right.get_ylim()[0] / axes.get_ylim()[0] * data[0]
@@ -151,7 +152,7 @@ def test_numbers_on_a_logarithmic_axis_are_few_and_at_least_two(ratio, first):
 
 
 def test_the_lower_limit_is_named_for_what_it_is(axes, curve):
-    stiffness_curve(curve, axes)
+    force_curve(curve, axes)
     assert [text.get_text() for text in axes.texts] == ["20 x one cell", "full contact"]
 
 
@@ -161,7 +162,7 @@ def test_full_contact_alone_has_a_picture(axes, kind):
     grid = rc.Grid((8, 8) if kind == "surface" else 8, 1e-6, True)
     wavy = rc.self_affine(grid, hurst=0.8, rms=1e-12, rng=np.random.default_rng(0))
     operator = rc.line(grid, 1e9) if kind == "line" else None
-    stiffness_curve(rc.loading_curve(wavy, 1e9, pressures=[1e6, 2e6], operator=operator), axes)
+    force_curve(rc.loading_curve(wavy, 1e9, pressures=[1e6, 2e6], operator=operator), axes)
     axes.figure.canvas.draw()
     assert not axes.get_lines() or kind == "surface"
 
@@ -169,7 +170,7 @@ def test_full_contact_alone_has_a_picture(axes, kind):
 def test_on_a_line_no_stiffness_tells_what_is_resolved(axes):
     grid = rc.Grid(128, 1e-6)
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
-    stiffness_curve(rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)), axes)
+    force_curve(rc.loading_curve(rough, 1e9, forces=[1.0, 10.0], operator=rc.line(grid, 1e9)), axes)
     assert [text.get_text() for text in axes.texts] == ["full contact"]
 
 
@@ -212,7 +213,7 @@ def test_no_line_lies_under_words_where_there_is_room(periodic):
         for at in (2e-3, 0.2)
     ]
     figure = Figure(figsize=(8, 6), dpi=100)
-    axes = stiffness_curve(curve, figure.subplots(), theories=laws)
+    axes = force_curve(curve, figure.subplots(), theories=laws)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     texts = [text for text in axes.texts if text.get_text()]

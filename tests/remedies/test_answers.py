@@ -149,7 +149,7 @@ ADHESION = [
     ),
     row(
         lambda: path(forces=[-1e-9, 1e-9]),
-        "begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)",
+        "begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)",
         lambda: path(forces=[0.0, -1e-9]),
         lambda: rc.adhesive_loop(ROUGH, MODULUS, FAR, depth=1e-9),
     ),

@@ -6,7 +6,9 @@ from followed import commands, follow_command
 
 CURVE = "curve rough.npz --modulus 1GPa"
 TWO = f"{CURVE} --forces 1mN,2mN"
-FAR = f"{CURVE} --work 1mJ/m^2 --range 100nm"
+STICKS = "rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm"
+FAR = f"adhesion curve {STICKS}"
+LOOP = f"adhesion loop {STICKS}"
 LINE = "curve profile.txt --unit m --modulus 1GPa --profile line --forces 1N/m,2N/m"
 SPRINGS = "curve profile.txt --unit m --modulus 1GPa --profile winkler --forces 1mN,2mN"
 
@@ -59,30 +61,20 @@ $ {SPRINGS} --hardness 1GPa
 """
 
 ADHESION = f"""
-$ {CURVE} --pressures 1kPa,2kPa --work 1mJ/m^2 --range 100nm
-! --pressures does not go with --work: give --forces, pressures times area, or --depths
-> {FAR} --forces 1.5uN,3uN
-> {FAR} --depths 1nm,2nm
+$ {CURVE} --forces 1uN,2uN --work 1mJ/m^2 --range 100nm
+! use 'roughcontact adhesion curve' for it
+> {FAR} --forces 1uN,2uN
 
-$ {TWO} --points 10
-! leave it out, or give --work
-> {TWO}
-> {FAR} --loop --depths 20nm --points 10
-
-$ {FAR} --forces 1uN,2uN --points 10
-! without it name all --depths, --forces or --mean-gaps
+$ {FAR}
+! give the loads (--depths or --forces or --pressures or --mean-gaps)
 > {FAR} --depths 1nm,2nm
 > {FAR} --forces 1uN,2uN
+> {FAR} --pressures 1kPa,2kPa
 > {FAR} --mean-gaps 100nm,99nm --periodic
 
-$ {FAR} --loop --forces 1uN,2uN
-! give one, such as --depths 20nm; or leave out --loop, and name all --depths, --forces or --mean-gaps
-> {FAR} --loop --depths 20nm
-> {FAR} --forces 1uN,2uN
-
-$ {FAR} --loop --depths 20nm --points 1
-! an approach has from 2 to 10000 depths, not 1
-> {FAR} --loop --depths 20nm --points 2
+$ {LOOP} --depth 20nm --points 1
+! Invalid value for '--points'
+> {LOOP} --depth 20nm --points 2
 
 $ {FAR} --depths 1nm:2nm
 ! write from:to:count, such as -20nm:20nm:41
@@ -90,7 +82,7 @@ $ {FAR} --depths 1nm:2nm
 > {FAR} --depths -20nm:20nm:41
 
 $ {FAR} --forces -1nN,1nN
-! cannot begin under the tension -1e-09: begin with 0 or more, and let the tension follow ('roughcontact curve')
+! begin with 0 or more, and let the tension follow ('roughcontact adhesion curve')
 > {FAR} --forces 0N,-1nN
 
 $ {FAR} --mean-gaps 100nm

@@ -226,14 +226,9 @@ BODIES = [
     ),
     row(
         lambda: rc.memory_needed(ROUGH.heights),
-        "a map or its grid of two axes is wanted, not a ndarray",
+        "a surface or its grid is wanted, not a ndarray",
         lambda: rc.memory_needed(ROUGH),
         lambda: rc.memory_needed(PLANE),
-    ),
-    row(
-        lambda: rc.memory_needed(PLANE, force=FORCE),
-        "depends on how much touches: give the surface and the modulus",
-        lambda: rc.memory_needed(ROUGH, modulus=MODULUS, force=FORCE),
     ),
 ]
 

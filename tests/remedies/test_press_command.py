@@ -8,8 +8,9 @@ PRESS = "press rough.npz --modulus 1GPa"
 FORCE = "press rough.npz --force 1mN"
 BARE = "press bare.npy --force 1mN --modulus 1GPa"
 PROFILE = "press profile.txt --unit m --modulus 1GPa --force 1N/m"
-STICKS = f"{PRESS} --work 1mJ/m^2"
-FAR = f"{STICKS} --range 100nm"
+FAR = "adhesion press rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm"
+DETACH = "adhesion detach rough.npz --modulus 1GPa --work 1mJ/m^2"
+NEAR = "adhesion press rough.npz --modulus 1GPa --work 50mJ/m^2"
 FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
 LOADS = f"""
@@ -215,33 +216,61 @@ $ {PROFILE} --profile line --errors
 """
 
 ADHESION = f"""
-$ {PRESS} --pressure 1kPa --work 1mJ/m^2 --range 100nm
-! give --force, pressure times area, or --depth
-> {FAR} --force 1.5uN
-> {FAR} --depth 1nm
-
-$ {STICKS} --force 1uN
-! such as --range 2nm
+$ {PRESS} --force 1uN --work 1mJ/m^2 --range 100nm
+! use 'roughcontact adhesion press' for it
 > {FAR} --force 1uN
 
-$ {PRESS} --force 1mN --range 100nm
-! give the work of adhesion, such as --work 50mJ/m^2
-> {PRESS} --force 1mN --range 100nm --work 50mJ/m^2
+$ {FAR}
+! give one load (--force or --pressure or --depth or --mean-gap)
+> {FAR} --force 1uN
+> {FAR} --pressure 1kPa
+> {FAR} --depth 1nm
+> {FAR} --mean-gap 100nm --periodic
 
-$ {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm
+$ {NEAR} --force 1uN --range 2nm
 ! take cells of at most 1.69e-08 m or a range of at least 2.18e-08 m, or give --allow-unresolved
-> {PRESS} --force 1nN --work 50mJ/m^2 --range 2nm --size '405.6nm x 540.8nm'
-> {PRESS} --force 1uN --work 50mJ/m^2 --range 2.18e-08m
-> {PRESS} --force 1uN --work 50mJ/m^2 --range 2nm --allow-unresolved
+> {NEAR} --force 1nN --range 2nm --size '405.6nm x 540.8nm'
+> {NEAR} --force 1uN --range 2.18e-08m
+> {NEAR} --force 1uN --range 2nm --allow-unresolved
 
 $ {FAR} --force -1nN
-! give 'curve --forces 0N,-1nN'
-> curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --forces 0N,-1nN
+! give 'adhesion curve --forces 0,-1nN'
+> adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --forces 0,-1nN
+
+$ {FAR} --pressure -1Pa
+! give 'adhesion curve --pressures 0,-1Pa'
+> adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --pressures 0,-1Pa
+
+$ {FAR} --mean-gap 100nm
+! here the body is not periodic: give depths or forces
+> {FAR} --depth 1nm
+> {FAR} --force 1uN
 
 $ {FAR} --force 1uN --hardness 1GPa
-! leave it out, or leave out --work
-> {FAR} --force 1uN
+! use 'roughcontact press' for it
 > {PRESS} --force 1uN --hardness 1GPa
+"""
+
+STUCK = f"""
+$ {DETACH} --depth 0nm
+! nothing is in contact in this solution: press to a force or a depth above zero
+> {DETACH} --depth 10nm
+> {DETACH} --force 1uN
+
+$ {DETACH} --depth 10nm --depths 20nm
+! press to that depth, or begin with 1e-08 or less
+> {DETACH} --depth 20nm --depths 20nm
+> {DETACH} --depth 10nm --depths 1e-08
+
+$ {DETACH} --depth 10nm --depths=-5nm,5nm
+! leave it out, or use 'roughcontact adhesion curve', with which surfaces come together again
+> {DETACH} --depth 10nm --depths=-5nm
+> adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --depths=-5nm,5nm
+
+$ {DETACH} --depth 10nm --depths 5nm --forces 0N
+! --depths and --forces exclude each other: give one of them
+> {DETACH} --depth 10nm --depths 5nm
+> {DETACH} --depth 10nm --forces 0N
 """
 
 FLOW = f"""
@@ -301,6 +330,6 @@ $ {PRESS} --force 1mN --short-cutoff 10um
 """
 
 
-@pytest.mark.parametrize("refusal", commands(LOADS, BODIES, READING, ADHESION, FLOW, WRITING))
+@pytest.mark.parametrize("refusal", commands(LOADS, BODIES, READING, ADHESION, STUCK, FLOW, WRITING))
 def test_press(command, refusal):
     follow_command(command, refusal)

@@ -203,7 +203,7 @@ def test_a_writer_that_fails_leaves_nothing(tmp_path, monkeypatch):
             raise OSError(28, "No space left on device")
         return real(path, mode, *rest, **named)
 
-    monkeypatch.setattr("roughcontact.files.write_in_slabs.open", full, raising=False)
+    monkeypatch.setattr("roughcontact.files.numpy_files.open", full, raising=False)
     with pytest.raises((rc.WriteError, OSError), match="No space left"):
         together(2, lambda communicator: rc.write(in_slabs(surface, communicator), tmp_path / "map.npy"))
     assert list(tmp_path.iterdir()) == []

@@ -1,18 +1,22 @@
 """Machine code on fields in slabs: what it finds is that of one process, on any number of them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from regions import PRECISIONS, eighths
 from roughcontact.halfspace.sums import local_inverse
-from roughcontact.halfspace.sums.local_inverse import BLOCK, LocalInverse
+from roughcontact.halfspace.sums.local_inverse import LocalInverse
 from roughcontact.kernels import active_cells, loader, planes
-from roughcontact.kernels.active_cells import ActiveCells, mask_above, sum_blocks, sum_stencil, with_margins
+from roughcontact.kernels.active_cells import ActiveCells, mask_above, with_margins
 from roughcontact.kernels.constants import REACH
 from roughcontact.slabs import levels_of_slabs
+from roughcontact.slabs.passes import passes_over
 from roughcontact.solver import inner_operator, vectors
-from roughcontact.solver.optimality import Iterate
+from roughcontact.solver.inner_operator import FullGrid
+from roughcontact.solver.rows_operator import RowsInverse, on_own_rows
 from slabs.test_slabs import SIZES, in_slabs, rough
 from slabs.together import together
 
@@ -33,6 +37,12 @@ def dealt(communicator, *wholes):
     return [slabs.array(whole[slabs.rows(len(whole))]) for whole in wholes]
 
 
+def rows_of(inverse, field):
+    """Return a truncated inverse on the rows of this process, None where blocks do not fit."""
+    inner = SimpleNamespace(local_inverse=inverse)
+    return on_own_rows(inner, field).local_inverse
+
+
 @pytest.fixture(autouse=True, params=[None, 3], ids=["one part", "many parts"])
 def part(request, monkeypatch):
     """So few cells at a time that slabs come in different numbers of parts."""
@@ -50,8 +60,9 @@ def test_planes(size, shape):
     p = np.maximum(p, 0.0)
     region = p > 0
     region[-1, -1] = True
-    wanted = planes.extremes(p, u, f), planes.level_range(f, u, region)
-    allowed = {"depth": 0.25, "least": -0.125, "own": 0.5}
+    extremes, levels = planes.extremes(p, u, f), planes.level_range(f, u, region)
+    total, part = planes.positive_total(p, f), planes.positive_part(p, f, 0.25)
+    allowed = {"depth": 0.25, "least": -0.125, "a_ii": 0.5}
     cells, *counts = planes.predict_active(p, u, f, **allowed)
 
     def scaled(zeros, *fields):
@@ -63,15 +74,21 @@ def test_planes(size, shape):
 
     def work(communicator):
         there = dealt(communicator, p, u, f, region)
-        xp = there[0].functions
-        assert (planes.extremes(*there[:3]), planes.level_range(there[2], there[1], there[3])) == wanted
-        found, *how_many = planes.predict_active(*there[:3], **allowed)
+        xp, (first, *_, last) = there[0].functions, there
+        passes = passes_over(first)
+        assert passes.fit(*there[:3])
+        assert passes.extremes(*there[:3]) == extremes
+        assert passes.positive_total(first, there[2]) == total
+        np.testing.assert_array_equal(passes.positive_part(first, there[2], 0.25).gathered(), part)
+        found, *how_many = passes.predict_active(*there[:3], **allowed)
         np.testing.assert_array_equal(found.gathered(), cells)
         assert how_many == counts
-        for mine, its in zip(scaled(lambda: xp.zeros_like(there[0]), *there), whole, strict=True):
-            np.testing.assert_array_equal(mine.gathered(), its)
-        broken = xp.where(there[0] == xp.max(there[0]), np.nan, there[0])
-        assert planes.extremes(broken, *there[1:3]) is None
+        here = [field.local for field in there]
+        assert planes.level_range(here[2], here[1], last.local, xp.combined) == levels
+        for mine, its in zip(scaled(lambda: np.zeros(last.local.shape), *here), whole, strict=True):
+            np.testing.assert_array_equal(first.like(mine).gathered(), its)
+        broken = xp.where(first == xp.max(first), np.nan, first)
+        assert passes.extremes(broken, *there[1:3]) is None
 
     together(size, work)
 
@@ -95,16 +112,11 @@ def test_totals_on_a_region(size, shape, precision):
 
     def work(communicator):
         there = dealt(communicator, inside, t, v, r)
-        held = [field.local for field in there]
-        region = ActiveCells(there[0])
-        assert region.run("dot_products", 6, held[1], held[2], held[0], held[3]) == sums
-        assert (
-            ActiveCells(there[0], tuple(there[1:3])).run(
-                "max_violation", 1, held[1], held[2], held[0], largest=True
-            )
-            == most
-        )
-        assert mask_above(there[0], there[3], 0.125) == worst
+        (cells, t_, v_, r_), combine = (field.local for field in there), there[0].functions.combined
+        assert ActiveCells(cells, combine=combine).run("dot_products", 6, t_, v_, cells, r_) == sums
+        pressed = ActiveCells(cells, (t_, v_), combine)
+        assert pressed.run("max_violation", 1, t_, v_, cells, largest=True) == most
+        assert mask_above(cells, r_, 0.125, combine) == worst
         np.testing.assert_array_equal(there[0].gathered(), mask)
 
     together(size, work)
@@ -119,15 +131,16 @@ def test_stencil(size, shape, precision):
     inside = (rng.random(shape) < 0.7).astype(precision)
     fields = [rng.standard_normal(shape).astype(precision) for _ in range(2)]
     weights = rng.standard_normal((REACH + 1, REACH + 1)).astype(precision)
-    one = ActiveCells(inside)
-    wanted = [on_region(inside, sum_stencil(one, with_margins(field), weights)) for field in fields]
+    one, inverse = ActiveCells(inside), LocalInverse(weights, None)
+    wanted = [on_region(inside, inverse.on(one, with_margins(field))) for field in fields]
 
     def work(communicator):
         cells, *there = dealt(communicator, inside, *fields)
-        region, field = ActiveCells(cells), with_margins(there[0])
+        region, field = ActiveCells(cells.local), with_margins(there[0].local)
+        rows = RowsInverse(inverse, cells.edges, cells.functions)
         for values, sums in zip(there, wanted, strict=True):
-            field[...] = values
-            found = on_region(inside, sum_stencil(region, field, weights))
+            field[...] = values.local
+            found = on_region(inside, cells.like(rows.on(region, field)))
             np.testing.assert_array_equal(found, sums)
 
     together(size, work)
@@ -143,16 +156,12 @@ def test_inverse_with_blocks(size, filled, monkeypatch):
     rng = np.random.default_rng(1)
     inside = (rng.random(shape) < filled).astype(float)
     field = eighths(rng, shape, np.float64) * inside
-    region = ActiveCells(inside)
-    blocks = sum_blocks(region, field, BLOCK)
-    wanted = on_region(inside, inverse.on(region, with_margins(field)))
+    wanted = on_region(inside, inverse.on(ActiveCells(inside), with_margins(field)))
 
     def work(communicator):
         cells, there = dealt(communicator, inside, field)
-        assert inverse.fits(there)
-        here = ActiveCells(cells)
-        np.testing.assert_array_equal(sum_blocks(here, there, BLOCK).gathered(), blocks)
-        return on_region(inside, inverse.on(here, with_margins(there)))
+        found = rows_of(inverse, there).on(ActiveCells(cells.local), with_margins(there.local))
+        return on_region(inside, there.like(found))
 
     for found in together(size, work):
         np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * np.abs(wanted).max())
@@ -165,7 +174,8 @@ def test_where_blocks_do_not_fit(monkeypatch):
     def work(communicator):
         for shape, fits in [((15, 24), False), ((44, 24), False), ((10, 4), True), ((16, 24), True)]:
             [field] = dealt(communicator, np.zeros(shape))
-            assert LocalInverse.of(2.0, shape, (1.0, 1.0)).fits(field) == fits
+            rows = rows_of(LocalInverse.of(2.0, shape, (1.0, 1.0)), field)
+            assert (rows is not None) == fits
 
     together(2, work)
 
@@ -176,10 +186,13 @@ def test_all_agree_on_machine_code():
     def work(communicator):
         [field] = dealt(communicator, np.ones((8, 6)))
         other = field.like(field.local if communicator.rank else np.asfortranarray(field.local))
-        assert loader.takes(field)
-        assert Iterate(field, field, field).fits_machine_code()
-        assert not Iterate(field, other, field).fits_machine_code()
-        assert not loader.takes(field.like(field.local.astype("f4" if communicator.rank else "f2")))
+        passes = passes_over(field)
+        assert passes.fit(field, field, field)
+        assert not passes.fit(field, other, field)
+        mixed = field.like(field.local.astype("f4" if communicator.rank else "f2"))
+        inner = FullGrid(rc.half_space(rc.Grid((8, 6), 1.0, periodic=True), 1.0))
+        assert passes_over(mixed) is None
+        assert on_own_rows(inner, mixed) is inner
 
     together(2, work)
 
@@ -210,7 +223,7 @@ def test_press(size, shape, large, fits, load, monkeypatch):
     asked = {**load, "tolerance": 1e-12, "solver": rc.ActiveSet(dense_limit=0)}
     with monkeypatch.context() as patch:
         if not fits:
-            patch.setattr(LocalInverse, "fits", lambda *_: False)
+            patch.setattr(FullGrid, "local_inverse", None)
         here = rc.press(surface, 1e9, **asked)
 
     def work(communicator):

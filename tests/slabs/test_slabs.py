@@ -7,20 +7,16 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.cli import run_memory
-from roughcontact.contact.memory_model import share_peak
+from roughcontact.contact.memory_needed import require_memory_for
 from roughcontact.contact.spots import find_spots
-from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
-from roughcontact.contact.touch import ERROR, require_memory_for_load
 from roughcontact.kernels import buffers
-from roughcontact.memory import SMALL
 from roughcontact.slabs import exchange, levels_of_slabs
 from roughcontact.slabs.rows import IMBALANCE, edges_of
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import complementarity
 from roughcontact.solver.complementarity import added_stiffness
 from roughcontact.solver.inner_product import Measure
-from roughcontact.surface import waves_in_slabs
+from roughcontact.surface import random_heights
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]
@@ -171,7 +167,7 @@ def test_whole_levels_leave_no_memory_to_those_in_slabs(monkeypatch):
     rc.press(rough((128, 128)), 1e9, pressure=1e6)
     assert buffers._total[0] > 0
     together(1, lambda one: rc.press(in_slabs(rough((256, 256)), one), 1e9, pressure=1e6))
-    assert buffers._total[0] == 0
+    assert (128, 128) not in {shape for shape, _ in buffers._kept}
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -188,7 +184,7 @@ def test_spots_are_those_of_one_process(size, shape, filled):
     def work(communicator):
         slabs = rc.Slabs(communicator)
         there = slabs.array(pressure[slabs.rows(shape[0])])
-        spots = find_spots_in_slabs(there > 0, there, cell)
+        spots = find_spots(there > 0, there, grid, Measure(cell))
         return spots.count, spots.labels.gathered(), spots.areas, spots.loads
 
     for count, labels, areas, loads in together(size, work):
@@ -325,7 +321,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
     Those of one process without slabs have another common factor: its sum rounds otherwise.
     """
     monkeypatch.setattr(exchange, "FEWEST", 2 * shape[0])  # two columns at once
-    monkeypatch.setattr(waves_in_slabs, "BLOCK", 30)
+    monkeypatch.setattr(random_heights, "POWERS", 30)
     grid = rc.Grid(shape, (1e-6, 1.2e-6), periodic=True)
     if way == "of a band" and shape == (3, 40):
         return  # no such grid has this band
@@ -342,7 +338,7 @@ def test_surfaces_are_made_in_place(size, shape, way, monkeypatch):
 
         return real(kept, shape, functions)
 
-    monkeypatch.setattr(waves_in_slabs, "plane_of_waves", watched)
+    monkeypatch.setattr(random_heights, "plane_of_waves", watched)
 
     def work(communicator):
         slabs = rc.Slabs(communicator)
@@ -407,48 +403,36 @@ def test_surfaces_that_are_not_made_in_place():
             together(2, work)
 
 
-def test_how_much_touches_is_not_asked_of_slabs(monkeypatch):
-    """Processes on machines with different memory free would not all ask."""
-    monkeypatch.setattr(run_memory, "_WORTH_SAYING", 1)
-
-    def work(communicator):
-        surface = in_slabs(rough((64, 64)), communicator)
-        run_memory.require_memory_for_load(surface, 1.0, {"pressure": 1e-3})
-        assert rc.memory_needed(surface, 1.0, pressure=1e-3) == rc.memory_needed(surface)
-
-    together(2, work)
-
-
 @pytest.mark.parametrize("processes", [1, 3])
 def test_what_does_not_fit_is_refused_on_all_processes(processes, monkeypatch):
-    surface, told = rough((256, 256)), []
+    surface, told = rough((516, 516)), []
 
     def refused(communicator):
         with pytest.raises(ValueError, match="memory") as error:
             rc.press(in_slabs(surface, communicator), 1e9, pressure=1e6)
         told.append(str(error.value))
-        assert rc.memory_needed(in_slabs(surface, communicator)) > 1e7
+        assert (
+            sum(communicator.allgather(rc.memory_needed(in_slabs(surface, communicator))[0])) == 40 * 516**2
+        )
 
-    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 1e7)
+    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 40 * 516**2 - 1)
     together(processes, refused)
     assert len(told) == processes
-    assert (
-        f"this load on 256 x 256 cells, held by {processes} processes of which {processes} share" in told[0]
-    )
+    assert f"a load on 516 x 516 cells, held by {processes} processes of which {processes} share" in told[0]
 
 
 @pytest.mark.parametrize("machines", ["abc", "aba"])
 def test_memory_is_that_of_the_processes_that_share_a_machine(machines, monkeypatch):
     """Each process takes two thirds of a machine: one fits, two do not, and then none begins."""
-    surface, names, told = rough((256, 256)), {}, []
-    share = max(share_peak(math.ceil(256 / 3) * 256, curve=False), SMALL * ERROR)
-    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 1.5 * share / ERROR)
+    surface, names, told = rough((516, 516)), {}, []
+    share = 40 * 516**2 / 3
+    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 1.5 * share)
     monkeypatch.setattr("platform.node", lambda: names[threading.get_ident()])
 
     def work(communicator):
         names[threading.get_ident()] = machines[communicator.rank]
         try:
-            require_memory_for_load(in_slabs(surface, communicator), 1e9, rc.Force(1.0))
+            require_memory_for(in_slabs(surface, communicator))
         except ValueError as error:
             told.append(str(error))
 

@@ -205,9 +205,9 @@ def test_ordinary_contacts_are_not_solved_twice():
     asked = []
 
     class Spied:
-        def run(self, operator, separation, terms, initial):
-            asked.append(terms.tolerance)
-            return rc.ActiveSet(dense_limit=0).run(operator, separation, terms, initial)
+        def run(self, operator, separation, spec, initial):
+            asked.append(spec.tolerance)
+            return rc.ActiveSet(dense_limit=0).run(operator, separation, spec, initial)
 
     for seed in range(3):
         surface = rc.self_affine(rc.Grid((128, 128), 1.0), 0.8, 1.0, np.random.default_rng(seed))

@@ -56,7 +56,7 @@ def test_rows_are_worked_on_in_slabs(rows, monkeypatch):
     """Of 20 here: none of them, some, whole ones, and an odd row at last; machine code needs none."""
     field = np.random.default_rng(5).random((rows, 10))
     field[rows // 2, 3] = np.inf
-    monkeypatch.setattr(nested_iteration.planes, "fit", lambda field: False)
+    monkeypatch.setattr(nested_iteration, "passes_over", lambda field: None)
     whole = block_separation(field, (2, 2))
     monkeypatch.setattr(tuning, "SLAB", 20)
     np.testing.assert_array_equal(block_separation(field, (2, 2)), whole)
@@ -72,7 +72,7 @@ def test_machine_code_raises_blocks_as_arrays_do(shape, missing, monkeypatch):
     field[rng.random(shape) < missing] = np.inf
     with limit_threads(2):
         found = block_separation(field, (2, 2))
-    monkeypatch.setattr(nested_iteration.planes, "fit", lambda field: False)
+    monkeypatch.setattr(nested_iteration, "passes_over", lambda field: None)
     wanted = block_separation(field, (2, 2))
     np.testing.assert_array_equal(np.isinf(found), np.isinf(wanted))
     there = np.isfinite(wanted)
@@ -194,7 +194,7 @@ class Corner:
     def __init__(self, operator):
         pass
 
-    def solve(self, solver, separation, terms, guess):
+    def solve(self, solver, separation, spec, guess):
         p = np.zeros(separation.shape)
         p[-3:, -2:] = self.strength * (1 + np.arange(6).reshape(3, 2))
         self.answers.append(p)
@@ -229,10 +229,10 @@ def test_on_coarse_cells_a_depth_is_as_far_from_full_contact():
     mean, parts, coarse = float(surface.heights.max() - surface.heights.mean()), [], []
 
     class Watched:
-        def run(self, operator, separation, terms, initial):
-            parts.append(terms.depth / separation.mean())
+        def run(self, operator, separation, spec, initial):
+            parts.append(spec.depth / separation.mean())
             coarse.append(0.999 * mean / separation.mean())
-            return rc.ActiveSet().run(operator, separation, terms, initial)
+            return rc.ActiveSet().run(operator, separation, spec, initial)
 
     rc.press(surface, 1.0, depth=0.999 * mean, solver=Watched())
     assert len(parts) > 1

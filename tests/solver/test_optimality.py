@@ -10,15 +10,14 @@ from hypothesis import given, settings, strategies as st
 
 import roughcontact as rc
 from libraries import Strict
-from roughcontact.arrays import namespace
 from roughcontact.kernels import loader, planes
-from roughcontact.solver import optimality
-from roughcontact.solver.control import Depth, Force, Terms
+from roughcontact.slabs import passes
+from roughcontact.solver.control import Depth, Force, Specification
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
 
 EPS = np.finfo(np.float64).eps
-FORCE, DEPTH = Terms(Force(1.0)), Terms(Depth(0.4))
+FORCE, DEPTH = Specification(Force(1.0)), Specification(Depth(0.4))
 CONTROLS = {"force": FORCE, "depth": DEPTH}
 many = settings(max_examples=60, deadline=None, derandomize=True)
 
@@ -30,8 +29,8 @@ def plane(shape=(9, 14), periodic=False):
 PLANES = {periodic: plane(periodic=periodic) for periodic in (False, True)}
 
 
-def judged(operator, terms, p, u, s):
-    return Optimality.of(operator, terms, namespace(p)).evaluate(Iterate(p, u, s))
+def judged(operator, spec, p, u, s):
+    return Optimality.of(operator, spec, s).evaluate(Iterate(p, u, s))
 
 
 def generic(function, *given, **named):
@@ -64,12 +63,12 @@ def givens(draw):
     return operator, p, operator.apply(p), np.where(there, np.abs(rng.standard_normal(there.shape)), math.inf)
 
 
-def literally(judge, measure, terms, p, u, s):
+def literally(judge, measure, spec, p, u, s):
     """Return depth, residual and scale by their definitions; and by how much rounding may move a depth."""
     weights = np.broadcast_to(measure.weights, p.shape).ravel()
     level, pressed = (u + s).ravel(), p.ravel()
-    between = [k for k, one in enumerate(pressed) if 0 < one < terms.hardness]
-    depth, error = terms.depth, 0.0
+    between = [k for k, one in enumerate(pressed) if 0 < one < spec.hardness]
+    depth, error = spec.depth, 0.0
     if depth is None:
         parts = [weights[k] * level[k] for k in between]
         area = math.fsum(weights[k] for k in between)
@@ -80,8 +79,8 @@ def literally(judge, measure, terms, p, u, s):
     return depth, judge.residual(p, u, gap), np.abs(u).max(), error
 
 
-def agrees(found, judge, measure, terms, *fields):
-    depth, residual, scale, error = literally(judge, measure, terms, *fields)
+def agrees(found, judge, measure, spec, *fields):
+    depth, residual, scale, error = literally(judge, measure, spec, *fields)
     assert abs(found.depth - depth) <= error
     assert found.scale == scale
     if not residual < math.inf:
@@ -96,13 +95,13 @@ def agrees(found, judge, measure, terms, *fields):
 @many
 @given(given_fields=givens())
 def test_both_give_the_residual_of_the_definition(control, given_fields):
-    (operator, p, u, s), terms = given_fields, CONTROLS[control]
+    (operator, p, u, s), spec = given_fields, CONTROLS[control]
     if not p.any():
         return
     before = [f.copy() for f in (p, u, s)]
-    judge, measure = Optimality.of(operator, terms), Measure(operator.weights)
-    for found in (judged(operator, terms, p, u, s), generic(judged, operator, terms, p, u, s)):
-        agrees(found, judge, measure, terms, p, u, s)
+    judge, measure = Optimality.of(operator, spec, s), Measure(operator.weights)
+    for found in (judged(operator, spec, p, u, s), generic(judged, operator, spec, p, u, s)):
+        agrees(found, judge, measure, spec, p, u, s)
     for one, other in zip(before, (p, u, s), strict=True):
         np.testing.assert_array_equal(one, other)
 
@@ -111,12 +110,12 @@ def test_both_give_the_residual_of_the_definition(control, given_fields):
 @given(givens(), st.sampled_from([0.0, 0.1]), st.sampled_from([math.inf, None, 1e-3]))
 def test_both_guess_the_same_region(given_fields, allowed, own):
     operator, p, u, s = given_fields
-    conditions, projected = Optimality.of(operator, FORCE), own != math.inf
+    conditions, projected = Optimality.of(operator, FORCE, s), own != math.inf
     if own is not None:
         conditions = replace(conditions, self_influence=own)
-    named = {"depth": 0.4, "allowed": allowed, "projected": projected}
+    named = {"depth": 0.4, "allowed": allowed, "first": projected}
     one = conditions.predict_free_set(Iterate(p, u, s), **named)
-    two = generic(conditions.predict_free_set, Iterate(p, u, s), **named)
+    two = replace(conditions, passes=None).predict_free_set(Iterate(p, u, s), **named)
     gap = u + s - 0.4
     wrong = (p * conditions.self_influence < gap) if projected else np.zeros(p.shape, bool)
     asked = (p > 0) | (gap < -allowed)
@@ -136,15 +135,15 @@ def test_a_solution_is_one_both_ways(control, periodic, missing):
     operator, rng = PLANES[periodic], np.random.default_rng(3)
     s = rng.random(operator.grid.shape)
     s[rng.random(s.shape) < missing] = math.inf
-    terms = Terms(Force(0.5) if control == "force" else Depth(0.3), 1e-8)
-    state = rc.ActiveSet().run(operator, s, terms, np.zeros_like(s))
+    spec = Specification(Force(0.5) if control == "force" else Depth(0.3), 1e-8)
+    state = rc.ActiveSet().run(operator, s, spec, np.zeros_like(s))
     assert state.status.converged
-    u, judge = operator.apply(state.pressure), Optimality.of(operator, terms)
+    u, judge = operator.apply(state.pressure), Optimality.of(operator, spec, s)
     for found in (
-        judged(operator, terms, state.pressure, u, s),
-        generic(judged, operator, terms, state.pressure, u, s),
+        judged(operator, spec, state.pressure, u, s),
+        generic(judged, operator, spec, state.pressure, u, s),
     ):
-        agrees(found, judge, Measure(operator.weights), terms, state.pressure, u, s)
+        agrees(found, judge, Measure(operator.weights), spec, state.pressure, u, s)
         assert found.residual <= 1e-8
         assert found.depth == pytest.approx(state.depth, rel=s.size * EPS)
 
@@ -154,42 +153,42 @@ def test_a_solution_is_one_both_ways(control, periodic, missing):
 @pytest.mark.parametrize("at", [0, 5, -1])
 def test_what_is_no_pressure_has_no_residual(control, wrong, at):
     """Negative, infinite, or no number, wherever it is; whatever displacement it says that it causes."""
-    operator, terms, rng = plane((5, 7)), CONTROLS[control], np.random.default_rng(0)
+    operator, spec, rng = plane((5, 7)), CONTROLS[control], np.random.default_rng(0)
     p, s = rng.random((5, 7)), rng.random((5, 7))
     p.ravel()[at] = wrong
     with np.errstate(invalid="ignore"):
         answers = [np.ones_like(p), np.where(np.isfinite(p), p, wrong)]
         for u in answers:
-            assert judged(operator, terms, p, u, s).residual == math.inf
-            assert generic(judged, operator, terms, p, u, s).residual == math.inf
+            assert judged(operator, spec, p, u, s).residual == math.inf
+            assert generic(judged, operator, spec, p, u, s).residual == math.inf
 
 
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("wrong", [math.inf, -math.inf, math.nan])
 def test_a_displacement_that_is_no_number_has_no_residual(control, wrong):
-    operator, terms, rng = plane((5, 7)), CONTROLS[control], np.random.default_rng(0)
+    operator, spec, rng = plane((5, 7)), CONTROLS[control], np.random.default_rng(0)
     p, u, s = rng.random((3, 5, 7))
     u[3, 4] = wrong
     with np.errstate(invalid="ignore"):
-        for found in (judged(operator, terms, p, u, s), generic(judged, operator, terms, p, u, s)):
+        for found in (judged(operator, spec, p, u, s), generic(judged, operator, spec, p, u, s)):
             assert not found.residual <= 1e-2  # infinite, or no number
 
 
 @pytest.mark.parametrize("depth", [0.0, 0.25, 2.0])
 def test_no_cell_in_contact_at_a_given_depth(depth):
     """All is well if none penetrates: else a violation is relative to nothing."""
-    operator, terms, s = plane((5, 7)), Terms(Depth(depth)), np.full((5, 7), 0.5)
+    operator, spec, s = plane((5, 7)), Specification(Depth(depth)), np.full((5, 7), 0.5)
     s[0, 0] = math.inf
     nothing = np.zeros((5, 7))
     for found in (
-        judged(operator, terms, nothing, nothing, s),
-        generic(judged, operator, terms, nothing, nothing, s),
+        judged(operator, spec, nothing, nothing, s),
+        generic(judged, operator, spec, nothing, nothing, s),
     ):
         assert found[:3] == (depth, 0.0 if depth < 0.5 else math.inf, 0.0)
-    predict = Optimality.of(operator, terms).predict_free_set
+    conditions = Optimality.of(operator, spec, s)
     for guess in (
-        predict(Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
-        generic(predict, Iterate(nothing, nothing, s), depth=depth, allowed=0.0),
+        asked.predict_free_set(Iterate(nothing, nothing, s), depth=depth, allowed=0.0)
+        for asked in (conditions, replace(conditions, passes=None))
     ):
         np.testing.assert_array_equal(guess.free, s < depth)
         assert guess.count == (s < depth).sum()
@@ -199,8 +198,8 @@ def test_what_is_rounding_is_forgiven_both_ways():
     """At given force, down to some units in the last place; at given depth nothing is."""
     operator, s = plane((1, 2)), np.zeros((1, 2))
     p, u = np.full((1, 2), 1e6), np.array([[1.0, 1.0 + 64 * EPS]])
-    for terms, wanted in ((FORCE, 16 * EPS), (Terms(Depth(1.0)), 64 * EPS / (1 + 64 * EPS))):
-        for found in (judged(operator, terms, p, u, s), generic(judged, operator, terms, p, u, s)):
+    for spec, wanted in ((FORCE, 16 * EPS), (Specification(Depth(1.0)), 64 * EPS / (1 + 64 * EPS))):
+        for found in (judged(operator, spec, p, u, s), generic(judged, operator, spec, p, u, s)):
             assert found.residual == wanted
 
 
@@ -209,11 +208,11 @@ def test_what_is_rounding_is_forgiven_both_ways():
 def test_varying_weights(control):
     """They count in the mean; regions hang on none."""
     operator = rc.ring(rc.RadialGrid(np.r_[0.2, 0.2 + np.cumsum(np.linspace(0.1, 0.6, 30))]), 2.0)
-    terms, rng = CONTROLS[control], np.random.default_rng(4)
+    spec, rng = CONTROLS[control], np.random.default_rng(4)
     p, s = rng.random(30) * (rng.random(30) < 0.5), rng.random(30)
     u, measure = operator.apply(p), Measure(operator.weights)
     assert measure.varies
-    agrees(judged(operator, terms, p, u, s), Optimality.of(operator, terms), measure, terms, p, u, s)
+    agrees(judged(operator, spec, p, u, s), Optimality.of(operator, spec, s), measure, spec, p, u, s)
 
 
 @pytest.mark.usefixtures("without_machine_code")
@@ -221,12 +220,12 @@ def test_varying_weights(control):
 def test_a_hardness(control):
     """Plastic cells are free where their gap is more than is allowed, and tell no depth."""
     operator, rng = plane((5, 7)), np.random.default_rng(4)
-    terms = Terms(CONTROLS[control].control, hardness=0.5)
+    spec = Specification(CONTROLS[control].control, hardness=0.5)
     p, s = np.minimum(rng.random((5, 7)), 0.5) * (rng.random((5, 7)) < 0.7), rng.random((5, 7))
     u = operator.apply(p)
-    found = judged(operator, terms, p, u, s)
-    conditions = Optimality.of(operator, terms)
-    agrees(found, conditions, Measure(operator.weights), terms, p, u, s)
+    found = judged(operator, spec, p, u, s)
+    conditions = Optimality.of(operator, spec, s)
+    agrees(found, conditions, Measure(operator.weights), spec, p, u, s)
     held, gap = p >= 0.5, u + s - found.depth
     assert held.any()
     guess = conditions.predict_free_set(Iterate(p, u, s), depth=found.depth, allowed=0.01)
@@ -251,13 +250,13 @@ def test_what_lies_otherwise(kind):
     there = [ways[kind](f) for f in (p, u, s)]
     found = judged(operator, DEPTH, *there)
     _, residual, scale, _ = literally(
-        Optimality.of(operator, DEPTH), Measure(operator.weights), DEPTH, p, u, s
+        Optimality.of(operator, DEPTH, s), Measure(operator.weights), DEPTH, p, u, s
     )
     # Levels, gaps and their ratio are rounded: numbers below three, of which the worst is above a third.
     assert found.residual == pytest.approx(residual, rel=24 * eps)
     assert found.scale == scale
-    conditions = replace(Optimality.of(operator, DEPTH, namespace(there[0])), self_influence=0.3)
-    guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, projected=True)
+    conditions = replace(Optimality.of(operator, DEPTH, there[2]), self_influence=0.3)
+    guess = conditions.predict_free_set(Iterate(*there), depth=0.4, allowed=0.1, first=True)
     assert (guess.count, guess.dropped) == ((p * 0.3 >= u + s - 0.4).sum(), (p * 0.3 < u + s - 0.4).sum())
 
 
@@ -273,8 +272,8 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
             asked.append("predict_active") or planes.predict_active(*given, **named)
         ),
     )
-    monkeypatch.setattr(optimality, "planes", seen)
-    conditions = Optimality.of(plane((5, 7)), FORCE)
+    monkeypatch.setattr(passes, "planes", seen)
+    conditions = Optimality.of(plane((5, 7)), FORCE, s)
     conditions.evaluate(Iterate(p, u, s))
     conditions.predict_free_set(Iterate(p, u, s), depth=0.4, allowed=0.1)
     assert asked == ["extremes", "predict_active"]

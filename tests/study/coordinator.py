@@ -29,7 +29,7 @@ def run_until(folder, study, place, number):
     add, encode = Store.add, module.encode
     count = 0
 
-    def watched(self, task, outcome):
+    def watched(self, task, result):
         nonlocal count
         count += 1
         if count == number:
@@ -44,7 +44,7 @@ def run_until(folder, study, place, number):
                 database.set_trace_callback(
                     lambda sql: stand_still(folder, place) if sql == "COMMIT" else None
                 )
-        add(self, task, outcome)
+        add(self, task, result)
         if count == number and place == "after":
             stand_still(folder, place)
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from roughcontact.study import field_files as fields_module
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import run_task
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError
@@ -111,12 +111,12 @@ def test_a_database_that_finds_no_room_keeps_what_it_has(tmp_path):
     tasks = list(study().tasks())
     with Store.open(tmp_path, study()) as store:
         for task in tasks[:5]:
-            store.add(task, perform(task))
+            store.add(task, run_task(task))
         (pages,) = store._connection.execute("PRAGMA page_count").fetchone()
         store._connection.execute(f"PRAGMA max_page_count = {pages}")
-        outcomes = [(task, perform(task)) for task in tasks[5:]]
+        results = [(task, run_task(task)) for task in tasks[5:]]
         with pytest.raises(StoreError) as caught:
-            deque(starmap(store.add, outcomes))
+            deque(starmap(store.add, results))
         assert str(caught.value) == f"{tmp_path}: {FULL}"
     with Store.open(tmp_path) as store:
         kept = store.summary().done
@@ -159,7 +159,7 @@ def test_a_database_that_another_program_keeps_is_told(tmp_path, monkeypatch):
         with pytest.raises(
             StoreError, match=r"another program has kept cases.sqlite to itself.*sqlite3 shell"
         ):
-            store.add(task, perform(task))
+            store.add(task, run_task(task))
         reader._connection.execute("ROLLBACK")
-        store.add(task, perform(task))
+        store.add(task, run_task(task))
         assert reader.summary().done == 1

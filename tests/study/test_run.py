@@ -4,8 +4,8 @@ import pytest
 import xarray
 
 from roughcontact.study.executors.serial import Serial
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import run_task
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.task import Summary
@@ -22,11 +22,11 @@ class Counting:
         self.given = []
         self.closed = False
 
-    def outcomes(self, perform, tasks):
+    def results(self, run_task, tasks):
         try:
             for task in tasks:
                 self.given.append(task.key)
-                yield perform(task)
+                yield run_task(task)
         finally:
             self.closed = True
 
@@ -45,7 +45,7 @@ def test_every_case_is_computed_and_kept(tmp_path):
         for task, row in zip(study().tasks(), store.rows(), strict=True):
             assert (row.key, row.sample, row.status, row.message) == (task.key, task.sample, "done", "")
             assert row.parameters == task.parameters.model_dump()
-            xarray.testing.assert_identical(row.record, perform(task).record)
+            xarray.testing.assert_identical(row.record, run_task(task).record)
             assert row.residual == row.record["residual"].max()
 
 
@@ -94,7 +94,7 @@ def test_a_retry_that_is_cut_off_loses_no_failure(tmp_path):
     run(given, tmp_path)
 
     class Off(Counting):
-        def outcomes(self, perform, tasks):
+        def results(self, run_task, tasks):
             raise KeyboardInterrupt
             yield
 
@@ -104,17 +104,17 @@ def test_a_retry_that_is_cut_off_loses_no_failure(tmp_path):
         assert store.summary() == Summary(0, 2, 0)
 
 
-def test_those_who_ask_hear_of_every_outcome_after_it_was_stored(tmp_path):
-    outcomes, states = [], []
+def test_those_who_ask_hear_of_every_result_after_it_was_stored(tmp_path):
+    results, states = [], []
 
-    def on_outcome(outcome):
-        outcomes.append(outcome.key)
+    def on_result(result):
+        results.append(result.key)
         with Store.open(tmp_path) as store:
-            assert outcome.key in store.done_keys() | store.failed_keys()
+            assert result.key in store.done_keys() | store.failed_keys()
 
     given = study(table={"hurst": [0.1], "end": ["well", "error"]})
-    run(given, tmp_path, on_outcome=on_outcome, on_progress=states.append)
-    assert outcomes == [task.key for task in given.tasks()]
+    run(given, tmp_path, on_result=on_result, on_progress=states.append)
+    assert results == [task.key for task in given.tasks()]
     assert [(s.done, s.failed, s.left) for s in states] == [
         (0, 0, 4),
         (1, 0, 3),
@@ -133,12 +133,12 @@ def test_those_who_ask_hear_of_every_outcome_after_it_was_stored(tmp_path):
 def test_an_interrupt_stops_the_workers_and_leaves_what_was_done(tmp_path):
     engine = Counting()
 
-    def on_outcome(outcome):
+    def on_result(result):
         if len(engine.given) == 4:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run(study(), tmp_path, engine, on_outcome=on_outcome)
+        run(study(), tmp_path, engine, on_result=on_result)
     assert engine.closed
     with Store.open(tmp_path) as store:
         assert store.summary() == Summary(4, 0, 2)
@@ -160,8 +160,8 @@ def test_serial_computes_one_after_the_other_when_asked():
     assert Serial().workers == 1
     tasks = list(study().tasks())
     begun = []
-    outcomes = Serial().outcomes(lambda task: begun.append(task) or task.key, tasks)
+    results = Serial().results(lambda task: begun.append(task) or task.key, tasks)
     assert begun == []
-    assert next(outcomes) == tasks[0].key
+    assert next(results) == tasks[0].key
     assert begun == tasks[:1]
-    outcomes.close()
+    results.close()

@@ -7,12 +7,12 @@ import pytest
 import xarray
 
 from roughcontact import __version__
-from roughcontact.study.perform import perform
 from roughcontact.study.run import run
+from roughcontact.study.run_task import run_task
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError
-from roughcontact.study.task import Outcome, Summary
+from roughcontact.study.task import Result, Summary
 from study.trial import NAME
 
 
@@ -54,30 +54,30 @@ def test_readers_read_while_cases_are_added(tmp_path):
     tasks = list(study().tasks())
     with Store.open(tmp_path, study()) as writer:
         for number, task in enumerate(tasks, start=1):
-            writer.add(task, perform(task))
+            writer.add(task, run_task(task))
             with Store.open(tmp_path) as reader:
                 assert reader.summary() == Summary(number, 0, 4 - number)
                 rows = reader.rows()
                 next(rows)  # and holds the rest
                 if number < len(tasks):
-                    writer.add(tasks[number], perform(tasks[number]))
-                    writer.add(tasks[number], perform(tasks[number]))
+                    writer.add(tasks[number], run_task(tasks[number]))
+                    writer.add(tasks[number], run_task(tasks[number]))
 
 
 def test_a_reader_changes_nothing(filled):
     (task, *_) = study().tasks()
     with Store.open(filled) as store, pytest.raises(StoreError, match="cannot be written"):
-        store.add(task, perform(task))
+        store.add(task, run_task(task))
 
 
 def test_what_is_done_stays_and_what_failed_is_replaced(tmp_path):
     (task, *_) = study().tasks()
     with Store.open(tmp_path, study()) as store:
-        store.add(task, Outcome(task.key, None, "first", 1.0))
-        store.add(task, Outcome(task.key, None, "second", 2.0))
+        store.add(task, Result(task.key, None, "first", 1.0))
+        store.add(task, Result(task.key, None, "second", 2.0))
         assert [row.message for row in store.rows()] == ["second"]
-        store.add(task, perform(task))
-        store.add(task, Outcome(task.key, None, "third", 3.0))
+        store.add(task, run_task(task))
+        store.add(task, Result(task.key, None, "third", 3.0))
         (row,) = store.rows()
         assert (row.status, row.message, store.failed()) == ("done", "", ())
 
@@ -87,9 +87,9 @@ def test_whatever_a_row_holds_comes_back(tmp_path):
     endless = xarray.Dataset({"residual": ("load", [np.nan, np.inf]), "word": "\0\n'\""})
     nothing = xarray.Dataset({"residual": ("load", [np.nan])})
     with Store.open(tmp_path, study()) as store:
-        store.add(tasks[0], Outcome(tasks[0].key, endless, "", 1))
-        store.add(tasks[1], Outcome(tasks[1].key, nothing, "", np.float64(0.1)))
-        store.add(tasks[2], Outcome(tasks[2].key, None, "no file 'caf\udce9', \0 \U0001f980", 0))
+        store.add(tasks[0], Result(tasks[0].key, endless, "", 1))
+        store.add(tasks[1], Result(tasks[1].key, nothing, "", np.float64(0.1)))
+        store.add(tasks[2], Result(tasks[2].key, None, "no file 'caf\udce9', \0 \U0001f980", 0))
         first, second, third = store.rows()
     assert (first.residual, second.residual) == (np.inf, None)
     assert (first.seconds, second.seconds, third.seconds) == (1.0, 0.1, 0.0)
@@ -109,7 +109,7 @@ def test_rows_come_in_the_order_of_the_study(tmp_path, monkeypatch):
     given = study(samples=5)
     with Store.open(tmp_path, given) as store:
         for task in reversed(list(given.tasks())):
-            store.add(task, Outcome(task.key, None, "", 0.0))
+            store.add(task, Result(task.key, None, "", 0.0))
         assert [row.key for row in store.rows()] == [task.key for task in given.tasks()]
 
 
@@ -118,7 +118,7 @@ def test_fields_lie_beside_the_database(tmp_path):
     run(given, tmp_path)
     with Store.open(tmp_path) as store:
         for task, row in zip(given.tasks(), store.rows(), strict=True):
-            whole = perform(task).record
+            whole = run_task(task).record
             fields = store.fields(row.key)
             assert list(fields.data_vars) == ["pressure"]
             np.testing.assert_array_equal(fields["pressure"], whole["pressure"])

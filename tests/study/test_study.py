@@ -108,7 +108,7 @@ def test_a_task_can_be_sent_to_another_process():
 def test_the_room_opens_at_its_public_names():
     assert rc.study.Study is Study
     assert callable(rc.study.run)
-    assert callable(rc.study.perform)
+    assert callable(rc.study.run_task)
     for name in rc.study.__all__:
         assert getattr(rc.study, name) is not None
     assert {"Study", "Processes", "run"} <= set(rc.study.__all__)

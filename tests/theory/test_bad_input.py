@@ -11,7 +11,6 @@ import roughcontact as rc
 from roughcontact.theory import (
     asperities,
     beat_wave,
-    bounds,
     bush_gibson_thomas,
     cattaneo,
     chang_etsion_bogy,
@@ -146,7 +145,7 @@ OTHERS = {
     "SlippingSphere.cycle_loss": {"amplitude": 1e-3},
 }
 MODULES = {
-    "beat_wave": beat_wave, "bounds": bounds, "bush_gibson_thomas": bush_gibson_thomas, "conductance": conductance,
+    "beat_wave": beat_wave, "bush_gibson_thomas": bush_gibson_thomas, "conductance": conductance,
     "cosine": cosine, "finite_size": finite_size, "gaussian_heights": gaussian_heights, "hertz": hertz, "holm": holm,
     "greenwood_williamson": greenwood_williamson, "height_distribution": height_distribution, "jaeger": jaeger,
     "interaction": interaction, "mindlin": mindlin, "nayak": nayak, "partial_moments": partial_moments, "punch": punch,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import bounds, pohrt_popov
+from roughcontact.theory import pohrt_popov, punch
 
 STEEL = {"rms": 2e-6, "length": 1e-3, "modulus": 110e9}
 
@@ -80,7 +80,7 @@ def test_refusals():
         pohrt_popov.prefactor(np.nan)
     with pytest.raises(ValueError, match=r"hurst must not exceed 2: one smooth crest"):
         pohrt_popov.scale_free_stiffness(1e-3, 2.1, 1.0, 1.0)
-    limit = bounds.full_contact_stiffness(1.0, 1.0)
+    limit = punch.square(1.0, 1.0)
     for wrong in (
         lambda: pohrt_popov.stiffness(1.5, 0.3, 1.0, 1.0, 1.0),
         lambda: pohrt_popov.force(1.0001 * limit, 0.3, 1.0, 1.0, 1.0),

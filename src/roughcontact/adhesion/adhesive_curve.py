@@ -200,8 +200,8 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
         rows.append(tuple(float(getattr(state, name)) for name in _POINTS))
         jumps += state.jumps
         status.append(state.status)
-    blank, points = state.blank, np.array(rows).T
-    grid, surface = blank.operator.grid, blank.surface
+    problem, points = state.problem, np.array(rows).T
+    grid, surface = problem.operator.grid, problem.surface
     return AdhesiveCurve(
         **dict(zip(_POINTS, points, strict=True)),
         approach=_approaches(loads.approach)[: len(rows)],
@@ -209,10 +209,10 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
         jumped=tuple(jumped),
         unresolved=state.unresolved,
         status=tuple(status),
-        control="force" if isinstance(blank.control, ForceControl) else "depth",
-        adhesion=blank.adhesion,
-        modulus=blank.modulus,
-        tolerance=blank.tolerance,
+        control="force" if isinstance(problem.control, ForceControl) else "depth",
+        adhesion=problem.adhesion,
+        modulus=problem.modulus,
+        tolerance=problem.tolerance,
         lengths=tuple(grid.lengths),
         spacing=tuple(grid.spacing),
         periodic=tuple(grid.periodic),

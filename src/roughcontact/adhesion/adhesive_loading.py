@@ -9,7 +9,8 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.path_states import states_along
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.problem import Body, require_memory_for, separation_of
+from roughcontact.contact.memory_needed import require_memory_for
+from roughcontact.contact.problem import Body, separation_of
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -79,7 +80,7 @@ def adhesive_state(
     loads = Loads.of(depth=depth, force=force, pressure=pressure, mean_gap=mean_gap)
     state = next(states_under(surface, modulus, adhesion, loads, operator, tolerance))
     if not state.status.converged:
-        raise ConvergenceError(state, tolerance)
+        raise ConvergenceError(state)
     return state
 
 
@@ -213,7 +214,7 @@ def states_under(
     ValueError
         If the input makes no sense, at once and not at the first load.
     """
-    require_memory_for(surface)
+    require_memory_for(surface, operator)
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
     if geometry_of(body) is Geometry.FOUNDATION:
@@ -221,13 +222,12 @@ def states_under(
             "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
             "for bodies of revolution see mdr.adhesion"
         )
-    goals = loads.as_forces(surface.grid)
     return states_along(
         body,
         separation_of(surface),
         adhesion,
+        loads.as_forces(surface.grid),
         modulus=value,
-        **{f"{goals.kind}s".replace(" ", "_"): goals.values},
         surface=surface,
         tolerance=checked_tolerance(tolerance),
     )

@@ -19,7 +19,7 @@ from roughcontact.validation import Array, numeric, require, whole
 
 __all__ = ["adhesive_loop", "loop_depths", "until_off"]
 
-NEAR = 10.0  # ranges of the attraction, from which an approach is recorded
+BEGIN = 10.0  # ranges of the attraction, from which an approach is recorded
 MOST = 100  # as many points as on the approach, after which a retreat ends
 
 
@@ -90,10 +90,12 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     ValueError
         If the approach has no point, or would begin beyond its end.
     """
-    count, near = whole(int(points), "points"), -NEAR * adhesion.range
-    require(depth > near, f"the depth must be above {near:.3g} m, ten ranges of the attraction apart", depth)
-    step = (depth - near) / count
-    there = [-REACH * adhesion.range, *(near + step * k for k in range(count)), depth]
+    count, begin = whole(int(points), "points"), -BEGIN * adhesion.range
+    require(
+        depth > begin, f"the depth must be above {begin:.3g} m, ten ranges of the attraction apart", depth
+    )
+    step = (depth - begin) / count
+    there = [-REACH * adhesion.range, *(begin + step * k for k in range(count)), depth]
     return np.array(there + [depth - step * k for k in range(1, count * MOST)])
 
 
@@ -101,7 +103,7 @@ def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveSt
     """Yield the states of a loop along `loop_depths` but the first, until its body is off on the retreat."""
     for k, state in enumerate(islice(path, 1, None)):
         yield state
-        reach = state.blank.adhesion.range
-        off = not state.contact.any() and float(state.gap.min()) > NEAR * reach
+        reach = state.problem.adhesion.range
+        off = not state.contact.any() and float(state.gap.min()) > BEGIN * reach
         if k > points and (off or state.depth < -50 * REACH * reach):
             break

@@ -12,9 +12,9 @@ from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
-from roughcontact.adhesion.gradient_flow import released
-from roughcontact.adhesion.quasi_static import Jump, Station
-from roughcontact.adhesion.reduced_hessian import sharp_bound, smallest_ratio
+from roughcontact.adhesion.gradient_flow import detached
+from roughcontact.adhesion.quasi_static import Jump, PathPoint
+from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
@@ -25,14 +25,14 @@ from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
 
-__all__ = ["AdhesiveState", "Blank", "state_of"]
+__all__ = ["AdhesiveProblem", "AdhesiveState", "state_of"]
 
 WEAK = 1e-6  # of the largest traction: a reaction of the wall below it may be none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Blank:
-    """What the states of one path share.
+class AdhesiveProblem:
+    """An adhesive contact whose states are looked for: what the states of one path share.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class AdhesiveState:
 
     Attributes
     ----------
-    blank : Blank
+    problem : AdhesiveProblem
         Body, separation and tolerance.
     attraction : Attraction
         The law on the cells.
@@ -111,7 +111,7 @@ class AdhesiveState:
     ('-5.7 fJ of adhesion', 'exponential')
     """
 
-    blank: Blank
+    problem: AdhesiveProblem
     attraction: Attraction
     depth: float
     pressure: Array
@@ -124,24 +124,24 @@ class AdhesiveState:
     @property
     def status(self) -> Status:
         """Whether the certificate meets the tolerance."""
-        if not self.residual <= self.blank.tolerance:
+        if not self.residual <= self.problem.tolerance:
             return Status.STAGNATED
         return Status.CONVERGED if self.contact.any() else Status.NO_CONTACT
 
     @property
     def unresolved(self) -> bool:
         """Whether the attraction varies from cell to cell: the state is one of the lattice, not of the body."""
-        return not self.blank.resolved
+        return not self.problem.resolved
 
     @cached_property
     def displacement(self) -> Array:
         """Displacement of the surface [m], by an exact product."""
-        return exact_of(self.blank.operator).apply(self.pressure)
+        return exact_of(self.problem.operator).apply(self.pressure)
 
     @cached_property
     def gap(self) -> Array:
         """Deformed gap [m]; infinite where nothing was measured."""
-        return np.asarray(self.displacement + self.blank.separation - self.depth)
+        return np.asarray(self.displacement + self.problem.separation - self.depth)
 
     @cached_property
     def reaction(self) -> Array:
@@ -157,12 +157,12 @@ class AdhesiveState:
     @property
     def geometry(self) -> Geometry:
         """What the cells are: those of a surface, a line, or rings."""
-        return geometry_of(self.blank.operator)
+        return geometry_of(self.problem.operator)
 
     @property
     def nominal_pressure(self) -> float:
         """Force over the nominal area [Pa]."""
-        return self.force / self.blank.operator.grid.area
+        return self.force / self.problem.operator.grid.area
 
     @property
     def largest_pressure(self) -> float:
@@ -177,7 +177,7 @@ class AdhesiveState:
     @property
     def mean_gap(self) -> float:
         """Gap averaged over the measured cells [m]."""
-        there = np.isfinite(self.blank.separation)
+        there = np.isfinite(self.problem.separation)
         areas = np.broadcast_to(np.asarray(self._weights, np.float64), there.shape)[there]
         return float(np.average(self.gap[there], weights=areas))
 
@@ -194,7 +194,7 @@ class AdhesiveState:
     @property
     def contact_fraction(self) -> float:
         """Contact area over the nominal area."""
-        return self.contact_area / self.blank.operator.grid.area
+        return self.contact_area / self.problem.operator.grid.area
 
     @property
     def elastic_energy(self) -> float:
@@ -220,7 +220,7 @@ class AdhesiveState:
     @cached_property
     def contact_stiffness(self) -> float:
         """Slope of the force with the depth at fixed contact and fixed attraction [N/m]."""
-        return self._slope(np.zeros(self.blank.form.shape)) if self.contact.any() else 0.0
+        return self._slope(np.zeros(self.problem.form.shape)) if self.contact.any() else 0.0
 
     @property
     def stability(self) -> float:
@@ -257,51 +257,51 @@ class AdhesiveState:
 
     @cached_property
     def _ritz(self) -> tuple[float, float]:
-        free = self._loose(self.contact & ~self.weakly_active)
-        form = self.blank.control.form
+        free = self._free_cells(self.contact & ~self.weakly_active)
+        form = self.problem.control.form
         curvature = self._energy.attraction.curvature(self._point.gap)
         found = [smallest_ratio(form, free, curvature, Counter(), seed=seed) for seed in (0, 1)]
         least = min(found, key=lambda ritz: ritz.value)
-        return least.value, least.bound if form is self.blank.form else sharp_bound(form, free, least)
+        return least.value, least.bound if form is self.problem.form else solved_bound(form, free, least)
 
     @cached_property
     def _energy(self) -> GapEnergy:
-        obstacle = self.blank.form.extended(self.depth - self.blank.separation, -np.inf)
-        return GapEnergy(self.blank.form, self.blank.control.attraction, obstacle)
+        obstacle = self.problem.form.extended(self.depth - self.problem.separation, -np.inf)
+        return GapEnergy(self.problem.form, self.problem.control.attraction, obstacle)
 
     @cached_property
     def _point(self) -> Point:
         """The state on the cells of the computation; beyond the grid only that there is no wall matters."""
-        gap = self.blank.form.extended(np.where(self.contact, 0.0, np.maximum(self.gap, 0.0)), np.inf)
-        pressure = self.blank.form.extended(self.pressure, 0.0)
+        gap = self.problem.form.extended(np.where(self.contact, 0.0, np.maximum(self.gap, 0.0)), np.inf)
+        pressure = self.problem.form.extended(self.pressure, 0.0)
         return Point(gap, pressure, gap, pressure, 0.0)
 
-    def _loose(self, held: Mask) -> Mask:
+    def _free_cells(self, at_wall: Mask) -> Mask:
         """Return the cells of the computation that may move."""
-        free = np.ones(self.blank.form.shape, bool)
-        free[self.blank.form.inside] = ~held
+        free = np.ones(self.problem.form.shape, bool)
+        free[self.problem.form.inside] = ~at_wall
         return free
 
     def _slope(self, curvature: Array) -> float:
-        free = self._loose(self.contact)
-        return force_slope(self.blank.form, free, np.where(free, curvature, 0.0), Counter())
+        free = self._free_cells(self.contact)
+        return force_slope(self.problem.form, free, np.where(free, curvature, 0.0), Counter())
 
     @property
     def _weights(self) -> float | Array:
-        return self.blank.operator.weights
+        return self.problem.operator.weights
 
 
-def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
-    """Return the state of a station, certified on an exact product."""
-    control, point, value = blank.control, station.point, station.value
+def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> AdhesiveState:
+    """Return the state at a point of a path, certified on an exact product."""
+    control, point, value = problem.control, reached.point, reached.value
     energy = control.energy_at(value)
     inside = energy.form.inside
     law = energy.attraction.on(inside)
-    if released(energy, point):
+    if detached(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
-        lowest = min(0.0, station.lowest_force)
+        lowest = min(0.0, reached.lowest_force)
         return AdhesiveState(
-            blank, law, -math.inf, nothing, nothing > 0, 0.0, station.jumps, products, lowest
+            problem, law, -math.inf, nothing, nothing > 0, 0.0, reached.jumps, products, lowest
         )
     depth = control.depth(value, point)
     gap = point.gap[inside]
@@ -310,13 +310,13 @@ def state_of(blank: Blank, station: Station, products: int) -> AdhesiveState:
     pressure = np.where(contact, point.pressure[inside], -law.traction(gap))
     for array in (pressure, contact):
         array.flags.writeable = False
-    exact = exact_of(blank.operator).apply(pressure) + blank.separation - depth
+    exact = exact_of(problem.operator).apply(pressure) + problem.separation - depth
     reaction = pressure + law.traction(np.maximum(exact, 0.0))
     worst = float(np.abs(np.minimum(exact / energy.form.reference, reaction)).max())
     residual = worst / energy.scale(point)
-    weighted = pressure * blank.operator.weights
+    weighted = pressure * problem.operator.weights
     force = float(weighted.sum())
     if isinstance(control, ForceControl):
         residual = max(residual, abs(force - value) / float(np.abs(weighted).sum()))
-    lowest = min(force, station.lowest_force)
-    return AdhesiveState(blank, law, depth, pressure, contact, residual, station.jumps, products, lowest)
+    lowest = min(force, reached.lowest_force)
+    return AdhesiveState(problem, law, depth, pressure, contact, residual, reached.jumps, products, lowest)

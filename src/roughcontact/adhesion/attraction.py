@@ -133,7 +133,7 @@ class Attraction(Protocol):
         """Largest curvature [Pa/m]."""
 
     @property
-    def near(self) -> float:
+    def start_gap(self) -> float:
         """Gap [m] from which bodies under a given force draw near."""
 
     def on(self, cells: tuple[slice, ...]) -> Attraction:

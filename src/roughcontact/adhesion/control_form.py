@@ -76,16 +76,16 @@ class ForceControl:
         form = control.form
         ones = form.extended(np.ones(form.grid.shape), 0.0)
         if form.mean_free:
-            loose = replace(form, mean_free=False)
-            return cls(loose, control.attraction, control.separation, ones / form.grid.area, 0.0)
+            free_form = replace(form, mean_free=False)
+            return cls(free_form, control.attraction, control.separation, ones / form.grid.area, 0.0)
         image = form.stiffness(ones)
         rigid = form.dot(image, ones)
 
-        def softened(field: Array) -> Array:
+        def reduced(field: Array) -> Array:
             return form.stiffness(field) - image * (form.dot(image, field) / rigid)
 
-        loose = replace(form, stiffness=softened)
-        return cls(loose, control.attraction, control.separation, image / rigid, rigid)
+        free_form = replace(form, stiffness=reduced)
+        return cls(free_form, control.attraction, control.separation, image / rigid, rigid)
 
     def energy_at(self, value: float) -> GapEnergy:
         """Return the energy under a force [N]."""

@@ -12,6 +12,8 @@ cell with all others held, the inverse of the diagonal of the inverse of the inf
 ``s^2 c/2`` is then what is set free when the cell at the edge lets go.
 
 Between two events the pressure is linear in the depth, so that every event is found where it is, whatever the steps.
+
+Labels E37 to E39 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -116,7 +118,7 @@ class StuckContact:
         weights = np.broadcast_to(np.asarray(operator.weights, float), separation.shape)
         self.areas, self.work = weights.ravel()[self.cells], np.ravel(work)[self.cells]
         self.compliance, self.shape = compliance, separation.shape
-        self.inverse = np.linalg.inv(exact_of(operator).as_matrix(self.cells))
+        self.inverse = np.linalg.inv(exact_of(operator).as_matrix(self.cells))  # E37
         self.base = -self.inverse @ separation.ravel()[self.cells]
         self.unit = self.inverse.sum(axis=1)
 
@@ -183,7 +185,7 @@ class StuckContact:
         # A cell whose pressure does not fall as the body is drawn back never lets go.
         depths = np.full(len(self.cells), -np.inf)
         np.divide(-self._tensions() - self.base, self.unit, out=depths, where=self.unit > 0)
-        index = int(np.argmax(depths))
+        index = int(np.argmax(depths))  # E38
         return index, float(depths[index])
 
     def _let_go(self, index: int, depth: float, by_force: bool) -> float:
@@ -193,7 +195,7 @@ class StuckContact:
         rest = rigidity - area * self.unit[index] ** 2 / self.stiffness if by_force else rigidity
         last = by_force and len(self.cells) == 1
         lost = math.inf if last else (0.5 * tension**2 / rest - self.work[index]) * area
-        column = self.inverse[:, index] / rigidity
+        column = self.inverse[:, index] / rigidity  # E39
         self.base = self.base - column * self.base[index]
         self.unit = self.unit - column * self.unit[index]
         kept = np.arange(len(self.cells)) != index

@@ -54,7 +54,7 @@ class DetachmentCurve:
     status : tuple of Status
     detachments : tuple of Detachment
         Every event, in order.
-    detached : tuple of int
+    detached_at : tuple of int
         The point, counted from 0, that each event came on the way to.
     preload_too_small : bool
         Whether the pull-off force may be larger after a larger preload, see `DetachmentState`.
@@ -99,7 +99,7 @@ class DetachmentCurve:
     residual: Array
     status: tuple[Status, ...]
     detachments: tuple[Detachment, ...]
-    detached: tuple[int, ...]
+    detached_at: tuple[int, ...]
     preload_too_small: bool
     notes: tuple[str, ...]
     control: Literal["depth", "force"]
@@ -210,10 +210,10 @@ def collect_detachments(
     """Drain a path, of at least one state, into its points; fields are not kept."""
     rows: list[tuple[float, ...]] = []
     events: list[Detachment] = []
-    detached: list[int] = []
+    detached_at: list[int] = []
     status: list[Status] = []
     for state in states:
-        detached += [len(rows)] * len(state.detachments)
+        detached_at += [len(rows)] * len(state.detachments)
         rows.append(tuple(float(getattr(state, name)) for name in _POINTS))
         events += state.detachments
         status.append(state.status)
@@ -223,7 +223,7 @@ def collect_detachments(
         **dict(zip(_POINTS, np.array(rows).T, strict=True)),
         status=tuple(status),
         detachments=tuple(events),
-        detached=tuple(detached),
+        detached_at=tuple(detached_at),
         preload_too_small=state.preload_too_small,
         notes=state.notes,
         control=control,

@@ -49,7 +49,7 @@ class DugdaleLaw:
         return float(np.max(self.work / self.range / self.spread)) * 2
 
     @property
-    def near(self) -> float:
+    def start_gap(self) -> float:
         """Gap [m] from which bodies under a given force draw near."""
         return 0.5 * self.range
 

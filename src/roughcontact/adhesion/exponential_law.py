@@ -37,7 +37,7 @@ class ExponentialLaw:
         return float(np.max(self.work)) / self.range**2
 
     @property
-    def near(self) -> float:
+    def start_gap(self) -> float:
         """Gap [m] from which bodies under a given force draw near."""
         return 10.0 * self.range
 

@@ -1,4 +1,7 @@
-"""The energy of the gap: elastic energy of the displacement, and attraction across the gap, above a hard wall."""
+"""The energy of the gap: elastic energy of the displacement, and attraction across the gap, above a hard wall.
+
+See docs/method-adhesion.md, section 1.
+"""
 
 from __future__ import annotations
 
@@ -90,8 +93,8 @@ class GapEnergy:
             lifted = np.maximum(trial - shift, self.obstacle)
         return lifted
 
-    def carried(self, point: Point) -> Point:
-        """Return a point of another depth with the same cells at the wall, the others as they are."""
+    def at_depth(self, point: Point) -> Point:
+        """Return a point of another depth moved to this one: cells stay at the wall, or keep their displacement."""
         touching = point.gap <= 0
         moved = np.where(touching, self.obstacle, point.displacement)
         if self.form.mean_free and not touching.all():
@@ -115,8 +118,8 @@ class GapEnergy:
 
     def residual(self, point: Point) -> float:
         """Return the largest violation of the conditions of equilibrium [Pa]: a gap counts by the cell's stiffness."""
-        held = np.minimum(point.gap / self.form.reference, point.reaction)
-        return float(np.abs(held).max())
+        violation = np.minimum(point.gap / self.form.reference, point.reaction)
+        return float(np.abs(violation).max())
 
     def scale(self, point: Point) -> float:
         """Return the traction that residuals are measured by [Pa]."""

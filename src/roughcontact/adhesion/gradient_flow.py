@@ -9,6 +9,8 @@ tension is held by cells of constant attraction alone, all cells are damped alik
 
 Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
 equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
+
+Labels E17 to E23 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ from roughcontact.adhesion.truncated_newton import (
 )
 from roughcontact.validation import Array
 
-__all__ = ["Landing", "flow", "released"]
+__all__ = ["FlowResult", "detached", "flow"]
 
 STEPS = 400
 FIRST = 2.0  # damping, relative to the curvature of the attraction
@@ -41,16 +43,16 @@ LEAST = 0.02  # damping where the residual is large
 SOFTEST = 1e-5  # damping
 MOST = 100.0  # at which a step that lowers no energy tells of rounding
 UNDER = 0.05  # damping where the Hessian without any is indefinite
-NEAR = 1e-2  # residual from which an equilibrium is looked for
-ROUGH = 1e-5  # residual of an equilibrium that may be the end
+CLOSE = 1e-2  # residual from which an equilibrium is looked for
+COARSE = 1e-5  # residual of an equilibrium that may be the end
 TRIALS = 15  # Newton steps toward it
 WAIT = 3  # steps between two such trials
 NOTHING = math.exp(-REACH)  # of the largest attraction: less does not count beside it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Landing:
-    """Where a flow ended.
+class FlowResult:
+    """The end of a flow.
 
     Attributes
     ----------
@@ -66,7 +68,9 @@ class Landing:
 Convex = Callable[[GapEnergy, Point, Point], bool]
 
 
-def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, even: bool = False) -> Landing:
+def flow(
+    energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, uniform: bool = False
+) -> FlowResult:
     """Follow the gradient flow from `start` to an equilibrium.
 
     Parameters
@@ -78,37 +82,37 @@ def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, e
         Whether the energy is convex between two points.
     counter : Counter
         Counts products.
-    even : bool
-        Whether all cells are damped alike: the gradient is then that in the gap.
+    uniform : bool
+        Whether all cells have the same damping: the flow is then down the gradient in the gap.
     """
     counter.products += 1
     point = energy.at(energy.feasible(start))
-    damping, lost, wait = FIRST, 0.0, 0
+    damping, lost, wait = FIRST, 0.0, 0  # E17
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
-        # At rest, though a cell that the wall hardly holds may make the Hessian indefinite.
+        # E18: at rest, though a cell that the wall hardly holds may make the Hessian indefinite.
         if residual <= TOLERANCE * scale:
-            return Landing(Equilibrium(point, residual / scale, True, lost), lost)
-        near = residual <= NEAR * scale
-        if near and damping < LEAST:
+            return FlowResult(Equilibrium(point, residual / scale, True, lost), lost)
+        close = residual <= CLOSE * scale
+        if close and damping < LEAST:  # E19
             if wait == 0:
                 end = _end(energy, point, convex, counter)
                 if end is not None:
-                    return Landing(end, lost - energy.change(point, end.point))
+                    return FlowResult(end, lost - energy.change(point, end.point))
                 wait = WAIT
             wait -= 1
         free = point.free
         curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
-        weights = energy.attraction.steepest if even else curvature
-        step, negative = conjugate_gradients(
+        weights = energy.attraction.steepest if uniform else curvature
+        step, negative = conjugate_gradients(  # E20
             energy.form, free, curvature - damping * weights, -point.reaction, FORCING, counter
         )
         found = None if negative else line_search(energy, point, step, counter)
-        if found is None:
+        if found is None:  # E21
             if damping <= MOST:
                 damping = max(4 * damping, UNDER)
-            elif not even:
-                even, damping = True, UNDER
+            elif not uniform:
+                uniform, damping = True, UNDER
             else:
                 break
             continue
@@ -116,21 +120,22 @@ def flow(energy: GapEnergy, start: Array, convex: Convex, counter: Counter, *, e
         lost -= change
         too_far = _pushed_back(point, new) > residual
         point = new
-        if released(energy, point):
-            return Landing(Equilibrium(point, 0.0, True, lost), lost)
-        damping = min(FULL, 2 * damping) if too_far else max(damping / 2, SOFTEST if near else LEAST)
+        if detached(energy, point):  # E22
+            return FlowResult(Equilibrium(point, 0.0, True, lost), lost)
+        # E23
+        damping = min(FULL, 2 * damping) if too_far else max(damping / 2, SOFTEST if close else LEAST)
     end = minimise(energy, point.displacement, counter)
-    return Landing(end, lost + end.lost)
+    return FlowResult(end, lost + end.lost)
 
 
 def _end(energy: GapEnergy, point: Point, convex: Convex, counter: Counter) -> Equilibrium | None:
     """Return the equilibrium near a point, if the energy is convex in between."""
-    rough = minimise(
-        energy, point.displacement, counter, tolerance=ROUGH, iterations=TRIALS, convex_only=True
+    coarse = minimise(
+        energy, point.displacement, counter, tolerance=COARSE, iterations=TRIALS, convex_only=True
     )
-    if not (rough.converged and convex(energy, point, rough.point)):
+    if not (coarse.converged and convex(energy, point, coarse.point)):
         return None
-    end = minimise(energy, rough.point.displacement, counter, convex_only=True)
+    end = minimise(energy, coarse.point.displacement, counter, convex_only=True)
     return end if end.converged else None
 
 
@@ -140,7 +145,7 @@ def _pushed_back(old: Point, new: Point) -> float:
     return float(np.max(new.reaction * np.sign(np.where(new.free, moved, 0.0))))
 
 
-def released(energy: GapEnergy, point: Point) -> bool:
+def detached(energy: GapEnergy, point: Point) -> bool:
     """Whether a prescribed tension has pulled the body out of reach of the attraction: nothing stops it."""
     pulled = float(np.sum(energy.load * np.ones(energy.form.shape))) < 0
     if not (pulled and point.gap.min() > 0):

@@ -7,6 +7,8 @@ all changes y of the gap that vanish at the wall. It falls as the curvature D of
 leave the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and
 with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
 them are computed until this point is no lower than the lowest force that was found.
+
+Labels E35 and E36 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -48,12 +50,12 @@ class LowestForce:
     force: float
     _last: _BranchPoint | None = None
 
-    def begin(self, value: float, point: Point) -> None:
+    def start_branch(self, value: float, point: Point) -> None:
         """Begin a branch at a state."""
         self._last = None
-        self.go_on(value, point)
+        self.extend(value, point)
 
-    def go_on(self, value: float, point: Point) -> None:
+    def extend(self, value: float, point: Point) -> None:
         """Go on to the next state of a branch; the energy is strictly convex between it and the last."""
         if isinstance(self.control, ForceControl):
             self.force = min(self.force, value)
@@ -67,23 +69,23 @@ class LowestForce:
     def _search(self, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint) -> None:
         """Find the lowest force between two states, if it is a tension and lower than the lowest so far."""
         order = count()
-        pairs: list[tuple[float, int, _Pair]] = []
+        intervals: list[tuple[float, int, _Interval]] = []
 
         def add(upper: _BranchPoint, lower: _BranchPoint) -> None:
-            pair = _Pair.of(control, upper, lower, enough(), self.counter)
-            heappush(pairs, (pair.bound, next(order), pair))
+            interval = _Interval.of(control, upper, lower, threshold(), self.counter)
+            heappush(intervals, (interval.bound, next(order), interval))  # E35
 
-        def enough() -> float:
+        def threshold() -> float:
             return min(self.force, 0.0) - FORCE_TOLERANCE * abs(self.force)
 
         add(upper, lower)
-        while pairs and pairs[0][0] < enough():
-            _, _, pair = heappop(pairs)
-            middle = pair.middle(control, self.counter)
-            if middle is not None:
-                self.force = min(self.force, middle.force)
-                add(pair.upper, middle)
-                add(middle, pair.lower)
+        while intervals and intervals[0][0] < threshold():  # E36
+            _, _, interval = heappop(intervals)
+            between = interval.state_between(control, self.counter)
+            if between is not None:
+                self.force = min(self.force, between.force)
+                add(interval.upper, between)
+                add(between, interval.lower)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +99,7 @@ class _BranchPoint:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Pair:
+class _Interval:
     """Two states of a branch; the force between them is not below `bound` [N], which it may be `part` of the way up."""
 
     upper: _BranchPoint
@@ -107,30 +109,35 @@ class _Pair:
 
     @classmethod
     def of(
-        cls, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint, enough: float, counter: Counter
-    ) -> _Pair:
-        """Bound the force between two states, so far as it may be below `enough` [N] and below zero."""
+        cls,
+        control: DepthControl,
+        upper: _BranchPoint,
+        lower: _BranchPoint,
+        threshold: float,
+        counter: Counter,
+    ) -> _Interval:
+        """Bound the force between two states, so far as it may be below `threshold` [N] and below zero."""
         if min(upper.force, lower.force) >= 0:
             return cls(upper, lower, 0.0, 0.0)
         law = control.attraction
-        near, far = np.minimum(upper.gap, lower.gap), np.maximum(upper.gap, lower.gap)
+        nearest, farthest = np.minimum(upper.gap, lower.gap), np.maximum(upper.gap, lower.gap)
 
         def slope(free: Mask, curvature: Array) -> float:
             return force_slope(control.form, free, np.where(free, curvature, 0.0), counter)
 
-        least = slope(far > 0, law.curvature_between(near, far))
+        least = slope(farthest > 0, law.curvature_between(nearest, farthest))
         width = upper.depth - lower.depth
-        if least >= 0 or lower.force + least * width >= enough:
+        if least >= 0 or lower.force + least * width >= threshold:
             return cls(upper, lower, lower.force + min(0.0, least) * width, 0.0)
         # The curvature has one peak at most, so that the smallest is at an end.
-        most = slope(near > 0, np.minimum(law.curvature(near), law.curvature(far)))
+        most = slope(nearest > 0, np.minimum(law.curvature(nearest), law.curvature(farthest)))
         if most <= 0:
             return cls(upper, lower, upper.force, 1.0)
         rise = (lower.force - upper.force + most * width) / (most - least) if math.isfinite(most) else width
         rise = min(max(rise, 0.0), width)
         return cls(upper, lower, lower.force + least * rise, rise / width)
 
-    def middle(self, control: DepthControl, counter: Counter) -> _BranchPoint | None:
+    def state_between(self, control: DepthControl, counter: Counter) -> _BranchPoint | None:
         """Return the state where the force may be lowest; None where rounding leaves none in between."""
         upper, lower = self.upper, self.lower
         part = min(max(self.part, CLOSEST), 1 - CLOSEST)
@@ -139,8 +146,8 @@ class _Pair:
             return None
         energy = control.energy_at(depth)
         start = lower.displacement + part * (upper.displacement - lower.displacement)
-        held = (upper.gap <= 0) & (lower.gap <= 0)
-        start = np.where(held, energy.obstacle, start)
+        at_wall = (upper.gap <= 0) & (lower.gap <= 0)
+        start = np.where(at_wall, energy.obstacle, start)
         end = minimise(energy, start, counter, convex_only=True)
         if not end.converged:
             return None

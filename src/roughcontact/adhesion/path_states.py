@@ -8,16 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank, state_of
+from roughcontact.adhesion.adhesive_state import AdhesiveProblem, AdhesiveState, state_of
 from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
 from roughcontact.adhesion.exponential_law import ExponentialLaw
-from roughcontact.adhesion.gradient_flow import released
+from roughcontact.adhesion.gradient_flow import detached
 from roughcontact.adhesion.law_on_cells import law_on
-from roughcontact.adhesion.quasi_static import QuasiStatic, Station
+from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
@@ -29,7 +30,7 @@ __all__ = ["is_resolved", "states_along"]
 # is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
 BRACKET = 1e-8
 HARD = 1e-3  # residual of the contact without attraction, from which the attraction draws
-SHARP, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
+POLISHED, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
 CELLS = 1.5  # that Irwin's length must span
 
 
@@ -68,11 +69,9 @@ def states_along(
     operator: Operator,
     separation: Array,
     adhesion: Adhesion,
+    loads: Loads,
     *,
     modulus: float,
-    depths: Array | None = None,
-    forces: Array | None = None,
-    mean_gaps: Array | None = None,
     surface: Surface | RadialProfile | None = None,
     tolerance: float = 1e-8,
 ) -> Iterator[AdhesiveState]:
@@ -84,12 +83,11 @@ def states_along(
     separation : array, shape of the grid
         Undeformed gap at first touch [m]; infinite where nothing was measured.
     adhesion : Adhesion
+    loads : Loads
+        Depths or forces of either sign, up and down, the first force at least 0; or mean gaps of a whole periodic
+        surface, above 0.
     modulus : float
         Reduced modulus E* [Pa].
-    depths, forces : array
-        One of them, or `mean_gaps`: [m] or [N]; of either sign, up and down, the first force at least 0.
-    mean_gaps : array
-        Mean gaps of a whole periodic surface [m], above 0, up and down.
     surface : Surface or RadialProfile, optional
         Where the separation comes from, for the record.
     tolerance : float
@@ -111,86 +109,89 @@ def states_along(
     if capabilities(operator).listed:
         raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
-    measured = np.isfinite(separation)
-    by_depth = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
+    control: DepthControl | ForceControl
+    control = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
+    if loads.kind == "force":
+        control, goals = ForceControl.of(control), _checked_forces(loads.values)
+        scale = max(float(np.max(np.abs(goals))), adhesion.strength * float(np.min(operator.weights)))
+    else:
+        goals = _checked_depths(loads, form, separation)
+        scale = max(0.0, *goals) + REACH * adhesion.range
     resolved = is_resolved(adhesion, operator, modulus)
-    if forces is not None:
-        control = ForceControl.of(by_depth)
-        blank = Blank(operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved)
-        cell = float(np.min(operator.weights))
-        bracket = BRACKET * max(float(np.max(np.abs(forces))), adhesion.strength * cell)
-        return _walk(blank, _checked_forces(forces), bracket)
-    if mean_gaps is not None:
-        depths = _depths_of(mean_gaps, form, separation)
-    goals = [float(d) for d in (() if depths is None else depths)]
-    if form.mean_free and measured.all() and max(goals) >= (full := float(separation.mean())):
-        raise ValueError(
-            f"a depth of {max(goals):.6g} m is not below the mean separation {full:.6g} m: there a periodic surface is "
-            "in full contact; give a smaller depth"
-        )
-    blank = Blank(operator, separation, adhesion, modulus, surface, form, by_depth, tolerance, resolved)
-    return _walk(blank, goals, BRACKET * (max(0.0, *goals) + REACH * adhesion.range))
+    problem = AdhesiveProblem(
+        operator, separation, adhesion, modulus, surface, form, control, tolerance, resolved
+    )
+    return _states(problem, goals, BRACKET * scale)
 
 
-def _depths_of(mean_gaps: Array, form: ElasticForm, separation: Array) -> Array:
-    """Return the depths at which a periodic surface, whose mean displacement is zero, has these mean gaps."""
-    if not (form.mean_free and np.isfinite(separation).all()):
-        why = "some cells are missing" if form.mean_free else "the body is not periodic"
+def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[float]:
+    """Return depths, or those at which a periodic surface, whose mean displacement is zero, has mean gaps."""
+    whole, values = form.mean_free and np.isfinite(separation).all(), loads.values
+    full = float(separation.mean()) if whole else math.inf
+    if loads.kind == "mean gap":
+        if not whole:
+            why = "some cells are missing" if form.mean_free else "the body is not periodic"
+            raise ValueError(
+                "a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; "
+                f"here {why}: give depths or forces"
+            )
+        if not values.min() > 0:
+            raise ValueError(
+                f"a mean gap of {values.min():.6g} m is full contact or beyond it: give mean gaps above 0"
+            )
+        values = full - values
+    if values.max() >= full:
         raise ValueError(
-            f"a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; here "
-            f"{why}: give depths or forces"
+            f"a depth of {values.max():.6g} m is not below the mean separation {full:.6g} m: there a periodic surface "
+            "is in full contact; give a smaller depth"
         )
-    if not mean_gaps.min() > 0:
-        raise ValueError(
-            f"a mean gap of {mean_gaps.min():.6g} m is full contact or beyond it: give mean gaps above 0"
-        )
-    return np.asarray(float(separation.mean()) - mean_gaps)
+    return [float(depth) for depth in values]
 
 
 def _checked_forces(forces: Array) -> list[float]:
     if forces[0] < 0:
         raise ValueError(
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
-            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (loading_path, adhesive_loop)"
+            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)"
         )
     return [float(force) for force in forces]
 
 
-def _apart(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
+def _initial_displacement(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
     """Return the displacement at which bodies from afar would rest if there were no attraction."""
     form, law = control.form, control.attraction
     hard = replace(control, attraction=ExponentialLaw(0.0, law.range)).energy_at(value)
     if isinstance(control, ForceControl) and value <= 0:
-        return form.extended(np.full(control.separation.shape, law.near), 0.0)
+        return form.extended(np.full(control.separation.shape, law.start_gap), 0.0)
     if isinstance(control, DepthControl) and not hard.obstacle.max() > 0:
         return np.zeros(form.shape)
     return minimise(hard, np.zeros(form.shape), counter, tolerance=HARD).point.displacement
 
 
-def _sharpened(walk: QuasiStatic, station: Station) -> Station:
+def _polished(path: QuasiStatic, reached: PathPoint) -> PathPoint:
     """Return a state with as little residual as rounding allows: over all cells its sum is an error of the force."""
-    energy = walk.control.energy_at(station.value)
-    if not station.converged or released(energy, station.point):
-        return station
-    start = station.point.displacement
-    better = minimise(energy, start, walk.counter, tolerance=SHARP, iterations=STEPS, convex_only=True)
-    return replace(station, point=better.point, residual=better.residual)
+    energy = path.control.energy_at(reached.value)
+    if not reached.converged or detached(energy, reached.point):
+        return reached
+    start = reached.point.displacement
+    better = minimise(energy, start, path.counter, tolerance=POLISHED, iterations=STEPS, convex_only=True)
+    return replace(reached, point=better.point, residual=better.residual)
 
 
-def _walk(blank: Blank, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
-    walk = QuasiStatic(blank.control, bracket)
-    station: Station | None = None
+def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Iterator[AdhesiveState]:
+    path = QuasiStatic(problem.control, bracket)
+    reached: PathPoint | None = None
     for goal in goals:
-        before = walk.counter.products
+        before = path.counter.products
         with one_blas_thread():
-            if station is None or (
-                released(blank.control.energy_at(station.value), station.point) and goal >= 0
+            if reached is None or (
+                detached(problem.control.energy_at(reached.value), reached.point) and goal >= 0
             ):
                 # From afar. Where nothing pulls any more, the bodies draw near again.
-                station = walk.start(goal, _apart(blank.control, goal, walk.counter))
+                reached = path.start(goal, _initial_displacement(problem.control, goal, path.counter))
             else:
-                station = walk.go(station, goal)
-            if isinstance(blank.control, ForceControl):
-                station = _sharpened(walk, station)
-            state = state_of(blank, station, walk.counter.products - before)
+                reached = path.continue_to(reached, goal)
+            if isinstance(problem.control, ForceControl):
+                reached = _polished(path, reached)
+            state = state_of(problem, reached, path.counter.products - before)
         yield state

@@ -3,6 +3,8 @@
 A step is taken if the energy at the new value is strictly convex on the box that holds the old state and the new: no
 other equilibrium lies in it, and the gradient flow from the old state ends in the new one. Else the step is halved,
 down to a bracket; what is left then is a limit point of the branch, and the body jumps.
+
+Labels E24 to E30 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -14,18 +16,18 @@ import numpy as np
 
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
-from roughcontact.adhesion.gradient_flow import flow, released
+from roughcontact.adhesion.gradient_flow import detached, flow
 from roughcontact.adhesion.lowest_force import LowestForce
 from roughcontact.adhesion.reduced_hessian import smallest_ratio
 from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, Equilibrium, minimise
 from roughcontact.validation import Array
 
-__all__ = ["Jump", "QuasiStatic", "Station"]
+__all__ = ["Jump", "PathPoint", "QuasiStatic"]
 
 MOVED = 1e-2  # of the range of the attraction: below, a body has not jumped
-ON_THE_WAY = 1e-8  # residual of states that nobody asked for
-ROUGH = 1e-4  # residual at which the way of a step is judged first
-SAME = 1e-5  # of the range of the attraction: gaps of two states that are one
+ON_THE_WAY = 1e-8  # residual of states between those that were asked for
+COARSE = 1e-4  # residual of a first, coarse solution of a step
+SAME = 1e-5  # of the range of the attraction: difference of gaps below which two states are the same
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,7 @@ class Jump:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Station:
+class PathPoint:
     """A state on a path: what is prescribed, the jumps on the way to it, and the lowest force of the retreat so far.
 
     The lowest force is infinite where the path has begun, or the body has approached.
@@ -87,40 +89,42 @@ class Station:
 
 
 @dataclass(slots=True)
-class _Stride:
-    """How far to go: twice as far from step to step; toward a value that was missed, by bisection.
+class _StepControl:
+    """Step length: doubled after each accepted step; by bisection toward the value of a rejected one.
 
-    Where a step was missed, the end of the branch may be at any distance, near as far: every further miss squares the
-    part that is tried, and between a step that is taken and one that is missed lies their geometric mean.
+    After a rejection the end of the branch may be at any distance. Each further rejection squares the fraction of the
+    step that is tried. After an acceptance the next step is at least the geometric mean of the accepted step and the
+    distance to the rejected value.
     """
 
-    least: float
+    smallest: float
     length: float
-    barrier: float = np.inf  # distance of the value that was missed
-    misses: int = 0
-    row: int = 0
+    rejected: float = np.inf  # distance to the value of the last rejected step
+    rejections: int = 0  # in a row
+    accepted: int = 0  # steps in a row since a rejection
 
-    def next(self) -> float:
-        if self.length < self.barrier:
-            return max(self.length, self.least)
-        if self.row >= 2 or self.barrier <= self.least:
-            return self.barrier
-        return max(self.barrier / 2, self.least)
+    def proposal(self) -> float:
+        if self.length < self.rejected:
+            return max(self.length, self.smallest)
+        if self.accepted >= 2 or self.rejected <= self.smallest:
+            return self.rejected
+        return max(self.rejected / 2, self.smallest)
 
-    def taken(self, length: float) -> None:
-        self.row = 0 if length >= self.barrier else self.row + 1
-        self.barrier = self.barrier - length if length < self.barrier else np.inf
-        self.length = max(2 * length, math.sqrt(length * self.barrier) if self.barrier < np.inf else 0.0)
-        self.misses = 0
+    def accept(self, length: float) -> None:
+        self.accepted = 0 if length >= self.rejected else self.accepted + 1
+        self.rejected = self.rejected - length if length < self.rejected else np.inf
+        self.length = max(2 * length, math.sqrt(length * self.rejected) if self.rejected < np.inf else 0.0)
+        self.rejections = 0
 
-    def missed(self, length: float) -> None:
-        self.misses += 1
-        self.barrier, self.row, self.length = length, 0, length * 0.5 ** (2 ** (self.misses - 1))
+    def reject(self, length: float) -> None:
+        self.rejections += 1
+        self.rejected, self.accepted = length, 0
+        self.length = length * 0.5 ** (2 ** (self.rejections - 1))
 
 
 @dataclass(slots=True)
 class QuasiStatic:
-    """Walks along a path of prescribed depths or forces.
+    """Follows a path of prescribed depths or forces.
 
     Parameters
     ----------
@@ -135,94 +139,96 @@ class QuasiStatic:
     counter: Counter = field(default_factory=Counter)
     _vectors: tuple[Array, ...] = ()
 
-    def start(self, value: float, displacement: Array) -> Station:
+    def start(self, value: float, displacement: Array) -> PathPoint:
         """Return where the gradient flow from a displacement ends."""
         end = flow(self.control.energy_at(value), displacement, self._convex, self.counter).equilibrium
-        return Station(value, end.point, end.residual, end.converged)
+        return PathPoint(value, end.point, end.residual, end.converged)
 
-    def go(self, station: Station, target: float) -> Station:
-        """Return the state under another value of what is prescribed."""
+    def continue_to(self, start: PathPoint, target: float) -> PathPoint:
+        """Continue the branch from a point to another value of what is prescribed, by jumps where it ends."""
         jumps: list[Jump] = []
-        if released(self.control.energy_at(target), station.point):
-            return replace(station, value=target, converged=True, jumps=())
-        lowest = LowestForce(self.control, self.counter, station.lowest_force)
-        if retreats := target < station.value:
-            lowest.begin(station.value, station.point)
-        here, stride = station, _Stride(self.bracket, abs(target - station.value))
-        # Of the displacement with what is prescribed, in the last step, beyond what the wall takes along.
-        change: Array | float = 0.0
+        if detached(self.control.energy_at(target), start.point):
+            return replace(start, value=target, converged=True, jumps=())
+        lowest = LowestForce(self.control, self.counter, start.lowest_force)
+        if retreats := target < start.value:
+            lowest.start_branch(start.value, start.point)
+        here, steps = start, _StepControl(self.bracket, abs(target - start.value))  # E24
+        # Slope of the secant predictor: of the displacement with what is prescribed, in the last step, beyond the
+        # displacement of the cells at the wall.
+        slope: Array | float = 0.0
         while here.value != target:
             left = target - here.value
-            length = min(stride.next(), abs(left))
+            length = min(steps.proposal(), abs(left))
             value = target if length == abs(left) else here.value + float(np.copysign(length, left))
             energy = self.control.energy_at(value)
-            begin = energy.carried(here.point)
-            # On the way a state need be no better than the step is long: as sharp as a state asked for at the bracket.
+            moved = energy.at_depth(here.point)  # E25
+            # On the way the residual may be larger, in proportion to the step: a step as short as the bracket has that
+            # of a state that was asked for.
             tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
-            # Where a step was missed, more will be, and a rough solution shows most of them.
-            rough = (ROUGH,) if stride.barrier < math.inf and tolerance < ROUGH else ()
-            guess = begin.displacement + length * change
-            end = self._end(energy, here.point, begin, guess, (*rough, tolerance))
+            # After a rejection more follow, and a coarse solution shows most of them.
+            coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
+            predicted = moved.displacement + length * slope
+            end = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))  # E26, E27
             if end is not None:
-                change = (end.point.displacement - begin.displacement) / length
-                here = Station(value, end.point, end.residual, True)
+                slope = (end.point.displacement - moved.displacement) / length
+                here = PathPoint(value, end.point, end.residual, True)
                 if retreats:
-                    lowest.go_on(value, here.point)
-                stride.taken(length)
+                    lowest.extend(value, here.point)
+                steps.accept(length)  # E28
             elif length > self.bracket:
-                stride.missed(length)
+                steps.reject(length)
             else:
-                here, jump = self._jump(here, value, energy, begin)
-                change = 0.0
+                here, jump = self._jump(here, value, energy, moved)  # E29
+                slope = 0.0
                 jumps += [jump] if jump else []
-                if released(energy, here.point):
+                if detached(energy, here.point):
                     break
                 if retreats:
-                    lowest.begin(value, here.point)
-                stride = _Stride(self.bracket, abs(target - here.value))
-        force = math.inf if target > station.value else lowest.force
-        return Station(target, here.point, here.residual, here.converged, tuple(jumps), force)
+                    lowest.start_branch(value, here.point)
+                steps = _StepControl(self.bracket, abs(target - here.value))
+        force = math.inf if target > start.value else lowest.force
+        return PathPoint(target, here.point, here.residual, here.converged, tuple(jumps), force)
 
     def _end(
-        self, energy: GapEnergy, before: Point, begin: Point, guess: Array, tolerances: tuple[float, ...]
+        self, energy: GapEnergy, before: Point, moved: Point, guess: Array, tolerances: tuple[float, ...]
     ) -> Equilibrium | None:
-        """Return the state at the end of a step, if the energy is strictly convex from its begin to there."""
+        """Return the state at the end of a step, if the energy is strictly convex between both ends of the step."""
         end: Equilibrium | None = None
         for tolerance in tolerances:
             end = minimise(energy, guess, self.counter, tolerance=tolerance, convex_only=True)
-            if not (end.converged and self._convex(energy, begin, end.point, before)):
+            if not (end.converged and self._convex(energy, moved, end.point, before)):
                 return None
             guess = end.point.displacement
         return end
 
     def _jump(
-        self, here: Station, value: float, energy: GapEnergy, begin: Point
-    ) -> tuple[Station, Jump | None]:
-        start = begin.displacement
-        landing = flow(energy, start, self._convex, self.counter)
-        end = landing.equilibrium
+        self, here: PathPoint, value: float, energy: GapEnergy, moved: Point
+    ) -> tuple[PathPoint, Jump | None]:
+        start = moved.displacement
+        result = flow(energy, start, self._convex, self.counter)
+        end = result.equilibrium
         scale = energy.attraction.range
-        station = Station(value, end.point, end.residual, end.converged)
-        moved = float(np.abs(end.point.displacement - begin.displacement).max())
-        if moved < MOVED * scale and end.converged:
-            return station, None  # the branch goes on, too flat for the test of convexity
-        off = released(energy, end.point)
-        other = flow(energy, start, self._convex, self.counter, even=True).equilibrium
-        apart = float(np.abs(end.point.displacement - other.point.displacement).max()) > SAME * scale
+        reached = PathPoint(value, end.point, end.residual, end.converged)
+        change = float(np.abs(end.point.displacement - start).max())
+        if change < MOVED * scale and end.converged:  # E30
+            return reached, None  # the branch goes on, too flat for the test of convexity
+        off = detached(energy, end.point)
+        other = flow(energy, start, self._convex, self.counter, uniform=True).equilibrium
+        differ = float(np.abs(end.point.displacement - other.point.displacement).max()) > SAME * scale
         jump = Jump(
             self.control.depth(here.value, here.point),
             math.nan if off else self.control.depth(value, end.point),
             energy.force(here.point),
             0.0 if off else energy.force(end.point),
             abs(value - here.value),
-            math.inf if off else landing.lost,
+            math.inf if off else result.lost,
             value > here.value,
-            off != released(energy, other.point) or (apart and not off),
+            off != detached(energy, other.point) or (differ and not off),
         )
-        return station, jump
+        return reached, jump
 
     def _convex(self, energy: GapEnergy, one: Point, other: Point, before: Point | None = None) -> bool:
-        """Whether the energy is strictly convex on the box between two points, as far as can be told.
+        """Whether the energy is strictly convex on the box between two points, as far as the search finds.
 
         The first may come from a point `before`, under another depth: states under depths in between have gaps between
         its gaps and those of the other.
@@ -232,7 +238,7 @@ class QuasiStatic:
         farthest = np.maximum(np.maximum(one.gap, earlier.gap), other.gap)
         free = earlier.free | other.free
         curvature = energy.attraction.curvature_between(nearest, farthest)
-        # What bends the energy least is often the way that the state has moved.
+        # The direction of least curvature is often the change of the state itself.
         start = (other.displacement - one.displacement, *self._vectors)
         ritz = smallest_ratio(energy.form, free, curvature, self.counter, start=start, sign_only=True)
         self._vectors = ritz.vectors[:1]

@@ -5,6 +5,8 @@ where an equilibrium ends. By the locally optimal block method (Knyazev, SIAM J.
 compliance being the preconditioner. A residual r of a vector of unit elastic norm means that an eigenvalue lies within
 ``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, C being the inverse of K: the inverse of
 a part is at most the part of the inverse.
+
+Labels E31 to E34 are the lines of the algorithm in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -18,11 +20,11 @@ from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.truncated_newton import Counter, conjugate_gradients
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Ritz", "sharp_bound", "smallest_ratio"]
+__all__ = ["Ritz", "smallest_ratio", "solved_bound"]
 
 STEPS = 120
 BLOCK = 2
-SURE = 0.02  # bound below which a sign is believed
+RELIABLE = 0.02  # bound below which a sign is believed
 DEPENDENT = 1e-12  # of the largest: directions of the basis that are left out
 
 
@@ -91,7 +93,7 @@ def smallest_ratio(
         x = np.where(free, x, 0.0)
         return np.where(free, x - x.sum() / number, 0.0) if form.mean_free else x
 
-    def softened(r: Array) -> Array:
+    def precondition(r: Array) -> Array:
         counter.products += 1
         return project(form.compliance(r))
 
@@ -100,15 +102,15 @@ def smallest_ratio(
         return np.where(free, form.stiffness(x), 0.0)
 
     weight = np.where(free, curvature, 0.0)
-    first = [project(v) for v in start]
+    first = [project(v) for v in start]  # E31
     block = max(BLOCK, len(start) + 1)
     while len(first) < block:
-        first.append(softened(weight * rng.standard_normal(free.shape)))
+        first.append(precondition(weight * rng.standard_normal(free.shape)))
     basis, images = first, [image(x) for x in first]
     old: list[tuple[Array, Array]] = []
     value, bound, vectors = 1.0, np.inf, tuple(first)
     for _ in range(STEPS):
-        coefficients, values = _ritz(form, basis, images, weight)
+        coefficients, values = _ritz(form, basis, images, weight)  # E32
         count = min(block, len(values))
         chosen = [coefficients[:, k] for k in range(count)]
         x = [_combined(c, basis) for c in chosen]
@@ -116,20 +118,21 @@ def smallest_ratio(
         # What the newer parts contribute is the direction of the next step.
         old = [(_combined(c[block:], basis[block:]), _combined(c[block:], images[block:])) for c in chosen]
         residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
-        soft = [softened(r) for r in residuals]
+        preconditioned = [precondition(r) for r in residuals]
         value = float(values[0])
-        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], soft[0]))))
+        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
         vectors = tuple(x)
-        if bound <= accuracy or (sign_only and (value < 0 or bound <= min(SURE, value / 4))):
+        # E34
+        if bound <= accuracy or (sign_only and (value < 0 or bound <= min(RELIABLE, value / 4))):
             break
-        basis, images = [*x, *soft], [*kx, *(image(s) for s in soft)]
+        basis, images = [*x, *preconditioned], [*kx, *(image(s) for s in preconditioned)]
         if len(coefficients) > block:
             basis += [p for p, _ in old]
             images += [p for _, p in old]
     return Ritz(value, bound, vectors, residuals[0])
 
 
-def sharp_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
+def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
     """Return the bound of a Ritz value where the compliance is not the inverse of the stiffness, by solving for it.
 
     Under a prescribed force the stiffness is that of a body whose depth is free, and the compliance bounds nothing.
@@ -144,17 +147,17 @@ def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Ar
     size = len(basis)
     elastic, adhesive = np.empty((size, size)), np.empty((size, size))
     for i in range(size):
-        heavy = weight * basis[i]
+        weighted = weight * basis[i]
         for j in range(size):
             elastic[i, j] = form.dot(basis[i], images[j])
-            adhesive[i, j] = form.dot(heavy, basis[j])
+            adhesive[i, j] = form.dot(weighted, basis[j])
     norms = np.sqrt(np.maximum(np.diagonal(elastic), 0.0))
     scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)
     elastic = scale[:, None] * (elastic + elastic.T) / 2 * scale
     adhesive = scale[:, None] * (adhesive + adhesive.T) / 2 * scale
-    lengths, turned = scipy.linalg.eigh(elastic)
-    kept = lengths > DEPENDENT * lengths[-1]
-    whitened = turned[:, kept] / np.sqrt(lengths[kept])
+    norms_squared, vectors = scipy.linalg.eigh(elastic)
+    kept = norms_squared > DEPENDENT * norms_squared[-1]
+    whitened = vectors[:, kept] / np.sqrt(norms_squared[kept])
     ratios, inner = scipy.linalg.eigh(whitened.T @ adhesive @ whitened)
     coefficients = scale[:, None] * (whitened @ inner[:, ::-1])
     return np.asarray(coefficients), np.asarray(1 - ratios[::-1])

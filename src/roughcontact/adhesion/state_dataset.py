@@ -35,8 +35,8 @@ __all__ = [
 ]
 
 _NAMES = {
-    "modulus": "blank.modulus",
-    **{name: f"blank.operator.grid.{name}" for name in ("lengths", "spacing", "periodic")},
+    "modulus": "problem.modulus",
+    **{name: f"problem.operator.grid.{name}" for name in ("lengths", "spacing", "periodic")},
 }
 
 
@@ -62,14 +62,14 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
     >>> f"{float(state.to_dataset()['adhesive_energy']) * 1e15:.1f} fJ of adhesion"
     '-5.7 fJ of adhesion'
     """
-    blank, kind = state.blank, state.geometry
-    grid = blank.operator.grid
+    problem, kind = state.problem, state.geometry
+    grid = problem.operator.grid
     data = variables_of(state, {(CELLS,): ADHESIVE_STATE[(CELLS,)]}, kind, _NAMES)
-    if blank.surface is not None:
-        data |= variables_of(blank.surface, {(CELLS,): (HEIGHTS,)}, kind)
+    if problem.surface is not None:
+        data |= variables_of(problem.surface, {(CELLS,): (HEIGHTS,)}, kind)
     title = "contact of surfaces that stick"
     dataset = dataset_of(data | _numbers(state), centres(grid, kind), title, kind)
-    return dataset.assign_attrs(law=blank.adhesion.law)
+    return dataset.assign_attrs(law=problem.adhesion.law)
 
 
 def state_record(state: AdhesiveState) -> dict[str, Any]:
@@ -92,19 +92,23 @@ def state_record(state: AdhesiveState) -> dict[str, Any]:
     >>> state.to_record()["law"], state.to_record()["units"]["stability"]
     ('exponential', '1')
     """
-    blank = state.blank
-    more = {"shape": list(blank.operator.grid.shape), "law": blank.adhesion.law, "tolerance": blank.tolerance}
+    problem = state.problem
+    more = {
+        "shape": list(problem.operator.grid.shape),
+        "law": problem.adhesion.law,
+        "tolerance": problem.tolerance,
+    }
     return record_of(_numbers(state), state.geometry, **more)
 
 
 def _numbers(state: AdhesiveState) -> Variables:
-    blank, kind = state.blank, state.geometry
-    control = "force" if isinstance(blank.control, ForceControl) else "depth"
+    problem, kind = state.problem, state.geometry
+    control = "force" if isinstance(problem.control, ForceControl) else "depth"
     table = {along: columns for along, columns in ADHESIVE_STATE.items() if along != (CELLS,)}
     data = variables_of(state, table, kind, _NAMES)
-    if blank.surface is not None:
-        data |= variables_of(blank.surface, {(): (RMS,)}, kind)
-    return data | law_variables(blank.adhesion, kind) | jump_variables(state.jumps, control, kind)
+    if problem.surface is not None:
+        data |= variables_of(problem.surface, {(): (RMS,)}, kind)
+    return data | law_variables(problem.adhesion, kind) | jump_variables(state.jumps, control, kind)
 
 
 def law_variables(adhesion: Adhesion, geometry: Geometry) -> Variables:

@@ -4,6 +4,8 @@ Projected steps on the free cells (Bertsekas, SIAM J. Control Optim. 20, 221 (19
 conjugate gradients (Steihaug, SIAM J. Numer. Anal. 20, 626 (1983)) that the compliance preconditions. Where they find
 the Hessian not positive definite, it is shifted by a multiple of the identity: the step is then one of the implicit
 gradient flow in the gap.
+
+Labels E1 to E16 are the lines of the algorithms in docs/method-adhesion.md.
 """
 
 from __future__ import annotations
@@ -83,33 +85,33 @@ def minimise(
         Whether to give up where the Hessian is not positive definite.
     """
     counter.products += 1
-    point = energy.at(energy.feasible(start))
+    point = energy.at(energy.feasible(start))  # E1, E2
     shift, lost = 0.0, 0.0
     residual = math.inf
     for _ in range(iterations):
         residual = energy.residual(point) / energy.scale(point)
-        if residual <= tolerance:
+        if residual <= tolerance:  # E3
             return Equilibrium(point, residual, True, lost)
         free = point.free
-        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
+        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)  # E4
         most = float(np.max(curvature))
-        # No closer than what is wanted: the last system need not be solved beyond the tolerance.
+        # E5. No closer than what is wanted: the last system need not be solved beyond the tolerance.
         forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
-        step, negative = conjugate_gradients(
+        step, negative = conjugate_gradients(  # E6
             energy.form, free, curvature - shift, -point.reaction, forcing, counter
         )
-        if negative:
+        if negative:  # E7
             if convex_only:
                 break
             shift = max(2 * shift, SHIFT * most)
             continue
-        found = line_search(energy, point, step, counter)
+        found = line_search(energy, point, step, counter)  # E8
         if found is None:
             if shift > STIFFEST * most:
                 break
             shift = max(4 * shift, SHIFT * most)
             continue
-        point, gained = found
+        point, gained = found  # E9
         lost -= gained
         shift = 0.0 if shift < 1e-3 * most else 0.25 * shift
     return Equilibrium(point, residual, False, lost)
@@ -161,27 +163,27 @@ def conjugate_gradients(
         residual -= mask * (residual.sum() / number)
     step = np.zeros_like(residual)
     z = precondition(residual)
-    direction, rho = z, form.dot(residual, z)
+    direction, rho = z, form.dot(residual, z)  # E10
     if rho <= 0:
         return step, False
     goal = rho * forcing**2
-    bent = curvature * mask
+    free_curvature = curvature * mask
     for _ in range(INNER):
         counter.products += 1
-        image = form.stiffness(direction) * mask
-        image -= bent * direction
-        bend = form.dot(direction, image)
-        if bend <= 0:
-            return step, True
-        alpha = rho / bend
+        image = form.stiffness(direction) * mask  # E11
+        image -= free_curvature * direction
+        quadratic = form.dot(direction, image)
+        if quadratic <= 0:
+            return step, True  # E12
+        alpha = rho / quadratic
         step += alpha * direction
-        residual -= alpha * image
+        residual -= alpha * image  # E13
         if constrained:
             residual -= mask * (residual.sum() / number)
-        z = precondition(residual)
+        z = precondition(residual)  # E14
         new = form.dot(residual, z)
-        if new <= goal:
+        if new <= goal:  # E15
             break
-        direction = z + (new / rho) * direction
+        direction = z + (new / rho) * direction  # E16
         rho = new
     return step, False

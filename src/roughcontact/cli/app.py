@@ -6,27 +6,36 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from roughcontact.cli.added_commands import added_commands, refuse_missing
 from roughcontact.cli.late_group import late_group
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
     from roughcontact.cli import (
+        adhesive_curve_command as adhesive_curve_command,
+        adhesive_press_command as adhesive_press_command,
         averages_command as averages_command,
         conductance_command as conductance_command,
         curve_command as curve_command,
+        detachment_command as detachment_command,
         prepare_command as prepare_command,
         press_command as press_command,
         serve_command as serve_command,
         spectrum_command as spectrum_command,
         study_command as study_command,
         surface_command as surface_command,
-        thesis_command as thesis_command,
     )
 
 __all__ = ["app"]
 
 
-_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve", "thesis")}
+_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve")}
+_ADHESION = {
+    "press": "adhesive_press_command",
+    "curve": "adhesive_curve_command",
+    "loop": "adhesive_curve_command",
+    "detach": "detachment_command",
+}
 _SURFACE = {
     "info": "surface_command",
     "make": "surface_command",
@@ -45,7 +54,7 @@ _STUDY = {
 
 app = typer.Typer(
     name="roughcontact",
-    cls=late_group(_ALONE),
+    cls=late_group(_ALONE, added_commands, refuse_missing),
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
     epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
     "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
@@ -55,6 +64,14 @@ app = typer.Typer(
     # A mistake of ours shows itself as Python shows it.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
+)
+app.add_typer(
+    typer.Typer(
+        cls=late_group(_ADHESION),
+        help="Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
+        no_args_is_help=True,
+    ),
+    name="adhesion",
 )
 app.add_typer(
     typer.Typer(

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
-from roughcontact.cli.output import command_line
 from roughcontact.cli.report import emit, print_facts, print_table
-from roughcontact.cli.study_command import FOLDER, own_cases, require_results
+from roughcontact.cli.study_command import FOLDER, dataset_writer, own_cases, require_results
 from roughcontact.cli.unit_options import parse_number
 from roughcontact.plot.engineering_units import scale
 
@@ -90,20 +89,9 @@ class LawWindow:
 def average(folder: Path = FOLDER, *, out: Path = FILE, window: LawWindow, json: bool = JSON) -> None:
     """Write means, scatter and errors of all that a study computed, and its power laws, into one file."""
     with reported(folder, out, as_json=json), own_cases():
-        from roughcontact.files.aside import require_target
-        from roughcontact.files.provenance import provenance
-        from roughcontact.files.write import write_netcdf
-        from roughcontact.study.long_table import write_long_csv
-
-        kind = out.suffix.casefold()
-        if kind not in (".nc", ".csv"):
-            raise UsageError(f"--out: cannot write {out}: give a file .nc (NetCDF) or .csv (a table)")
-        require_target(out)
+        write = dataset_writer(out)
         averaged = _averaged(folder, window.value())
-        if kind == ".nc":
-            write_netcdf(averaged, out, provenance(command=command_line()))
-        else:
-            write_long_csv(averaged, out)
+        write(averaged)
         _note_laws(averaged)
         cases = int(averaged["cases"].sum())
         if json:

@@ -63,6 +63,7 @@ class Errors:
         "An error on every number, and what it is made of: half as many cells, no short waves, other levelling. "
         "As long as two or three loads more; of a curve at its first and last resolved load.",
         default=False,
+        needs_whole=True,
     )
     short_cutoff: str | None = option(
         "With --errors: the shortest wave that the instrument records (default: four cells).", "5um"

@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cli.exits import MISSED
 
 if TYPE_CHECKING:
+    from roughcontact.slabs.communicator import Communicator
     from roughcontact.slabs.slabs import Slabs
 
-__all__ = ["as_one", "refusal", "refuse_in_slabs", "slabs_of_job"]
+__all__ = ["as_one", "communicator_of_job", "refusal", "require_one_process", "slabs_of_job"]
 
 # Where launchers state the number of processes and which one this is: Open MPI; MPICH and its kin; SLURM.
 _STATED = {
@@ -48,7 +49,7 @@ def refusal(arguments: Sequence[str]) -> str | None:
     known = any(words[: len(command)] == command for command in _TOGETHER)
     if launched()[1] == 1 or not words or known or "--help" in arguments:
         return None
-    name = " ".join(words[: 2 if words[0] in ("study", "surface") else 1])
+    name = " ".join(words[: 2 if words[0] in ("adhesion", "study", "surface") else 1])
     return (
         f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them: run "
         f"{name!r} without a launcher such as mpiexec"
@@ -86,8 +87,16 @@ def slabs_of_job() -> Slabs | None:
     return Slabs(MPI.COMM_WORLD)
 
 
-def refuse_in_slabs(given: Mapping[str, Any]) -> None:
-    """Refuse options that a surface in slabs has no answer to, by their names.
+def communicator_of_job() -> Communicator:
+    """Return the processes of the job, or this one alone."""
+    from roughcontact.slabs.one_process import OneProcess
+
+    slabs = slabs_of_job()
+    return OneProcess() if slabs is None else slabs.communicator
+
+
+def require_one_process(given: Mapping[str, Any]) -> None:
+    """Refuse options that need the whole surface, by their names.
 
     Raises
     ------

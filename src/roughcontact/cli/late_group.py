@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
@@ -17,11 +17,18 @@ from roughcontact.cli.option_groups import grouped
 __all__ = ["late_group"]
 
 
-def late_group(commands: Mapping[str, str]) -> type[TyperGroup]:
+def late_group(
+    commands: Mapping[str, str],
+    added: Callable[[], Mapping[str, str]] = dict,
+    refuse: Callable[[str], None] = lambda name: None,
+) -> type[TyperGroup]:
     """Return the class of a group of commands: functions of these names, in these modules of this room.
 
-    Their examples stand in the module's ``EXAMPLES``, by the name of the command.
+    Their examples stand in the module's ``EXAMPLES``, by the name of the command. For a name that is not among them,
+    and for the help, `added` returns the modules of commands of other packages; `refuse` may say more of a name that
+    nothing adds than that there is no such command.
     """
+    modules = {name: f"roughcontact.cli.{module}" for name, module in commands.items()}
 
     class LateGroup(TyperGroup):
         def __init__(self, **given: Any) -> None:
@@ -30,13 +37,21 @@ def late_group(commands: Mapping[str, str]) -> type[TyperGroup]:
             self.commands = {name: TyperCommand(name) for name in commands} | dict(self.commands)
 
         def get_command(self, ctx: Any, cmd_name: str) -> Any:
-            if cmd_name in commands:
-                return _imported(commands[cmd_name], cmd_name)
-            return super().get_command(ctx, cmd_name)
+            known = super().get_command(ctx, cmd_name)
+            module = added().get(cmd_name) if known is None else modules.get(cmd_name)
+            if module is not None:
+                return _imported(module, cmd_name)
+            if known is None:
+                refuse(cmd_name)
+            return known
+
+        def list_commands(self, ctx: Any) -> list[str]:
+            return list(dict.fromkeys([*super().list_commands(ctx), *added()]))
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
             # The same group of commands that have but a summary.
-            summaries = {name: TyperCommand(name, help=_summary(commands[name], name)) for name in commands}
+            every = {**added(), **modules}
+            summaries = {name: TyperCommand(name, help=_summary(every[name], name)) for name in every}
             TyperGroup(
                 name=self.name,
                 commands={**self.commands, **summaries},
@@ -49,18 +64,49 @@ def late_group(commands: Mapping[str, str]) -> type[TyperGroup]:
     return LateGroup
 
 
+class _Command(TyperCommand):
+    """A command that names those of its name in other groups where they have an option that it lacks."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except Exception as told:
+            error: Any = told
+            # No such option: typers differ in the class.
+            if hasattr(error, "possibilities") and (others := _elsewhere(ctx, error.option_name)):
+                error.message, error.possibilities = f"{error.message}; {others}", None
+            raise
+
+
+def _elsewhere(ctx: Any, option: str) -> str:
+    """Return which commands of the same name in other groups take an option, if any do."""
+    root = ctx.find_root()
+    groups = {root.info_name: root.command} | {
+        f"{root.info_name} {name}": group
+        for name, group in root.command.commands.items()
+        if isinstance(group, TyperGroup)
+    }
+    found = [
+        f"'{path} {ctx.info_name}'"
+        for path, group in groups.items()
+        if ctx.info_name in group.commands
+        and any(option in each.opts for each in group.get_command(ctx, ctx.info_name).params)
+    ]
+    return f"use {' or '.join(found)} for it" if found else ""
+
+
 def _imported(module: str, name: str) -> Any:
-    members = vars(import_module(f"roughcontact.cli.{module}"))
+    members = vars(import_module(module))
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    alone.command(name, epilog=epilog)(grouped(members[name]))
+    alone.command(name, cls=_Command, epilog=epilog)(grouped(members[name]))
     return typer.main.get_command(alone)
 
 
 def _summary(module: str, name: str) -> str:
     """Return the first paragraph of a command's docstring, from the text of its module."""
-    spec = find_spec(f"roughcontact.cli.{module}")
+    spec = find_spec(module)
     source = getattr(spec and spec.loader, "get_source", lambda name: None)(spec and spec.name)
     if source is None:  # a bundle of the program holds no text
         return _imported(module, name).help or ""

@@ -18,9 +18,11 @@ from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.files.own_errors import is_ours
+from roughcontact.memory import MemoryWarning
 
 __all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
 
+_WARNINGS = SurfaceWarning, MemoryWarning
 # The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
 _OPTIONS = (
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
@@ -31,7 +33,8 @@ _OPTIONS = (
     (re.compile(r"\b(mask)ed\(\)"), r"'surface prepare --\1'"),
     (re.compile(r"Grid\(\.\.\., periodic=True\)"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
-    (re.compile(r"\bloading_path(, adhesive_loop)?\b"), "'roughcontact curve'"),
+    (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
+    (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
 
@@ -55,7 +58,8 @@ def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, A
     beside: dict[str, Any] = {}
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("always", SurfaceWarning)
+            for ours in _WARNINGS:
+                warnings.simplefilter("always", ours)
             warnings.showwarning = _showwarning(warnings.showwarning)
             yield beside
     except KeyboardInterrupt:
@@ -135,7 +139,7 @@ def _showwarning(original: Any) -> Any:
     """Return a way to show warnings that turns ours into notes and leaves the others."""
 
     def show(message: Warning | str, category: type[Warning], *rest: Any, **named: Any) -> None:
-        if issubclass(category, SurfaceWarning):
+        if issubclass(category, _WARNINGS):
             note(str(message))
         else:
             original(message, category, *rest, **named)

@@ -9,16 +9,28 @@ from typing import Any, get_type_hints
 
 import typer
 
-__all__ = ["argument", "grouped", "option"]
+from roughcontact.cli.job import require_one_process
+from roughcontact.cli.messages import reported
+
+__all__ = ["argument", "flag", "grouped", "option"]
+
+_Declared = tuple[str, Any, Any, str | None]  # name, type, declaration and panel of an option
 
 
-def option(text: str, example: str | None = None, *names: str, default: Any = None, **more: Any) -> Any:
+def option(
+    text: str,
+    example: str | None = None,
+    *names: str,
+    default: Any = None,
+    needs_whole: bool = False,
+    **more: Any,
+) -> Any:
     """Return an option: its help, what its value looks like, and its default; ``...`` where it must be given.
 
-    A group's options stand in the help under its ``PANEL``. `more` goes to `typer.Option`, as do `names` where the
-    name of the field will not do.
+    A group's options stand in the help under its ``PANEL``. Where it `needs_whole` surfaces, several processes that
+    hold some rows each refuse it. `more` goes to `typer.Option`, as do `names` where the name of the field will not do.
     """
-    given = {"names": names, "metavar": example, "help": text, **more}
+    given = {"names": names, "metavar": example, "help": text, "needs_whole": needs_whole, **more}
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
@@ -28,13 +40,22 @@ def argument(text: str, metavar: str, default: Any = ...) -> Any:
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
+def flag(name: str) -> str:
+    """Return the option that the field of this name becomes."""
+    return f"--{name.replace('_', '-')}"
+
+
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command as typer takes it: groups of options, which are dataclasses, become options side by side."""
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
-    flat = [each for one in parameters for each in _flat(one.name, hints[one.name], one.default)]
+    declared = [each for one in parameters for each in _declared(one.name, hints[one.name], one.default)]
+    flat = [_parameter(*each) for each in declared]
+    whole = [name for name, _, option, _ in declared if option.metadata.get("needs_whole")]
 
     def run(**given: Any) -> None:
+        with reported(as_json=given.get("json", False)):
+            require_one_process({flag(name): given[name] for name in whole})
         command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
@@ -43,21 +64,27 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     return run
 
 
-def _flat(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iterator[inspect.Parameter]:
+def _declared(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iterator[_Declared]:
     """Yield the options of a parameter: one, or those of its group and of the groups in it."""
     if is_dataclass(kind):
         hints, panel = get_type_hints(kind), getattr(kind, "PANEL", None)
         for each in fields(kind):
-            yield from _flat(each.name, hints[each.name], each, panel)
-        return
+            yield from _declared(each.name, hints[each.name], each, panel)
+    else:
+        yield name, kind, declared, panel
+
+
+def _parameter(name: str, kind: Any, declared: Any, panel: str | None) -> inspect.Parameter:
+    """Return an option as typer takes it."""
     given = {"rich_help_panel": panel, **declared.metadata}
     default = ... if declared.default is MISSING else declared.default
     if given.pop("argument", False):
         info = typer.Argument(default, metavar=given["metavar"], help=given["help"])
     else:
-        names = given.pop("names") or ([f"--{name.replace('_', '-')}"] if declared.default is False else [])
+        names = given.pop("names") or ([flag(name)] if declared.default is False else [])
+        del given["needs_whole"]
         info = typer.Option(default, *names, **given)
-    yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
 
 
 def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:

@@ -7,10 +7,10 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli.job import refuse_in_slabs, slabs_of_job
+from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
-from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.option_groups import argument, flag, option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.profile_options import PROFILE, ProfileBody
 from roughcontact.cli.report import doing
@@ -35,6 +35,7 @@ __all__ = [
     "Levelling",
     "Reading",
     "Source",
+    "TwoBodies",
     "only_one",
 ]
 
@@ -69,6 +70,7 @@ PERIODIC = option(
 LEVEL = option("What is removed from the heights (default: a least-squares plane).", rich_help_panel=_READING)
 DESPIKE = option(
     "Before levelling: the cells of spikes to missing points, or filled smoothly (default: kept).",
+    needs_whole=True,
     rich_help_panel=_READING,
 )
 OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
@@ -199,15 +201,9 @@ class Reading:
         ------
         UsageError
             If reading it needs more memory than is free.
-        ValueError
-            If no press of it fits in the memory of this machine.
         """
-        from roughcontact.contact.problem import require_memory_for
-
-        refuse_in_slabs({"--profile": self.profile, "--despike": self.despike})
         read = self.source.map if self.profile is None else self.source.line
         surface = read(self.periodic)
-        require_memory_for(surface)
         if slabs_of_job() is not None and not all(surface.grid.periodic):
             raise UsageError(
                 "several processes press periodic surfaces only, and this one is free: give --periodic, or start one "
@@ -231,7 +227,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Elasticity:
-    """The constants of the two bodies, as the user gave them."""
+    """The elastic constants of the two bodies, as the user gave them."""
 
     PANEL: ClassVar = "The two bodies"
     modulus: str | None = option("Reduced modulus E*.", "110GPa")
@@ -243,10 +239,6 @@ class Elasticity:
     poisson: str | None = option("Poisson's ratio.", "0.3")
     young2: str | None = option("Young's modulus of the other body (default: rigid).", "70GPa")
     poisson2: str | None = option("Poisson's ratio of the other.", "0.33")
-    hardness: str | None = option(
-        "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
-        "2GPa",
-    )
 
     def reduced_modulus(self) -> float:
         """Return the reduced modulus E* [Pa].
@@ -273,12 +265,25 @@ class Elasticity:
             return rc.reduced_modulus(first)
         return rc.reduced_modulus(first, _solid(self.young2, self.poisson2, "--young2", "--poisson2"))
 
+
+@dataclass(frozen=True, slots=True)
+class TwoBodies:
+    """The constants of the two bodies, of which the softer may flow."""
+
+    PANEL: ClassVar = Elasticity.PANEL
+    elasticity: Elasticity
+    hardness: str | None = option(
+        "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
+        "2GPa",
+    )
+
     def softer(self) -> tuple[float, str] | None:
         """Return the hardness [Pa] of the softer body, and of what it is, if it is given or named by the materials."""
         if self.hardness is not None:
             given = self.yield_pressure()
             return None if given is None else (given, "as given")
-        return None if self.materials is None else softer_of(self.materials)
+        materials = self.elasticity.materials
+        return None if materials is None else softer_of(materials)
 
     def yield_pressure(self) -> float | None:
         """Return the hardness [Pa] that was given, if one was."""
@@ -300,11 +305,9 @@ def only_one(given: dict[str, Any], what: str) -> str:
     """
     names = [name for name, value in given.items() if value is not None]
     if not names:
-        raise UsageError(f"give {what} ({' or '.join(f'--{name}' for name in given)})")
+        raise UsageError(f"give {what} ({' or '.join(map(flag, given))})")
     if len(names) > 1:
-        raise UsageError(
-            f"{' and '.join(f'--{name}' for name in names)} exclude each other: give one of them"
-        )
+        raise UsageError(f"{' and '.join(map(flag, names))} exclude each other: give one of them")
     return names[0]
 
 

@@ -7,44 +7,30 @@ import shlex
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from roughcontact.cli.job import slabs_of_job
+from roughcontact.cli.job import communicator_of_job
 from roughcontact.cli.messages import UsageError, plain
-
-if TYPE_CHECKING:
-    from contextlib import AbstractContextManager
-
-    from roughcontact.slabs.communicator import Communicator
 
 __all__ = ["all_or_none", "command_line", "output"]
 
 
-def output(folder: Path | None) -> AbstractContextManager[Path | None]:
-    """Return a context that checks before the work that results can be written to a folder.
-
-    It undoes the creation of the folder if the work fails.
+@contextmanager
+def output(folder: Path | None) -> Iterator[Path | None]:
+    """Check before the work that results can be written to a folder, and yield it; undo its creation if the work fails.
 
     Of the processes of a job all enter it, and the first alone gets the folder.
     """
     if folder is None:
-        return nullcontext()
+        yield None
+        return
     from roughcontact.files.aside import output_folder
     from roughcontact.files.write import require_netcdf
-
-    require_netcdf()
-    slabs = slabs_of_job()
-    return output_folder(folder) if slabs is None else _of_first(slabs.communicator, folder)
-
-
-@contextmanager
-def _of_first(communicator: Communicator, folder: Path) -> Iterator[Path | None]:
-    """Yield the folder on the first process of a job, which alone writes, and None on the others."""
-    from roughcontact.files.aside import output_folder
     from roughcontact.slabs.agreement import entered_by_first
 
+    require_netcdf()
+    communicator = communicator_of_job()
     with entered_by_first(communicator, lambda: output_folder(folder)) as path:
         yield path if communicator.rank == 0 else None
 

@@ -16,13 +16,11 @@ from roughcontact.cli.report import doing, quantity
 from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
     from roughcontact.cli.error_options import Errors
-    from roughcontact.cli.options import Elasticity
+    from roughcontact.cli.options import TwoBodies
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
+    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
 __all__ = ["AfterLoad", "LoopLoads", "write_loop"]
@@ -30,7 +28,8 @@ __all__ = ["AfterLoad", "LoopLoads", "write_loop"]
 FlowChoice = StrEnum("FlowChoice", ["REMOVED", "RAISED"])
 _FLOW = option(
     "Under a hardness, where material that flows goes: it vanishes, or raises the whole surface, its volume conserved "
-    "(default: removed)."
+    "(default: removed).",
+    needs_whole=True,
 )
 
 
@@ -43,6 +42,7 @@ class AfterLoad:
         "Press by this load first, of the same kind as the load, and unload from there: what has flowed stays. Takes a "
         "--hardness, or --materials.",
         "100N",
+        needs_whole=True,
     )
     flow: FlowChoice | None = _FLOW
 
@@ -51,7 +51,7 @@ class AfterLoad:
         """Whether what flows raises the surface."""
         return self.flow is FlowChoice.RAISED
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material where a load comes before and none is given.
 
         Raises
@@ -59,7 +59,7 @@ class AfterLoad:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--after" if self.after is not None else None, self.flow)
+        return _hardness(bodies, "--after" if self.after is not None else None, self.flow)
 
     def first(self, given: Mapping[str, float], body: ProfileBody | None) -> float | None:
         """Return the load that comes first, in SI units.
@@ -129,8 +129,9 @@ class LoopLoads:
     PANEL: ClassVar = "Plastic flow"
     loop: bool = option(
         "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
-        "surface. Takes a --hardness, or --materials. With --work: approach and retreat.",
+        "surface. Takes a --hardness, or --materials.",
         default=False,
+        needs_whole=True,
     )
     flow: FlowChoice | None = _FLOW
 
@@ -139,7 +140,7 @@ class LoopLoads:
         """Where material that flows goes, as the library calls it."""
         return _reading(self.flow)
 
-    def hardness(self, elasticity: Elasticity) -> float | None:
+    def hardness(self, bodies: TwoBodies) -> float | None:
         """Return the hardness [Pa], which is that of the softer material for a loop where none is given.
 
         Raises
@@ -147,9 +148,9 @@ class LoopLoads:
         UsageError
             If it is not given, and something is asked about what flows.
         """
-        return _hardness(elasticity, "--loop" if self.loop else None, self.flow)
+        return _hardness(bodies, "--loop" if self.loop else None, self.flow)
 
-    def check(self, name: str, errors: Errors) -> None:
+    def check(self, loads: Loads | None, errors: Errors) -> None:
         """Refuse loads that no loop has, and errors of a surface that rises.
 
         Raises
@@ -161,16 +162,15 @@ class LoopLoads:
             raise UsageError(
                 "--errors presses other maps by the same load alone: leave it out with --flow raised"
             )
-        if name == "depths" and (self.loop or self.flow is FlowChoice.RAISED):
+        if loads is not None and loads.kind == "depth" and (self.loop or self.flow is FlowChoice.RAISED):
             asked = "--loop" if self.loop else "--flow raised"
             raise UsageError(f"{asked} goes by forces or pressures: the depth is what is found")
 
-    def up_and_down(self, loads: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def up_and_down(self, loads: Loads) -> Loads:
         """Return the loads in the order in which they come."""
         from roughcontact.contact.loop import loads_of_loop
-        from roughcontact.solver.loads import Loads
 
-        return loads_of_loop(Loads("force", loads)).values if self.loop else loads
+        return loads_of_loop(loads) if self.loop else loads
 
 
 def write_loop(loop: Loop, folder: Path, source: Mapping[str, Any], ending: str) -> tuple[str, ...]:
@@ -196,13 +196,13 @@ def _reading(flow: FlowChoice | None) -> Any:
     return FlowChoice.REMOVED.value if flow is None else flow.value
 
 
-def _hardness(elasticity: Elasticity, asked: str | None, flow: FlowChoice | None) -> float | None:
+def _hardness(bodies: TwoBodies, asked: str | None, flow: FlowChoice | None) -> float | None:
     """Return the hardness that was given; else, where flow is asked for, that of the softer material."""
-    given = elasticity.yield_pressure()
+    given = bodies.yield_pressure()
     asked = asked or (None if flow is None else "--flow")
     if given is not None or asked is None:
         return given
-    softer = elasticity.softer()
+    softer = bodies.softer()
     if softer is None:
         raise UsageError(f"{asked} is about what flows: give a --hardness, or both bodies by --materials")
     note(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")

@@ -72,6 +72,7 @@ class ProfileBody(StrEnum):
 PROFILE: ProfileBody | None = option(
     "A profile is pressed as a line contact, nothing changing across it (forces per length, such as 10N/mm), or on a "
     "Winkler foundation, the springs of the method of dimensionality reduction. To be named: the two differ.",
+    needs_whole=True,
     rich_help_panel="Reading the file",
 )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,8 @@ from roughcontact.cli.study_engine import Workplace, working
 from roughcontact.cli.study_progress import duration
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughcontact.study.record import Row
     from roughcontact.study.study import Study
     from roughcontact.study.task import Summary
@@ -31,6 +33,7 @@ __all__ = [
     "EXAMPLES",
     "FOLDER",
     "add",
+    "dataset_writer",
     "export",
     "own_cases",
     "require_results",
@@ -110,25 +113,15 @@ def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -
 def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> None:
     """Write all results of a study side by side into one file; also while it runs."""
     with reported(folder, out, as_json=json), own_cases():
-        from roughcontact.files.aside import require_target
-        from roughcontact.files.provenance import provenance
-        from roughcontact.files.write import write_netcdf
         from roughcontact.study.export import export as exported
-        from roughcontact.study.long_table import write_long_csv
         from roughcontact.study.store import Store
 
-        kind = out.suffix.casefold()
-        if kind not in (".nc", ".csv"):
-            raise UsageError(f"--out: cannot write {out}: give a file .nc (NetCDF) or .csv (a table)")
-        require_target(out)
+        write = dataset_writer(out)
         with Store.open(folder) as store:
             study, summary = store.study, store.summary()
             require_results(folder, summary)
             dataset = exported(store)
-        if kind == ".nc":
-            write_netcdf(dataset, out, provenance(command=command_line()))
-        else:
-            write_long_csv(dataset, out)
+        write(dataset)
         if summary.failed or summary.left:
             note(f"{summary.failed} cases failed and {summary.left} are left: they are missing in {out}")
         _tell(study, folder, summary, as_json=json, file=out)
@@ -146,6 +139,22 @@ def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> 
             study, summary = store.study, store.summary()
         _tell(study, folder, summary, as_json=json)
         note(f"to compute them: {_command('run', folder)}")
+
+
+def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
+    """Return what writes a dataset as NetCDF or as a table, as the name of the file says; refuse other names."""
+    from roughcontact.files.aside import require_target
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_netcdf
+    from roughcontact.study.long_table import write_long_csv
+
+    kind = out.suffix.casefold()
+    if kind not in (".nc", ".csv"):
+        raise UsageError(f"--out: cannot write {out}: give a file .nc (NetCDF) or .csv (a table)")
+    require_target(out)
+    if kind == ".csv":
+        return lambda dataset: write_long_csv(dataset, out)
+    return lambda dataset: write_netcdf(dataset, out, provenance(command=command_line()))
 
 
 def require_results(folder: Path, summary: Summary) -> None:

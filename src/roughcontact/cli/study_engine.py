@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["Workplace", "working"]
 
 
-Engine = StrEnum("Engine", ["SERIAL", "PROCESSES", "DASK", "SLURM"])
+Engine = StrEnum("Engine", ["SERIAL", "PROCESSES", "DASK"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +54,6 @@ class Workplace:
                         "--workers: a scheduler has workers of its own: leave out one of the two"
                     )
                 return executors.Dask(scheduler, workers=workers)
-            case Engine.SLURM:
-                if workers is None:
-                    raise UsageError(
-                        "--workers: say how many cases SLURM shall compute at once, such as --workers 48"
-                    )
-                return executors.Slurm(workers)
             case _:
                 return executors.Processes(workers)
 

@@ -36,6 +36,7 @@ class InterfaceTables:
         "With --out: pressure, stiffness and area against gap, per nominal area, for other programs: csv, abaqus "
         "(SI), abaqus-mm (mm, N, MPa), lammps.",
         "abaqus,lammps,...",
+        needs_whole=True,
     )
     table_area: str | None = option(
         "Nominal area that the forces of --table lammps are for (default: that of the map).", "1mm^2"

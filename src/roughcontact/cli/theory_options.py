@@ -42,6 +42,7 @@ class Theories:
         "kogut-etsion, persson-plastic, pullen-williamson, power-law, rough-square, hertz, rough-sphere. They take "
         "spectrum and moments from the surface, and say which.",
         "persson,gw,...",
+        needs_whole=True,
     )
     hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")
     rolloff: str | None = option("Roll-off wavelength, for finite-size.", "20um")

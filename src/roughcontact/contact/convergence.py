@@ -11,13 +11,16 @@ __all__ = ["ConvergenceError"]
 
 
 class Certified(Protocol):
-    """An answer with a certificate."""
+    """An answer with a certificate, to a problem with a tolerance."""
 
     @property
     def status(self) -> Status: ...
 
     @property
     def residual(self) -> float: ...
+
+    @property
+    def problem(self) -> Any: ...
 
 
 class ConvergenceError(RuntimeError):
@@ -34,11 +37,10 @@ class ConvergenceError(RuntimeError):
     The solver ran out of steps above the tolerance; allow it more steps.
     """
 
-    def __init__(self, solution: Certified, tolerance: float) -> None:
-        super().__init__(solution, tolerance)  # in `args`, so that the error can be pickled
+    def __init__(self, solution: Certified) -> None:
+        super().__init__(solution)  # in `args`, so that the error can be pickled
         self.solution: Any = solution  # the caller has asked for its type
-        self.tolerance = tolerance
 
     def __str__(self) -> str:
-        solution = self.solution
-        return f"residual {solution.residual:.1e}, tolerance {self.tolerance:.1e}: {solution.status.message}"
+        solution, tolerance = self.solution, self.solution.problem.tolerance
+        return f"residual {solution.residual:.1e}, tolerance {tolerance:.1e}: {solution.status.message}"

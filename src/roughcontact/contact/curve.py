@@ -365,7 +365,7 @@ def collect(path: Iterable[Solution]) -> Curve:
     for solution in path:
         problem = problem or solution.problem
         if solution.problem.plastic:  # on unloading nothing limits the pressure
-            hardness = max(hardness, solution.problem.terms.largest_hardness)
+            hardness = max(hardness, solution.problem.spec.largest_hardness)
         flows.append(flow_point(solution))
         points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)

@@ -13,6 +13,7 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve, flow_point
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.spots import are_labelled
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import (
@@ -31,7 +32,6 @@ from roughcontact.labels.contact_columns import (
     STATE_NAMES,
 )
 from roughcontact.labels.labelled import Variables, centres, dataset_of, record_of, variable, variables_of
-from roughcontact.slabs.exchange import is_in_slabs
 
 if TYPE_CHECKING:
     import pandas
@@ -201,7 +201,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     >>> solution.to_record()["spots"], solution.to_record()["units"]["force"]
     (1, 'N')
     """
-    solution = solution if is_in_slabs(solution.pressure) else solution.on_host()
+    solution = solution if are_labelled(solution.pressure) else solution.on_host()
     problem = solution.problem
     more = {"notes": list(solution.notes), "shape": list(problem.grid.shape)}
     return record_of(_of_state(solution), problem.geometry, **more)

@@ -168,7 +168,7 @@ def _check(patches: Sequence[Solution]) -> None:
                 "before or that rises as it flows, nor of a hardness that differs from cell to cell"
             )
         if not each.status.converged:
-            raise ConvergenceError(each, each.problem.tolerance)
+            raise ConvergenceError(each)
         same = (
             type(problem.control) is type(first.control)
             and math.isclose(problem.control.value, first.control.value, rel_tol=SAME)
@@ -225,7 +225,7 @@ def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution
         return None
     answer = solve(other_map)
     if not answer.status.converged:
-        raise ConvergenceError(answer, answer.problem.tolerance)
+        raise ConvergenceError(answer)
     return answer
 
 

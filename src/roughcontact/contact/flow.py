@@ -21,9 +21,9 @@ from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Flow", "FlowReading", "flow_of", "flow_reading", "lifting_work"]
+__all__ = ["Flow", "FlowModel", "flow_of", "flow_reading", "lifting_work"]
 
-FlowReading: TypeAlias = Literal["removed", "raised"]
+FlowModel: TypeAlias = Literal["removed", "raised"]
 """Where material that flows goes: it vanishes, or raises the whole surface (Pullen and Williamson 1972)."""
 
 AnyBody = TypeVar("AnyBody", Surface, RadialProfile, Surface | RadialProfile)

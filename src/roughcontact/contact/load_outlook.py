@@ -14,7 +14,6 @@ from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
 from roughcontact.solver.control import Control
 from roughcontact.solver.loads import Loads
-from roughcontact.validation import Array
 
 __all__ = ["LoadOutlook", "load_outlook"]
 
@@ -46,9 +45,7 @@ class LoadOutlook:
 def load_outlook(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
-    *,
-    forces: Sequence[float] | Array | None = None,
-    pressures: Sequence[float] | Array | None = None,
+    loads: Loads,
     operator: Operator | None = None,
 ) -> LoadOutlook:
     """Return how many loads of a curve will be resolved, from a few of them.
@@ -59,8 +56,8 @@ def load_outlook(
         Heights [m].
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
-    forces, pressures : array, shape (n,)
-        One of the two: strictly increasing forces [N] or nominal pressures [Pa].
+    loads : Loads
+        Strictly increasing forces or nominal pressures.
     operator : Operator, optional
         Another body than the half-space on the surface's grid.
 
@@ -72,7 +69,7 @@ def load_outlook(
     Raises
     ------
     ValueError
-        If not exactly one of forces and pressures is given, or the input makes no sense.
+        If the input makes no sense.
 
     Notes
     -----
@@ -84,21 +81,22 @@ def load_outlook(
     --------
     >>> import roughcontact as rc
     >>> from roughcontact.contact.load_outlook import load_outlook
+    >>> from roughcontact.solver.loads import Loads
     >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
-    >>> load_outlook(ball, 1e9, forces=[1e-6, 1e-5, 1e-2])
+    >>> load_outlook(ball, 1e9, Loads("force", [1e-6, 1e-5, 1e-2]))
     LoadOutlook(count=3, below=2, above=0)
     """
-    controls = Loads.of(forces=forces, pressures=pressures).controls(grid_of(surface))
+    controls = loads.controls(grid_of(surface))
     problem = make_problem(surface, modulus, controls[0], operator, tolerance=1e-8)
     pilot = pilot_of(problem)
     rough = problem if pilot is None else pilot
 
-    def above_cells(control: Control) -> bool:
-        if _pressed(rough, control).above_cells:
+    def resolved_from_below(control: Control) -> bool:
+        if _pressed(rough, control).resolved_from_below:
             return True
-        return pilot is not None and _pressed(problem, control).above_cells
+        return pilot is not None and _pressed(problem, control).resolved_from_below
 
-    below = _first(above_cells, controls)
+    below = _first(resolved_from_below, controls)
     near_full = _first(lambda control: _nearly_full(_pressed(rough, control)), controls[below:])
     return LoadOutlook(len(controls), below, len(controls) - below - near_full)
 
@@ -116,4 +114,4 @@ def _pressed(problem: ContactProblem, control: Control) -> Solution:
 
 def _nearly_full(solution: Solution) -> bool:
     """Return whether the contact is beyond the upper limit of what is resolved."""
-    return solution.above_cells and not solution.resolved
+    return solution.resolved_from_below and not solution.resolved

@@ -43,7 +43,7 @@ class LoadRange:
     Attributes
     ----------
     kind : SurfaceKind
-    one_feature : bool
+    single_feature : bool
         Whether the largest spot carries more than half where the contact is as stiff as twenty cells.
     forces : array, shape (n,)
         Forces for a curve [N], increasing; half of those in the range are even in ln k, half in ln A.
@@ -57,7 +57,7 @@ class LoadRange:
     """
 
     kind: SurfaceKind
-    one_feature: bool
+    single_feature: bool
     forces: Array
     lowest: float
     highest: float
@@ -159,7 +159,7 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
         forces = np.geomspace(high / 100, high, count)
     forces = _distinct(forces, count)
     notes = tuple(_notes(search, forces, surface))
-    return LoadRange(search.kind, search.one_feature, forces, low, high, reasons, notes)
+    return LoadRange(search.kind, search.single_feature, forces, low, high, reasons, notes)
 
 
 def _even(
@@ -190,7 +190,7 @@ def _distinct(forces: Array, count: int) -> Array:
 def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
     """Yield what a reader should know of the range."""
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
-    if search.one_feature:
+    if search.single_feature:
         until = (
             "over the whole range" if search.released is None else f"up to {search.released:.3g} {force_unit}"
         )

@@ -167,7 +167,7 @@ class LoadSearch:
         return self.loads[-2 if self.reason and len(self.loads) > 1 else -1].force
 
     @property
-    def one_feature(self) -> bool:
+    def single_feature(self) -> bool:
         """Whether the largest spot carries more than half where the contact is as stiff as twenty cells."""
         return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff >= 1), False)
 
@@ -182,7 +182,7 @@ class LoadSearch:
         return np.array([getattr(load, name) for load in self.loads])
 
 
-def climb(
+def search_upwards(
     problem: ContactProblem, kind: SurfaceKind, start: float, most: float, above: LoadSearch | None = None
 ) -> LoadSearch:
     """Press by ever larger forces until the range ends, or the loads of an earlier search follow."""
@@ -207,10 +207,10 @@ def _largest_spot(solution: Solution) -> tuple[float, float]:
     return float(spots.loads.max()) / solution.force, cells
 
 
-def _borne(solution: Solution) -> float:
+def _force_carried(solution: Solution) -> float:
     """Return the force under which half of the map would bear the hardness of the contact [N]."""
     problem, measure = solution.problem, solution.problem.measure
-    hardness = bearing_force(measure, solution.contact, problem.terms)
+    hardness = bearing_force(measure, solution.contact, problem.spec)
     return AREA_SHARE * measure.total(problem.measured) * hardness / solution.contact_area
 
 
@@ -224,7 +224,10 @@ def _ends(solution: Solution, kind: SurfaceKind, *, on_one_feature: bool) -> Ite
     if kind is SurfaceKind.FORM:
         yield math.inf if solution.touches_edge else 0.0, "contact at the border of the map"
     if problem.plastic:
-        yield solution.force / _borne(solution), f"{AREA_SHARE:g} of the force that the hardness bears"
+        yield (
+            solution.force / _force_carried(solution),
+            f"{AREA_SHARE:g} of the force that the hardness bears",
+        )
     elif problem.geometry is not Geometry.FOUNDATION and not on_one_feature:
         pressure = solution.force / solution.contact_area
         yield (
@@ -238,12 +241,12 @@ def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> Load
     start, most = (part * scale for part in SEARCHED)
     pilot = pilot_of(problem)
     if pilot is not None:  # from a tenth of the force at which so rough a map is as stiff as twenty cells
-        few, rough = CELLS * cell_stiffness(problem.operator), climb(pilot, kind, start, most)
+        few, rough = CELLS * cell_stiffness(problem.operator), search_upwards(pilot, kind, start, most)
         stiff = (load.force for load in rough.loads if load.stiffness >= few)
         start = max(start, next(stiff, rough.highest) / 10)
-    search = climb(problem, kind, start, most)
+    search = search_upwards(problem, kind, start, most)
     while search.loads[0].stiff >= 1 and start > SEARCHED[0] * scale:  # the pilot began too late
-        search, start = climb(problem, kind, start / 10, start, search), start / 10
+        search, start = search_upwards(problem, kind, start / 10, start, search), start / 10
     return search
 
 
@@ -263,6 +266,6 @@ def pilot_of(problem: ContactProblem) -> ContactProblem | None:
         problem.control,
         problem.tolerance,
         modulus=problem.modulus,
-        hardness=problem.terms.largest_hardness,
+        hardness=problem.spec.largest_hardness,
         size_law=problem.size_law,
     )

@@ -6,14 +6,13 @@ from collections.abc import Iterator, Sequence
 
 from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.flow import FlowReading, flow_reading
+from roughcontact.contact.flow import FlowModel, flow_reading
 from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.load_range import load_range
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
-from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
@@ -37,9 +36,11 @@ def loading_path(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
+
+    For surfaces that attract each other see `adhesive_path`.
 
     Parameters
     ----------
@@ -99,9 +100,11 @@ def loading_curve(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
+
+    For surfaces that attract each other see `adhesive_curve`.
 
     Parameters
     ----------
@@ -151,11 +154,11 @@ def solutions_along(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
     loads: Loads | None,
-    operator: Operator | None,
-    solver: Solver | None,
-    tolerance: float,
-    hardness: Hardness | None,
-    flow: FlowReading = "removed",
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    hardness: Hardness | None = None,
+    flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
     """Yield the solution of every load, see `loading_path`; without loads, under 24 forces that suit the surface.
 
@@ -173,10 +176,9 @@ def solutions_along(
     if not keeps:
         loads.rising("only under a hardness and in adhesive_path do loads go up and down")
     controls = loads.controls(grid_of(surface))
-    problem = make_problem(surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness)
-    if operator is None:
-        largest = max(controls, key=lambda control: control.value)
-        require_memory_for_load(surface, problem.modulus, largest, curve=True)
+    problem = make_problem(
+        surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness, curve=True
+    )
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
     if keeps:

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughcontact import methods
 from roughcontact.contact.curve import Curve, collect
-from roughcontact.contact.flow import Flow, FlowReading
+from roughcontact.contact.flow import Flow, FlowModel
 from roughcontact.contact.loading import solutions_along, suitable
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
@@ -114,7 +114,7 @@ def loading_loop(
     hardness: Hardness,
     forces: Sequence[float] | Array | None = None,
     pressures: Sequence[float] | Array | None = None,
-    flow: FlowReading = "removed",
+    flow: FlowModel = "removed",
     operator: Operator | None = None,
     solver: Solver | None = None,
     tolerance: float = 1e-8,

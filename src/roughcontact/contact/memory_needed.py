@@ -1,83 +1,114 @@
-"""The memory that a load or a curve takes at its peak, before it is tried."""
+"""The memory that a load or a curve takes at its peak, from measured bytes per cell, before it is tried."""
 
 from __future__ import annotations
 
+import platform
 from typing import Any
 
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.memory_model import MemoryModel, Touch, share_peak
-from roughcontact.contact.touch import touch_of
-from roughcontact.grid import Grid
-from roughcontact.labels.variables import force_unit
-from roughcontact.material import Solid, as_modulus
+from roughcontact.contact.problem import Body
+from roughcontact.grid import AnyGrid, Grid, RadialGrid
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.kernels.buffers import MOST
+from roughcontact.memory import require_memory
+from roughcontact.slabs.agreement import by_each
 from roughcontact.slabs.slab_array import SlabArray
-from roughcontact.solver.loads import control_of
-from roughcontact.surface.surface import Surface
-from roughcontact.validation import exactly_one, numeric, shown
+from roughcontact.validation import shown
 
-__all__ = ["memory_needed"]
+__all__ = ["memory_needed", "require_memory_for"]
+
+# Bytes per cell beside the heights: of a load on few cells and of the heaviest, and of a curve likewise. They depend on
+# the geometry, and on whether a constant pressure moves nothing: then all cells are solved for, however light the load.
+# Those of rings are for each pair of rings, since their matrix is full. `benchmarks/memory.py` measures them, on grids
+# from 512 x 512 to 4096 x 4096 cells. A lower bound is rounded down, since what works must not be refused: every load
+# writes 9 bytes, the separation and the mask of missing cells.
+BYTES = {
+    (Geometry.SURFACE, False): (9, 95, 60, 155),
+    (Geometry.SURFACE, True): (40, 75, 45, 105),
+    (Geometry.LINE, False): (9, 300, 60, 300),
+    (Geometry.LINE, True): (100, 300, 100, 300),
+    (Geometry.FOUNDATION, False): (9, 75, 60, 140),
+    (Geometry.RING, False): (8, 75, 8, 75),
+}
 
 
-@numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa")
 def memory_needed(
-    surface: Surface | Grid,
-    modulus: float | Solid | tuple[Solid, Solid] | None = None,
-    *,
-    force: float | None = None,
-    depth: float | None = None,
-    pressure: float | None = None,
-    curve: bool = False,
-) -> int:
-    """Return the memory that a load takes at its peak, beside the surface [bytes].
+    surface: Body | AnyGrid, *, operator: Operator | None = None, curve: bool = False
+) -> tuple[int, int]:
+    """Return the memory that a load takes at its peak, beside the surface: of a light one, and in full contact.
 
     Parameters
     ----------
-    surface : Surface or Grid
-        A map of two axes, or its grid.
-    modulus : float, Solid or pair of Solids, optional
-        Reduced modulus E* [Pa], or what it follows from: needed with a load.
-    force, depth, pressure : float, optional
-        At most one: the load, see `press`; of a curve the largest. Without one, what the heaviest load takes; a light
-        one may take up to 20 MB more, for a matrix between the cells in contact.
+    surface : Surface, RadialProfile, Grid or RadialGrid
+        What is pressed, or its grid.
+    operator : Operator, optional
+        The body, if it is not the half-space.
     curve : bool
         Whether a curve leads up to the load.
 
     Returns
     -------
-    int
-        Memory of arrays [bytes]; of a surface in slabs that of this process, whatever the load. On a free grid light
-        loads take far less than heavy ones. Python and its libraries take some 150 MB beside it.
+    tuple of int
+        The least that any load takes, and the most [bytes]; of a surface in slabs those of this process. Python and
+        its libraries take some 150 MB beside it.
 
     Raises
     ------
     ValueError
-        If there is no map of two axes, or a load without a surface of NumPy's and a modulus.
+        If this is neither a surface nor a grid.
 
     Notes
     -----
-    A model of what is alive at once (``roughcontact.contact.memory_model``), for elastic loads on the half-space by
-    the default solver. How much touches is found on larger cells, 64 to 256 of them along the longer side.
+    A table of measured bytes per cell, see docs/memory.md. The second number contains up to 64 MB for arrays that are
+    kept for the next load and for a matrix of few cells in contact.
 
     Examples
     --------
     >>> import roughcontact as rc
-    >>> grid = rc.Grid((16384, 16384), 1e-7, periodic=True)
-    >>> f"{rc.memory_needed(grid) / 1e9:.0f} GB, a curve {rc.memory_needed(grid, curve=True) / 1e9:.0f} GB"
-    '15 GB, a curve 20 GB'
+    >>> for periodic in (False, True):
+    ...     light, full = rc.memory_needed(rc.Grid((16384, 16384), 1e-7, periodic))
+    ...     print(f"{light / 1e9:.0f} to {full / 1e9:.0f} GB")
+    2 to 26 GB
+    11 to 20 GB
     """
-    grid = surface if isinstance(surface, Grid) else getattr(surface, "grid", None)
-    if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError(f"a map or its grid of two axes is wanted, not {shown(surface)}")
+    grid = getattr(surface, "grid", surface)
+    if not isinstance(grid, Grid | RadialGrid):
+        raise ValueError(f"a surface or its grid is wanted, not {shown(surface)}")
     heights: Any = getattr(surface, "heights", None)
-    if isinstance(heights, SlabArray):
-        return share_peak(heights.local.size, curve=curve)
-    touch, loads = Touch(), {"force": force, "depth": depth, "pressure": pressure}
-    if any(load is not None for load in loads.values()):
-        if modulus is None or not isinstance(surface, Surface):
-            raise ValueError(
-                "what a load takes depends on how much touches: give the surface and the modulus"
-            )
-        if not is_numpy(surface.heights):
-            raise ValueError("how much touches is asked of heights of NumPy alone: leave out the load")
-        touch = touch_of(surface, as_modulus(modulus), control_of(*exactly_one(**loads), grid))
-    return MemoryModel.of(grid).peak(touch, curve=curve)
+    stated = capabilities(operator)
+    geometry = stated.geometry or Geometry.of(grid)
+    still = all(grid.periodic) if stated.semidefinite is None else stated.semidefinite
+    row = BYTES.get((geometry, still), BYTES[geometry, False])
+    cells = heights.local.size if isinstance(heights, SlabArray) else grid.size
+    if operator is None and geometry is Geometry.RING:
+        cells *= cells
+    light, full = (cells * each for each in (row[2:] if curve else row[:2]))
+    return light, full + min(full, MOST)
+
+
+def require_memory_for(surface: Body, operator: Operator | None = None, *, curve: bool = False) -> None:
+    """Refuse a load, or a curve, for which the memory never suffices; warn where a heavy one may not fit.
+
+    Raises
+    ------
+    ValueError
+        If this machine has less memory than the lightest load takes.
+    """
+    heights: Any = surface.heights
+    in_slabs = isinstance(heights, SlabArray)
+    if not (in_slabs or is_numpy(heights)):
+        return
+    light, full = memory_needed(surface, operator=operator, curve=curve)
+    what = f"{'a curve' if curve else 'a load'} on {' x '.join(map(str, surface.grid.shape))} cells"
+    remedy = "press a part, or average cells"
+    if not in_slabs:
+        require_memory(light, full, what, remedy)
+        return
+    # Several processes may share a machine: all of them refuse what does not fit one machine.
+    communicator, machine = heights.functions.communicator, platform.node()
+    told = communicator.allgather((machine, light, full))
+    here = [needed for name, *needed in told if name == machine]
+    light, full = (sum(needed) for needed in zip(*here, strict=True))
+    what = f"{what}, held by {len(told)} processes of which {len(here)} share this machine,"
+    by_each(communicator, lambda: require_memory(light, full, what, remedy))

@@ -38,7 +38,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
         notes.append(
             "A single cell is in contact: stiffness and area are those of the grid, not of the body."
         )
-    elif in_contact and not solution.above_cells:
+    elif in_contact and not solution.resolved_from_below:
         line = problem.geometry is Geometry.LINE
         small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
         notes.append(

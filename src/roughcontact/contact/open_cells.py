@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.arrays import largest, namespace
+from roughcontact.arrays import max_abs, namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import prescribe
@@ -52,7 +52,7 @@ def mean_opening(operator: Operator, opening: Array, region: Mask, measured: Mas
     before = math.inf
     while True:
         left = xp.where(region, opening, 0.0)
-        error, mean = largest(left), measure.mean(opening, outside)
+        error, mean = max_abs(left), measure.mean(opening, outside)
         if not SOLVED * abs(mean) < error < before / 2:
             return share * mean
         tolerance = min(max(SOLVED * abs(mean) / error, SWEEP[0]), SWEEP[1])

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.convergence import ConvergenceError
-from roughcontact.contact.problem import Body, ContactProblem, require_memory_for, separation_of
+from roughcontact.contact.memory_needed import require_memory_for
+from roughcontact.contact.problem import Body, ContactProblem, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
-from roughcontact.contact.touch import require_memory_for_load
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -46,6 +46,8 @@ def press(
     hardness: Hardness | None = None,
 ) -> Solution:
     """Press a rough surface against a flat and return the contact, with a certificate.
+
+    For surfaces that attract each other see `adhesive_state`.
 
     Parameters
     ----------
@@ -90,14 +92,12 @@ def press(
     'converged'
     """
     control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
-    if operator is None:
-        require_memory_for_load(surface, as_modulus(modulus), control)
     solution = solve(
         make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
         solver=solver,
     )
     if not solution.status.converged:
-        raise ConvergenceError(solution, solution.problem.tolerance)
+        raise ConvergenceError(solution)
     return solution
 
 
@@ -116,10 +116,11 @@ def make_problem(
     *,
     tolerance: float,
     hardness: Hardness | None = None,
+    curve: bool = False,
 ) -> ContactProblem:
-    """Return the problem of a surface against a flat."""
+    """Return the problem of a surface against a flat; refuse what the memory never suffices for."""
     value = as_modulus(modulus)
-    require_memory_for(surface)
+    require_memory_for(surface, operator, curve=curve)
     body = body_on(surface.grid, value, operator)
     separation, allowed = separation_of(surface), scalar(tolerance, "tolerance")
     strength, law = as_hardness(hardness, separation)
@@ -169,10 +170,10 @@ def solve_state(
     with one_blas_thread():
         start = initial or Start(*nested_start(problem.operator, problem.separation, problem.control, solver))
         if problem.size_law is not None:
-            return settle(problem, problem.size_law, solver, (start.take(), start.depth), subdomains)
+            return settle(problem, problem.size_law, solver, (start.move(), start.depth), subdomains)
         if problem.flow is not None:
             return problem, *_from_touch(problem, solver, start, subdomains)
-        return problem, *subdomains.solve(solver, problem.separation, problem.terms, start)
+        return problem, *subdomains.solve(solver, problem.separation, problem.spec, start)
 
 
 def lock(pressure: Array) -> None:
@@ -189,8 +190,8 @@ def _from_touch(
     separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
     control = problem.control
     nearer = Depth(control.value - touch) if isinstance(control, Depth) else control
-    terms = replace(problem.terms, control=nearer)
-    state, subdomain = subdomains.solve(solver, separation, terms, Start(start.take(), start.depth - touch))
+    spec = replace(problem.spec, control=nearer)
+    state, subdomain = subdomains.solve(solver, separation, spec, Start(start.move(), start.depth - touch))
     return replace(state, depth=state.depth + touch), subdomain
 
 

@@ -16,8 +16,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.kernels import buffers
-from roughcontact.memory import require_memory
-from roughcontact.solver.control import Control, Depth, Force, Terms, checked_tolerance
+from roughcontact.solver.control import Control, Depth, Force, Specification, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
 from roughcontact.surface.radial import RadialProfile
@@ -28,7 +27,6 @@ from roughcontact.validation import Array, Mask, scalar
 __all__ = [
     "Body",
     "ContactProblem",
-    "require_memory_for",
     "separation_of",
 ]
 
@@ -38,9 +36,6 @@ Body = Surface | RadialProfile
 """What is pressed: heights on a grid."""
 
 
-# A lower bound of the memory that a press takes for each cell, of whatever body and under whatever load: at the end of
-# `separation_of` a field of eight bytes is alive, and the mask of missing cells; both are written throughout.
-LEAST_BYTES = 9
 _UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m", "lifting": "J"}
 # Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
 ROUNDING = 1e-12
@@ -123,7 +118,7 @@ class ContactProblem:
                 f"shape {tuple(self.hardness.shape)}"
             )
         if isinstance(self.control, Force) and self.plastic:
-            strongest = bearing_force(self.measure, self.measured, self.terms)
+            strongest = bearing_force(self.measure, self.measured, self.spec)
             if self.control.value >= strongest:
                 raise ValueError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
@@ -158,9 +153,9 @@ class ContactProblem:
         return int(self.measure.xp.count_nonzero(~self.measured))
 
     @property
-    def terms(self) -> Terms:
+    def spec(self) -> Specification:
         """What is asked of a solver."""
-        return Terms(self.control, self.tolerance, self.hardness)
+        return Specification(self.control, self.tolerance, self.hardness)
 
     @property
     def geometry(self) -> Geometry:
@@ -175,7 +170,7 @@ class ContactProblem:
     @property
     def plastic(self) -> bool:
         """Whether a hardness limits the pressure."""
-        return self.terms.plastic
+        return self.spec.plastic
 
     @property
     def first_touch(self) -> float:
@@ -329,21 +324,6 @@ class ContactProblem:
             self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
         value: T = self._memo[name]
         return value
-
-
-def require_memory_for(surface: Body) -> None:
-    """Refuse what cannot be pressed in the memory of this machine, whatever the load.
-
-    Raises
-    ------
-    ValueError
-        If less memory is left than every press takes.
-    """
-    if is_numpy(surface.heights):
-        shape = " x ".join(map(str, surface.grid.shape))
-        require_memory(
-            LEAST_BYTES * surface.grid.size, f"pressing {shape} cells", "press a part, or average cells"
-        )
 
 
 def separation_of(surface: Body) -> Array:

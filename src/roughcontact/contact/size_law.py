@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from roughcontact.arrays import beside, is_array, is_numpy, namespace
+from roughcontact.arrays import as_like, is_array, is_numpy, namespace
 from roughcontact.units import in_si
 from roughcontact.validation import Array, number, positive_scalar, require_numbers, scalar
 
@@ -81,7 +81,7 @@ def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | N
     if np.ndim(hardness) == 0:
         return scalar(hardness, "hardness"), None
     elsewhere = is_array(hardness) and not is_numpy(hardness)
-    values = hardness if elsewhere else beside(number(hardness, "hardness"), field)
+    values = hardness if elsewhere else as_like(number(hardness, "hardness"), field)
     xp = namespace(values)
     if not bool(xp.all((values > 0) & (values < math.inf))):
         raise ValueError(

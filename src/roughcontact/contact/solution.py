@@ -9,13 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
-from roughcontact.arrays import is_numpy, largest, on_host
+from roughcontact.arrays import is_numpy, max_abs, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.flow import Flow, flow_of
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.spots import Spots, count_spots, find_spots
-from roughcontact.contact.spots_in_slabs import find_spots_in_slabs
+from roughcontact.contact.spots import Spots, are_labelled, count_spots, find_spots
 from roughcontact.contact.stiffness import (
     FrozenContact,
     cell_stiffness,
@@ -26,7 +25,6 @@ from roughcontact.contact.stiffness import (
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
-from roughcontact.slabs.exchange import is_in_slabs
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
@@ -123,7 +121,7 @@ class Solution:
     @property
     def largest_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
-        return largest(self.pressure)
+        return max_abs(self.pressure)
 
     @cached_property
     def mean_gap(self) -> float:
@@ -201,7 +199,7 @@ class Solution:
 
         Only at a knife edge is there any; a further load brings them into contact.
         """
-        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * largest(self.displacement)
+        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * max_abs(self.displacement)
         gap = self.displacement + self.problem.separation - self.depth
         return weakly_active(self.pressure, gap, allowed)
 
@@ -242,17 +240,12 @@ class Solution:
     @cached_property
     def spots(self) -> Spots:
         """The connected parts of the contact (cells that share an edge)."""
-        if is_in_slabs(self.pressure):
-            cell = float(np.ravel(self.problem.operator.weights)[0])
-            return find_spots_in_slabs(self.contact, self.pressure, cell)
-        if not self._measure.on_host:
-            raise ValueError("spots are labelled on the host: take them of solution.on_host()")
         return find_spots(self.contact, self.pressure, self.problem.grid, self._measure)
 
     @property
     def spot_count(self) -> int:
         """Number of contact spots, wherever the arrays live."""
-        if self._measure.on_host or is_in_slabs(self.pressure):
+        if are_labelled(self.pressure):
             return self.spots.count
         return count_spots(self.contact, self.problem.grid)
 
@@ -309,7 +302,7 @@ class Solution:
         return methods.notes_on(self)
 
     @property
-    def above_cells(self) -> bool:
+    def resolved_from_below(self) -> bool:
         """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell

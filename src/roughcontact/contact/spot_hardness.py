@@ -43,7 +43,7 @@ def settle(
         # From the pressure before, of which little changes, by projection: others begin with the elastic contact. Where
         # nearly all is plastic the projection may stagnate: it is given no more products than the round before took.
         for method in (PolonskyKeer(max_steps=last), solver) if last else (solver,):
-            state, subdomain = subdomains.solve(method, here.separation, here.terms, Start(*start))
+            state, subdomain = subdomains.solve(method, here.separation, here.spec, Start(*start))
             steps += state.steps
             if state.status.converged:
                 break

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
 from roughcontact.grid import AnyGrid
+from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.slabs.slabs import Slabs
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.subdomain import bounding_box
 from roughcontact.validation import Array
 
-__all__ = ["Spots", "count_spots", "find_spots"]
+__all__ = ["Spots", "are_labelled", "count_spots", "find_spots"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,31 +66,66 @@ def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
         labels = spread
 
 
-def find_spots(contact: npt.NDArray[np.bool_], pressure: Array, grid: AnyGrid, measure: Measure) -> Spots:
-    """Return the spots of a contact; along a periodic axis they go on across the edge."""
+def are_labelled(contact: Any) -> bool:
+    """Whether `find_spots` takes a contact where it lives."""
+    return isinstance(contact, np.ndarray | SlabArray)
+
+
+def find_spots(contact: Any, pressure: Any, grid: AnyGrid, measure: Measure) -> Spots:
+    """Return the spots of a contact; along a periodic axis they go on across the edge.
+
+    Of a contact in slabs, of a plane that is periodic along both axes, each process labels its rows; labels are in
+    slabs.
+
+    Raises
+    ------
+    ValueError
+        If the contact lives on a device.
+    """
     import scipy.ndimage
 
-    labels = np.zeros(contact.shape, np.intp)
-    box = bounding_box(contact)
-    count = 0 if box is None else scipy.ndimage.label(contact[box], output=labels[box])
-    pairs = []
-    for axis, periodic in enumerate(grid.periodic):
-        if periodic:
-            first, last = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
-            both = (first > 0) & (last > 0)
-            pairs.append(np.stack([first[both], last[both]]))
-    if count and pairs:
-        import scipy.sparse.csgraph
+    if not are_labelled(contact):
+        raise ValueError("spots are labelled on the host: take them of solution.on_host()")
+    alone = isinstance(contact, np.ndarray)
+    whole = SlabArray(contact, (0, len(contact)), Slabs().functions) if alone else contact
+    functions, mine = whole.functions, whole.local
+    labels, box = np.zeros(mine.shape, np.intp), bounding_box(mine)
+    count = 0 if box is None else int(scipy.ndimage.label(mine[box], output=labels[box]))
+    counts = functions.communicator.allgather(count)
+    before, parts = sum(counts[: functions.rank]), sum(counts)
+    np.add(labels, before, out=labels, where=mine)
+    spot = _spot_of_part(whole.like(labels), grid.periodic, parts)
 
-        rows, columns = np.concatenate(pairs, axis=1)
-        links = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(count + 1, count + 1))
-        _, merged = scipy.sparse.csgraph.connected_components(links, directed=False)
-        # Label 0, the ground, is in no pair and keeps its own component; the others are numbered anew.
-        _, compact = np.unique(np.r_[-1, merged[1:]], return_inverse=True)
-        labels, count = compact[labels], int(compact.max())
-    cells = np.flatnonzero(contact)
-    spot = labels.ravel()[cells] - 1
-    weights = measure.on(cells)
-    areas = np.bincount(spot, weights=weights, minlength=count).astype(np.float64)
-    loads = np.bincount(spot, weights=weights * pressure.ravel()[cells], minlength=count).astype(np.float64)
-    return Spots(int(count), areas, loads, labels)
+    cells = np.flatnonzero(mine)
+    part, weights = labels.ravel()[cells] - 1 - before, measure.on(cells)
+    forces = weights * (pressure if alone else pressure.local).ravel()[cells]
+    own = [np.bincount(part, weights=each, minlength=count) for each in (weights, forces)]
+    areas, loads = (
+        np.bincount(spot[1:] - 1, weights=np.concatenate(each)).astype(np.float64)
+        for each in zip(*functions.communicator.allgather(own), strict=True)
+    )
+    if len(areas) < parts:
+        labels = spot[labels]
+    found: Any = labels if alone else whole.like(labels)
+    return Spots(len(areas), areas, loads, found)
+
+
+def _spot_of_part(labels: SlabArray, periodic: tuple[bool, ...], parts: int) -> npt.NDArray[np.intp]:
+    """Return the spot that each part is of, where parts meet across an edge, or where rows of two processes meet.
+
+    Spots are numbered by the first cell of each; label 0, the ground, is linked to nothing.
+    """
+    functions, mine = labels.functions, labels.local
+    meeting = [(functions.row_beside(labels, 1)[:1], mine[:1])] if periodic[0] else []
+    meeting += [(mine[:, -1:], mine[:, :1])] if all(periodic[1:]) and mine.ndim > 1 else []
+    pairs = [np.stack([one.ravel(), other.ravel()]) for one, other in meeting]
+    links = np.concatenate(
+        [np.zeros((2, 0), np.intp), *(pair[:, pair.all(axis=0)] for pair in pairs)], axis=1
+    )
+    rows, columns = np.concatenate(functions.communicator.allgather(np.unique(links, axis=1)), axis=1)
+    if not len(rows):
+        return np.arange(parts + 1)
+    import scipy.sparse.csgraph
+
+    graph = scipy.sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(parts + 1, parts + 1))
+    return scipy.sparse.csgraph.connected_components(graph, directed=False)[1].astype(np.intp)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,10 +13,13 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.files.aside import written_aside
 from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.file_bounds import unzip
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
+from roughcontact.slabs.agreement import by_each, by_first, entered_by_first
+from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
 
 __all__ = [
@@ -26,6 +30,7 @@ __all__ = [
     "read_npy_header",
     "read_npz",
     "whole_npy_header",
+    "write_npy",
 ]
 
 # Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
@@ -252,6 +257,31 @@ def npy_bytes(surface: Surface) -> bytes:
     stream = BytesIO()
     np.save(stream, surface.heights)
     return stream.getvalue()
+
+
+def write_npy(heights: SlabArray, path: str | os.PathLike[str]) -> None:
+    """Write heights in slabs as ``numpy.save`` would, by all processes: each its rows."""
+    functions, mine = heights.functions, np.ascontiguousarray(heights.local, "<f8")
+    before = heights.edges[functions.rank] * math.prod(heights.shape[1:]) * mine.itemsize
+
+    with entered_by_first(functions.communicator, lambda: written_aside(path)) as aside:
+
+        def begin() -> int:
+            with open(aside, "wb") as file:
+                header = {"descr": "<f8", "fortran_order": False, "shape": heights.shape}
+                np.lib.format.write_array_header_1_0(file, header)
+                start = file.tell()
+                file.truncate(start + heights.size * mine.itemsize)
+            return start
+
+        start = by_first(functions.communicator, begin)
+
+        def write() -> None:
+            with open(aside, "r+b") as file:
+                file.seek(start + before)
+                file.write(mine.data if mine.size else b"")
+
+        by_each(functions.communicator, write)
 
 
 def npz_bytes(surface: Surface) -> bytes:

@@ -29,9 +29,11 @@ def is_ours(error: ValueError | OSError) -> bool:
 def raised_in(error: BaseException) -> tuple[TracebackType | None, str]:
     """Return where an error was raised, and the package of that place by its name; None and "" of one that was not.
 
-    By its name and not its file, which bundles of programs do not have.
+    By its name and not its file, which bundles of programs do not have. A package whose name begins with
+    ``roughcontact_`` adds commands to the program, and counts as this one.
     """
     last = error.__traceback__
     while last is not None and last.tb_next is not None:
         last = last.tb_next
-    return last, "" if last is None else str(last.tb_frame.f_globals.get("__name__")).partition(".")[0]
+    name = "" if last is None else str(last.tb_frame.f_globals.get("__name__")).partition(".")[0]
+    return last, PACKAGE if name.startswith(f"{PACKAGE}_") else name

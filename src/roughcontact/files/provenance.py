@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.slabs.by_rows import rows_to_first
+from roughcontact.slabs.by_rows import gather_to_first
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.validation import Array
 
@@ -87,7 +87,7 @@ def surface_hash(surface: Body) -> str:
     heights: Any = surface.heights
     digest = hashlib.sha256(repr((grid.shape, grid.spacing, grid.periodic)).encode())
     if isinstance(heights, SlabArray):
-        for _, rows in rows_to_first(heights):
+        for _, rows in gather_to_first(heights):
             digest.update(b"" if rows is None else _bytes_of_heights(rows))
         told: list[str] = heights.functions.communicator.allgather(digest.hexdigest())
         return told[0]

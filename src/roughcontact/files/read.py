@@ -9,15 +9,23 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from roughcontact.files.assemble import Length, Size, assemble, cell_of, plain_lengths
-from roughcontact.files.content import content, named
+from roughcontact.files.bare_table import points_in, require_no_list
+from roughcontact.files.content import content, named, ordinary_file
 from roughcontact.files.dispatch import channels_of, either, height_map, profile_of
-from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.heightmap import Channel, HeightMap
+from roughcontact.files.file_errors import ContentError, SurfaceWarning
+from roughcontact.files.heightmap import Channel, HeightMap, as_heights, require_map
 from roughcontact.files.length_units import length_factor
-from roughcontact.files.read_in_slabs import surface_in_slabs
+from roughcontact.files.numpy_files import NpyHeader, whole_npy_header
+from roughcontact.files.table_axes import axes_of
+from roughcontact.slabs.agreement import by_each, by_first
+from roughcontact.slabs.by_rows import scatter_from_first
 from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array
 
 __all__ = ["channels", "read", "read_either", "read_line"]
 
@@ -189,14 +197,75 @@ def _read(
         axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)
         cell_of(size, (1,) * axes)
     stated: dict[str, Any] = {"unit": unit, "size": size, "periodic": periodic}
-    if slabs is not None:
-        with named(path) as file:
-            surface, doubts = surface_in_slabs(path, slabs, channel, stated)
-    else:
+
+    def whole() -> tuple[Surface, tuple[str, ...]]:
         with content(path) as (file, data):
             found = reader(data, Path(file).suffix.casefold(), channel)
-            digest = hashlib.sha256(data).hexdigest()[:16]
+            return assemble(found, file, hashlib.sha256(data).hexdigest()[:16], **stated)
+
+    with named(path) as file:
+        if slabs is None:
+            surface, doubts = whole()
+        elif Path(path).suffix.casefold() == ".npy" and channel is None:
+            found, digest = _npy_rows(path, slabs)
             surface, doubts = assemble(found, file, digest, **stated)
+        else:
+            surface, doubts = _dealt(slabs, whole)
     for doubt in doubts:
         warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=3)
     return surface
+
+
+def _dealt(
+    slabs: Slabs, read: Callable[[], tuple[Surface, tuple[str, ...]]]
+) -> tuple[Surface, tuple[str, ...]]:
+    """Return a surface in slabs, which the first process reads and deals out, and its doubts."""
+    whole: list[Array] = []
+
+    def read_here() -> tuple[Any, ...]:
+        surface, doubts = read()
+        whole.append(surface.heights)
+        return surface.grid, surface.provenance, doubts
+
+    grid, provenance, doubts = by_first(slabs.communicator, read_here)
+    heights: Any = scatter_from_first(slabs, whole[0] if whole else None, grid.shape)
+    return Surface(heights, grid, provenance), doubts
+
+
+def _npy_rows(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, str]:
+    """Return the one array of a ``.npy`` file in slabs, each process reading its rows, and the hash of the file."""
+
+    def look() -> tuple[NpyHeader, str]:
+        with named(path), ordinary_file(path) as stream:
+            header = whole_npy_header(stream, os.fstat(stream.fileno()).st_size)
+            as_heights(np.zeros((1,) * len(header.shape), header.dtype))  # refuses what is none
+            require_map(HeightMap(np.broadcast_to(0.0, header.shape), "npy"))
+            _require_heights_alone(_mapped(stream, header))
+            stream.seek(0)
+            bytes_of_file: Any = stream
+            return header, hashlib.file_digest(bytes_of_file, "sha256").hexdigest()[:16]
+
+    header, digest = by_first(slabs.communicator, look)
+    own: list[npt.NDArray[np.float64]] = []
+
+    def read() -> None:
+        with named(path), ordinary_file(path) as stream:
+            own.append(as_heights(_mapped(stream, header)[slabs.rows(header.shape[0])]))
+
+    by_each(slabs.communicator, read)
+    return HeightMap(slabs.array(own[0]), "npy"), digest  # type: ignore[arg-type]
+
+
+def _mapped(stream: Any, header: NpyHeader) -> npt.NDArray[Any]:
+    order: Any = "F" if header.fortran else "C"
+    return np.memmap(stream, header.dtype, "r", header.offset, header.shape, order)
+
+
+def _require_heights_alone(values: npt.NDArray[Any]) -> None:
+    """Refuse points and axes, which are recognised where one process reads the file."""
+    require_no_list(values.shape)
+    if values.ndim == 2 and (points_in(values) is not None or axes_of(values) is not None):
+        raise ContentError(
+            "it holds points x, y, z, or places in its first row or column, beside heights",
+            "read it by one process, or save the heights alone",
+        )

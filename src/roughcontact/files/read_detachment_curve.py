@@ -66,10 +66,10 @@ def read_detachment_curve(path: str | os.PathLike[str]) -> DetachmentCurve:
 
 def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> DetachmentCurve:
     names = {column.name: name for column, name in DETACHMENT_NAMES.items()}
-    needed = (*CURVE_POINTS, *_SCALES, *names, "detached", "work_of_adhesion", "status")
+    needed = (*CURVE_POINTS, *_SCALES, *names, "detached_at", "work_of_adhesion", "status")
     require_columns(variables, needed)
     geometry, sizes = sizes_of(variables, attributes)
-    shape, count = variables["force"].shape, variables["detached"].shape
+    shape, count = variables["force"].shape, variables["detached_at"].shape
     control: Literal["depth", "force"] = "force" if word_of(attributes.get("control")) == "force" else "depth"
     events = [numbers_of(variables, name, count).tolist() for name in names]
     rows = [dict(zip(names.values(), row, strict=True)) for row in zip(*events, strict=True)]
@@ -81,7 +81,7 @@ def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any
         **points,
         status=statuses_of(variables["status"], shape),
         detachments=tuple(Detachment(**row | {"cells": int(row["cells"])}) for row in rows),
-        detached=tuple(int(at) for at in numbers_of(variables, "detached", count)),
+        detached_at=tuple(int(at) for at in numbers_of(variables, "detached_at", count)),
         notes=tuple(notes.splitlines()),
         control=control,
         work=float(work) if work.ndim == 0 else work,

@@ -19,19 +19,18 @@ from roughcontact.adhesion.detachment_curve import DetachmentCurve
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
-from roughcontact.contact.dataset import numbers_dataset, solution_maps
+from roughcontact.contact.dataset import numbers_dataset, solution_dataset, solution_maps
 from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, require_target, written_aside
-from roughcontact.files.numpy_files import npy_bytes, npz_bytes
+from roughcontact.files.numpy_files import npy_bytes, npz_bytes, write_npy
 from roughcontact.files.provenance import provenance
 from roughcontact.files.surface_dataset import dataset_without_heights, surface_dataset
 from roughcontact.files.text import text_bytes
 from roughcontact.files.write import netcdf_bytes, require_netcdf, write_csv, write_netcdf, write_text
-from roughcontact.files.write_in_slabs import write_netcdf_in_slabs, write_npy_in_slabs
 from roughcontact.files.x3p import x3p_bytes
 from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
@@ -42,7 +41,7 @@ from roughcontact.surface.surface import Surface
 if TYPE_CHECKING:
     pass
 
-__all__ = ["require_surface_file", "write"]
+__all__ = ["require_surface_file", "write", "write_solution"]
 
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
@@ -119,12 +118,28 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
 
 def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
     if isinstance(what, Solution):
-        lines = provenance(what.problem.surface, modulus=what.problem.modulus)
-        write_netcdf_in_slabs(numbers_dataset(what).assign_attrs(lines), solution_maps(what), path)
+        write_solution(what, path, provenance(what.problem.surface, modulus=what.problem.modulus))
     elif Path(path).suffix.casefold() == ".npy":
-        write_npy_in_slabs(what.heights, path)
+        write_npy(what.heights, path)
     else:
-        write_netcdf_in_slabs(dataset_without_heights(what, {}), {"heights": what.heights}, path)
+        write_netcdf(dataset_without_heights(what, {}), path, maps={"heights": what.heights})
+
+
+def write_solution(
+    solution: Solution, path: str | os.PathLike[str], lines: Mapping[str, str | float]
+) -> None:
+    """Write a loaded state as NetCDF-4 with lines of provenance; one in slabs by all processes.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+    """
+    pressure: Any = solution.pressure
+    if isinstance(pressure, SlabArray):
+        write_netcdf(numbers_dataset(solution), path, lines, solution_maps(solution))
+    else:
+        write_netcdf(solution_dataset(solution), path, lines)
 
 
 def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False) -> None:
@@ -160,22 +175,20 @@ def _netcdf(surface: Surface) -> bytes:
 
 
 def _solution(solution: Pressed) -> bytes:
-    origin = solution.blank if isinstance(solution, AdhesiveState) else _pressed(solution).problem
+    origin = _pressed(solution).problem
     lines = provenance(origin.surface, modulus=origin.modulus)
     return netcdf_bytes(solution.to_dataset().assign_attrs(lines))
 
 
 def _solution_vti(solution: Pressed) -> bytes:
-    if isinstance(solution, AdhesiveState):
-        return _vti_bytes(_fields(solution, solution.blank.surface), solution.blank.operator.grid)
     pressed = _pressed(solution)
     fields = _fields(pressed, pressed.problem.surface)
     if isinstance(solution, TangentialSolution):
         fields |= _tangential_fields(solution)
-    return _vti_bytes(fields, _pressed(solution).problem.grid)
+    return _vti_bytes(fields, pressed.problem.operator.grid)
 
 
-def _pressed(solution: Solution | TangentialSolution | DetachmentState) -> Solution | DetachmentState:
+def _pressed(solution: Pressed) -> Solution | AdhesiveState | DetachmentState:
     """Return the state under the normal force alone."""
     return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
 

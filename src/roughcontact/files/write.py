@@ -7,6 +7,9 @@ import io
 import json
 import os
 from collections.abc import Iterable, Mapping
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +17,12 @@ import numpy.typing as npt
 
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.files.installed import lacking
+from roughcontact.labels.labelled import attributes_of
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.slabs.agreement import by_first, entered_by_first
+from roughcontact.slabs.by_rows import gather_to_first
+from roughcontact.slabs.one_process import OneProcess
+from roughcontact.slabs.slab_array import SlabArray
 
 if TYPE_CHECKING:
     import xarray
@@ -25,14 +34,30 @@ __all__ = [
 
 Attributes = Mapping[str, str | float]
 
+CHUNK = 256  # rows and columns of the parts of a map in slabs, each compressed by itself
+
 
 def write_netcdf(
-    dataset: xarray.Dataset, path: str | os.PathLike[str], provenance: Attributes | None = None
+    dataset: xarray.Dataset,
+    path: str | os.PathLike[str],
+    provenance: Attributes | None = None,
+    maps: Mapping[str, SlabArray] = MappingProxyType({}),
 ) -> None:
     """Write a dataset as NetCDF-4, which xarray, netCDF4 and any HDF5 reader open.
 
     Maps are compressed without loss. `provenance` (see `roughcontact.files.provenance`) becomes
     attributes of the file. The file appears whole or not at all.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        With the coordinates of the maps in slabs, ``y`` and ``x``.
+    path : str or path
+        With maps in slabs, what the first process says.
+    provenance : mapping, optional
+    maps : mapping of str to SlabArray
+        Fields in slabs by their names in the table of variables: all processes call, and the first one takes the rows
+        in turn.
 
     Raises
     ------
@@ -40,8 +65,38 @@ def write_netcdf(
         If the file cannot be written.
     """
     whole = dataset.assign_attrs(dict(provenance or {}))
-    with written_aside(path) as aside:
-        aside.write_bytes(netcdf_bytes(whole))
+    communicator = next((field.functions.communicator for field in maps.values()), OneProcess())
+    with entered_by_first(communicator, lambda: written_aside(path)) as aside:
+        # Only the maps are too large to be made in memory, where a full disk does no harm to HDF5.
+        by_first(communicator, lambda: aside.write_bytes(netcdf_bytes(whole)))
+        for name, field in maps.items():
+            for start, rows in gather_to_first(field, CHUNK):
+                by_first(communicator, partial(_write_rows, aside, name, field, start, rows))
+
+
+def _write_rows(path: Path, name: str, field: SlabArray, start: int, rows: Any) -> None:
+    import h5netcdf
+
+    with h5netcdf.File(path, "a") as file:
+        stored = file[name] if start else _new_map(file, name, field)
+        stored[start : start + len(rows)] = rows
+
+
+def _new_map(file: Any, name: str, field: SlabArray) -> Any:
+    """Return a new variable of a file, stored as xarray would: compressed without loss, truth values as numbers."""
+    truth, real = field.dtype.kind == "b", field.dtype.kind == "f"
+    stored = file.create_variable(
+        name,
+        ("y", "x"),
+        np.dtype("int8") if truth else field.dtype,
+        fillvalue=np.nan if real else None,
+        chunks=tuple(min(CHUNK, n) for n in field.shape),
+        compression="gzip",
+        compression_opts=4,
+        shuffle=True,
+    )
+    stored.attrs.update(attributes_of(VARIABLES[name]) | ({"dtype": "bool"} if truth else {}))
+    return stored
 
 
 def netcdf_bytes(dataset: xarray.Dataset) -> bytes:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import beside, is_numpy, namespace
+from roughcontact.arrays import as_like, is_numpy, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import capabilities, exact_of, self_influence
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, dense_shear
@@ -163,7 +163,7 @@ class ContactCells:
 
     def units(self) -> list[Array]:
         """Return a unit in each direction, the same on every cell."""
-        return [self.zeros() + beside(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
+        return [self.zeros() + as_like(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
 
     def take(self, field: Array) -> Array:
         """Return the components of a field of shape ``(2, ny, nx)`` on the cells."""

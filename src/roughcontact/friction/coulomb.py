@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughcontact.arrays import beside, inner, namespace, numbers
+from roughcontact.arrays import as_like, inner, namespace, numbers
 from roughcontact.validation import Array, Mask
 
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "under_force", "violations", "within"]
@@ -86,7 +86,7 @@ def _projected(traction: Array, limit: Array, total: Array) -> Array:
     xp = namespace(traction)
 
     def shifted(shift: Array) -> Array:
-        result: Array = traction - beside(shift[:, None], traction)
+        result: Array = traction - as_like(shift[:, None], traction)
         return result
 
     def excess(shift: Array) -> Array:

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.coulomb import lengths
@@ -102,7 +102,7 @@ def slide(
     problem = make(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
     answer = advance(problem, problem.load(force=force, displacement=displacement), initial)
     if not answer.status.converged:
-        raise ConvergenceError(answer, problem.tolerance)
+        raise ConvergenceError(answer)
     return answer
 
 
@@ -221,7 +221,7 @@ def advance(
         start = slipped = moved = interface.zeros()
     else:
         start, slipped = interface.take(initial.traction), interface.take(initial.slip)
-        moved = slipped + beside((interface.basis @ initial.displacement)[:, None], slipped)
+        moved = slipped + as_like((interface.basis @ initial.displacement)[:, None], slipped)
     value = interface.basis @ np.array([load.x, load.y])
     step = SlipStep(
         interface,
@@ -234,7 +234,7 @@ def advance(
         tolerance=problem.tolerance,
     )
     found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
-    now = found.displacement - beside(found.shift[:, None], found.displacement)
+    now = found.displacement - as_like(found.shift[:, None], found.displacement)
     fields = [interface.embed(found.traction), interface.embed(now)]
     for field in fields:
         if is_numpy(field):
@@ -261,12 +261,12 @@ def _slid(step: SlipStep, force: Array) -> Slipped:
     then, what lies along the force counts: none may be backward.
     """
     direction, xp = force / np.sqrt(force @ force), namespace(step.limit)
-    q = step.limit * beside(direction[:, None], step.limit)
+    q = step.limit * as_like(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
     shift = numbers(xp.mean(level, axis=1))
-    shift += (float(xp.max(beside(direction, level) @ level)) - direction @ shift) * direction
-    along = beside(direction, level) @ step.slipped(u, shift)
-    residual = step.residual(q, u, along * beside(direction[:, None], along))
+    shift += (float(xp.max(as_like(direction, level) @ level)) - direction @ shift) * direction
+    along = as_like(direction, level) @ step.slipped(u, shift)
+    residual = step.residual(q, u, along * as_like(direction[:, None], along))
     status = Status.CONVERGED if residual <= step.tolerance else Status.STAGNATED
     return Slipped(q, u, shift, residual, 1, status)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from roughcontact import methods
-from roughcontact.arrays import beside, inner, is_numpy, namespace, numbers, on_host
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.cached import cached_property
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import at_limit
@@ -120,7 +120,7 @@ class TangentialSolution:
     def elastic_energy(self) -> float:
         """Elastic energy of the tangential displacement [J]: half the traction times it."""
         traction = self._on_cells(self.traction)
-        displaced = self._on_cells(self.slip) + beside(self.displacement[:, None], traction)
+        displaced = self._on_cells(self.slip) + as_like(self.displacement[:, None], traction)
         return 0.5 * inner(traction, displaced) * self.problem.interface.area
 
     @cached_property

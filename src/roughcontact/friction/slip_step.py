@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.arrays import beside, inner, namespace, numbers
+from roughcontact.arrays import as_like, inner, namespace, numbers
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import (
     at_limit,
@@ -86,7 +86,7 @@ class SlipStep:
 
     def slipped(self, displacement: Array, shift: Array) -> Array:
         """Return the slip of the step [m]."""
-        moved: Array = displacement - beside(shift[:, None], displacement)
+        moved: Array = displacement - as_like(shift[:, None], displacement)
         return moved - self.slip
 
     def residual(self, traction: Array, displacement: Array, slipped: Array) -> float:
@@ -167,7 +167,7 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
     xp = namespace(level)
 
     def forward_of(shift: Array) -> Array:
-        return xp.sum((level - beside(shift[:, None], level)) * normal, axis=0)  # type: ignore[no-any-return]
+        return xp.sum((level - as_like(shift[:, None], level)) * normal, axis=0)  # type: ignore[no-any-return]
 
     across = level - xp.sum(level * normal, axis=0) * normal
     weight = xp.ones_like(limit)
@@ -180,7 +180,7 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
         # All slip, and all the wrong way: the free part does not determine the shift. None slips forward from here on:
         pull = numbers(normal @ limit)
         pull /= np.sqrt(pull @ pull)
-        leaning = beside(pull, normal) @ normal
+        leaning = as_like(pull, normal) @ normal
         if bool(xp.all(leaning > 0)):
             mean = numbers(xp.mean(level, axis=1))
             return np.asarray(mean + pull * float(xp.max(forward_of(mean) / leaning)))

@@ -7,17 +7,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty_like, zeros
+from roughcontact.kernels.buffers import empty, zeros
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import REACH, WIDTH
-from roughcontact.kernels.distributed import contiguous, local, of_all
 from roughcontact.kernels.loader import code_for
-from roughcontact.kernels.planes import CELLS, run_on_plane
+from roughcontact.kernels.planes import CELLS, Combine, run_on_plane
 from roughcontact.threads import threads
 
 __all__ = [
     "ActiveCells",
     "add_blocks",
+    "fill_margins",
+    "looked_at",
     "mask_above",
     "subtract_shifted",
     "sum_blocks",
@@ -40,43 +41,52 @@ class ActiveCells:
     Attributes
     ----------
     inside : array
-        One on these cells, zero elsewhere; in slabs those of this process are listed here, and totals are those of all.
+        One on these cells, zero elsewhere.
 
     Parameters
     ----------
     inside : array
     pressed : pair of arrays, optional
         A pressure and its change: cells where their sum is not zero are listed as well.
+    combine : function, optional
+        Makes totals of all processes from those of this one, where others hold the rest of the field.
     """
 
-    def __init__(self, inside: Any, pressed: tuple[Any, Any] | None = None) -> None:
-        self.inside = inside
+    def __init__(
+        self, inside: Field, pressed: tuple[Field, Field] | None = None, combine: Combine | None = None
+    ) -> None:
+        self.inside, self._combine = inside, combine
         self._code = code_for("vector_kernels", inside)
-        self._here = here = local(inside)
-        lanes = WIDTH // here.itemsize
-        self._whole = here.size // lanes * lanes
-        groups, found = np.empty(here.size // lanes + 1, np.int64), np.empty(1, np.int64)
-        base, change = map(local, pressed or (here, here))
-        self._code["list_groups"](here.size, here, base, change, groups, found)
+        lanes = WIDTH // inside.itemsize
+        groups, found = np.empty(inside.size // lanes + 1, np.int64), np.empty(1, np.int64)
+        self._code["list_groups"](inside.size, inside, *(pressed or (inside, inside)), groups, found)
         self._count = int(found[0])
         self._groups = Operand(groups[: self._count].copy())
-        self._parts = max(-(-self._count // PART), 1)
-        self._given = self._groups, self._count, PART, self._whole, here.size
-        self._totals = Operand(np.empty(self._parts * SUMS))
+        parts = max(-(-self._count // PART), 1)
+        self._workers = threads() if parts >= SEVERAL else 1
+        self._given = self._groups, self._count, PART, inside.size // lanes * lanes, inside.size
+        self._totals = Operand(np.empty(parts * SUMS))
 
     def run(
-        self, name: str, count: int, *arguments: Operand | Field | float, largest: bool = False
+        self,
+        name: str,
+        count: int,
+        *arguments: Operand | Field | float,
+        largest: bool = False,
+        weight: float = 1.0,
     ) -> list[float]:
-        """Run a kernel over these cells, and return so many sums, or the largest, of what it finds."""
-        workers = threads() if self._parts >= SEVERAL else 1
-        totals = (self._totals,) if count else ()
-        self._code[name](*self._given, *arguments, *totals, workers=workers)
-        return of_all(self.inside, self._totals.field[:count].tolist(), count if largest else 0)
+        """Run a kernel over these cells, and return so many weighted sums, or the largest, of what it finds."""
+        if not count:
+            self._code[name](*self._given, *arguments, workers=self._workers)
+            return []
+        self._code[name](*self._given, *arguments, self._totals, workers=self._workers)
+        totals: list[float] = (weight * self._totals.field[:count]).tolist()
+        return self._combine(totals, count if largest else 0) if self._combine else totals
 
     def finds_blocks(self, side: int) -> bool:
         """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
-        columns, lanes = self._here.shape[-1], WIDTH // self._here.itemsize
-        return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self._here.size
+        columns, lanes = self.inside.shape[-1], WIDTH // self.inside.itemsize
+        return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self.inside.size
 
     def run_on_blocks(self, name: str, field: Field, blocks: Field, side: int) -> None:
         """Run a kernel on the blocks that these cells are of, on some whole rows of blocks at once."""
@@ -85,56 +95,52 @@ class ActiveCells:
         edges = np.searchsorted(self._groups.field, np.arange(0, field.size + step, step))
         parts = len(edges) - 1
         given = self._groups, edges, parts, columns, side, across, field, blocks
-        workers = threads() if self._parts >= SEVERAL else 1
-        code_for("block_kernels", field)[name](*given, workers=workers)
+        code_for("block_kernels", field)[name](*given, workers=self._workers)
 
 
-def subtract_shifted(r: Any, v: Any, alpha: float, mean: float) -> None:
+def subtract_shifted(r: Field, v: Field, alpha: float, mean: float) -> None:
     """Take ``alpha (v - mean)`` off a whole field."""
     run_on_plane(code_for("vector_kernels", r)["subtract_shifted"], 0, 0, r, v, alpha, mean)
 
 
-def mask_above(mask: Any, r: Any, least: float) -> float:
+def mask_above(mask: Field, r: Field, least: float, combine: Combine | None = None) -> float:
     """Set a mask to one where r is above `least`, and above zero; return the largest r where it was not, or 0."""
     run = code_for("vector_kernels", mask)["mask_above"]
-    return run_on_plane(run, 1, 1, mask, contiguous(r, mask.dtype), least)[0]
+    r = np.ascontiguousarray(r, dtype=mask.dtype)
+    return run_on_plane(run, 1, 1, mask, r, least, combine=combine)[0]
 
 
-def with_margins(field: Any, precision: npt.DTypeLike | None = None) -> Any:
+def with_margins(field: Field, precision: npt.DTypeLike | None = None) -> Field:
     """Return a copy of a plane with as much zero before and behind it as a sum over near cells looks at."""
     copy = zeros_with_margins(field, precision or field.dtype)
     copy[...] = field
     return copy
 
 
-def zeros_with_margins(like: Any, precision: npt.DTypeLike) -> Any:
-    """Return a plane of zeros with such margins, where another plane lies."""
-    here, dtype = local(like), np.dtype(precision)
-    margin = _looked_at(here.shape[-1] if here.ndim > 1 else 0) + WIDTH // dtype.itemsize
-    memory = (zeros if like is here else np.zeros)((here.size + 2 * margin,), dtype)
-    plane = memory[margin : margin + here.size].reshape(here.shape)
-    return plane if like is here else like.like(plane)
+def zeros_with_margins(like: Field, precision: npt.DTypeLike) -> Field:
+    """Return a plane of zeros with such margins, of the shape of another."""
+    dtype = np.dtype(precision)
+    margin = looked_at(like.shape[-1] if like.ndim > 1 else 0) + WIDTH // dtype.itemsize
+    memory = zeros((like.size + 2 * margin,), dtype)
+    return memory[margin : margin + like.size].reshape(like.shape)
 
 
-def sum_stencil(region: ActiveCells, field: Any, weights: Field) -> Any:
+def sum_stencil(region: ActiveCells, field: Field, weights: Field) -> Field:
     """Return the weighted sum over the cells near each of a region, of a field with margins.
 
-    The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same. In
-    slabs the margins take what other processes have there.
+    The row after each row is taken for what lies beyond its end: the sum is symmetric and definite all the same.
     """
-    answer, here = empty_like(field, field.dtype), local(field)
-    if field is not here:
-        _fill_margins(here, *field.functions.beyond(field, _looked_at(here.shape[-1])))
-    region.run("sum_stencil", 0, here.shape[-1], here, local(answer), weights)
+    answer = empty(field.shape, field.dtype)
+    region.run("sum_stencil", 0, field.shape[-1], field, answer, weights)
     return answer
 
 
-def _looked_at(row: int) -> int:
+def looked_at(row: int) -> int:
     """Return how many cells before the first, and after the last, a sum over near cells looks at."""
     return REACH * (row + 1)
 
 
-def _fill_margins(field: Field, before: Field, behind: Field) -> None:
+def fill_margins(field: Field, before: Field, behind: Field) -> None:
     """Write what comes before the first number of a field with margins, and after its last."""
     memory = field.base
     assert memory is not None  # that of `zeros_with_margins`
@@ -143,14 +149,8 @@ def _fill_margins(field: Field, before: Field, behind: Field) -> None:
     memory[first - before.size : first], memory[last : last + behind.size] = before, behind
 
 
-def sum_blocks(region: ActiveCells, field: Any, side: int) -> Any:
-    """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off.
-
-    In slabs blocks lie on one process each.
-    """
-    here = local(field)
-    if field is not here:
-        return field.in_blocks(sum_blocks(region, here, side), side)
+def sum_blocks(region: ActiveCells, field: Field, side: int) -> Field:
+    """Return the sums over square blocks of a plane that is zero outside a region, those at its far edges cut off."""
     ny, nx = field.shape
     blocks = np.zeros((-(-ny // side), -(-nx // side)), dtype=field.dtype)
     if region.finds_blocks(side):
@@ -160,9 +160,8 @@ def sum_blocks(region: ActiveCells, field: Any, side: int) -> Any:
     return blocks
 
 
-def add_blocks(region: ActiveCells, field: Any, blocks: Any, side: int) -> None:
+def add_blocks(region: ActiveCells, field: Field, blocks: Field, side: int) -> None:
     """Add to each cell of a region what its block has; what others get means nothing."""
-    field, blocks = local(field), local(blocks)
     if region.finds_blocks(side):
         region.run_on_blocks("add_listed_blocks", field, blocks, side)
     else:

@@ -1,9 +1,9 @@
-"""Memory to work in, that is kept for the next time.
+"""A pool of memory for arrays.
 
 A page that is touched for the first time is cleared by the system, and what is given back must be forgotten by all
 cores. That costs 9 % of a press of half of 512 x 512 periodic cells on two threads (benchmarks/pairs.py, "flat-half").
-So what an array leaves is kept for the next one like it. What very large planes leave is kept within a loop that takes
-the same ones in every step, and not beyond; that of planes in slabs never is, since memory is short there.
+So memory goes back to the pool when its array is gone, for the next array of the same shape. Very large buffers are
+pooled only within a loop whose steps take arrays of the same sizes (`keep_large_buffers`).
 """
 
 from __future__ import annotations
@@ -18,33 +18,32 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.kernels.calls import address
-from roughcontact.kernels.distributed import local
 from roughcontact.threads import no_fork
 
-__all__ = ["aligned", "empty", "empty_like", "give_back", "large_ones_kept", "zeros", "zeros_like"]
+__all__ = ["aligned", "empty", "keep_large_buffers", "release", "zeros"]
 
 Array = npt.NDArray[Any]
 Kind = tuple[tuple[int, ...], str]
 Memory = npt.NDArray[np.uint8]
 Block = tuple[dict[str, Any], Memory]
 
-LINE = 64  # bytes of a line of the cache, with one of which all that is kept begins
-SMALL = 2**16  # bytes up to which the allocator keeps memory itself
-LARGE = 2**24  # bytes from which on it is kept within a loop alone
-MOST = 2**26  # bytes that are kept in all, beside those
-FITTING = 1.25  # times as large as an array, up to which it takes a piece that another has left in a loop
+LINE = 64  # bytes of a cache line, to which buffers are aligned
+SMALL = 2**16  # bytes up to which the allocator pools memory itself
+LARGE = 2**24  # bytes from which on buffers are pooled only within a loop
+MOST = 2**26  # bytes of the pool, without those of loops
+FITTING = 1.25  # largest ratio of the size of a reused buffer to that of its array, within a loop
 _kept: dict[Kind, list[Block]] = {}
 _total = [0]  # bytes that are kept now
 
 
-class _Loop:
-    """What the large arrays of a loop have left, until it ends."""
+class _LoopPool:
+    """The pool of large buffers of a loop, until it ends."""
 
     def __init__(self) -> None:
         self._left: list[Memory] | None = []
 
     def block(self, kind: Kind, size: int) -> Block:
-        """Return the smallest piece in which an array fits, or a new one where that is much too large."""
+        """Return the smallest buffer in which an array fits, or a new one where that is much too large."""
         left = self._left or []
         fit = [(k.nbytes, at) for at, k in enumerate(left) if size <= k.nbytes - LINE <= FITTING * size]
         return _block(kind, left.pop(min(fit)[1]) if fit else np.empty(size + LINE, np.uint8))
@@ -53,17 +52,21 @@ class _Loop:
         if self._left is not None:
             self._left.append(block[1])
 
+    def clear(self) -> None:
+        if self._left is not None:
+            self._left.clear()
+
     def end(self) -> None:
         self._left = None
 
 
-_loop: ContextVar[_Loop | None] = ContextVar("loop", default=None)
+_loop: ContextVar[_LoopPool | None] = ContextVar("loop", default=None)
 
 
 @contextmanager
-def large_ones_kept() -> Iterator[None]:
-    """Keep what very large arrays leave for the next ones like them, until this ends."""
-    loop = _Loop()
+def keep_large_buffers() -> Iterator[None]:
+    """Pool very large buffers too, until this ends."""
+    loop = _LoopPool()
     token = _loop.set(loop)
     try:
         yield
@@ -73,12 +76,12 @@ def large_ones_kept() -> Iterator[None]:
 
 
 def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
-    """Return an array of which no number is set."""
+    """Return an array without setting its entries."""
     dtype = np.dtype(precision)
     kind, size = (shape, dtype.str), math.prod(shape) * dtype.itemsize
     loop = _loop.get() if size >= LARGE else None
     if loop is not None:
-        return np.asarray(_Lent(loop.block(kind, size), loop.keep))
+        return np.asarray(_Pooled(loop.block(kind, size), loop.keep))
     if not SMALL <= size < LARGE:
         return np.empty(shape, dtype)
     block = None
@@ -87,7 +90,7 @@ def empty(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
         if blocks:
             block = blocks.pop()
             _total[0] -= size
-    return np.asarray(_Lent(block or _block(kind, np.empty(size + LINE, np.uint8)), _keep))
+    return np.asarray(_Pooled(block or _block(kind, np.empty(size + LINE, np.uint8)), _keep))
 
 
 def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
@@ -100,27 +103,18 @@ def zeros(shape: tuple[int, ...], precision: npt.DTypeLike) -> Array:
     return array
 
 
-def empty_like(field: Any, precision: npt.DTypeLike) -> Any:
-    """Return an array where another lies, of which no number is set."""
-    here = local(field)
-    return empty(here.shape, precision) if field is here else field.like(np.empty(here.shape, precision))
-
-
-def zeros_like(field: Any, precision: npt.DTypeLike) -> Any:
-    """Return an array of zeros where another lies."""
-    here = local(field)
-    return zeros(here.shape, precision) if field is here else field.like(np.zeros(here.shape, precision))
-
-
-def give_back() -> None:
-    """Keep nothing any more of what has been left so far."""
+def release() -> None:
+    """Free all buffers of the pool that no array uses."""
+    loop = _loop.get()
+    if loop is not None:
+        loop.clear()
     with no_fork:
         _kept.clear()
         _total[0] = 0
 
 
 def aligned(numbers: int, precision: str, *, kept: bool = True) -> Array:
-    """Return so many numbers, of which none is set, from the start of a line of the cache on."""
+    """Return an array of n numbers that is aligned to a cache line, without setting its entries."""
     dtype = np.dtype(precision)
     size = numbers * dtype.itemsize
     if kept and size >= SMALL and (size < LARGE or _loop.get() is not None):
@@ -130,8 +124,8 @@ def aligned(numbers: int, precision: str, *, kept: bool = True) -> Array:
     return memory[start : start + size].view(dtype)
 
 
-class _Lent:
-    """A block under some arrays; when the last of them is gone it is kept."""
+class _Pooled:
+    """A buffer of the pool under some arrays; it goes back when the last of them is gone."""
 
     __slots__ = ("__array_interface__", "_block", "_keep")
 

@@ -5,19 +5,25 @@ from __future__ import annotations
 import ctypes
 import struct
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
-
-from roughcontact.kernels.distributed import local
 
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
 
 __all__ = ["Function", "Operand", "address"]
 
-Run: TypeAlias = Callable[[int, bytes, int], None]
+
+class Threads(Protocol):
+    """What runs kernels, by several threads or one."""
+
+    def gather(self, workers: int) -> None:
+        """Call so many threads, this one among them."""
+
+    def running(self, kernel: int) -> Callable[[bytes, int], None]:
+        """Return what runs a kernel at an address."""
 
 
 class Operand:
@@ -26,13 +32,12 @@ class Operand:
     Attributes
     ----------
     field : array
-        Of one in slabs the address is that of its rows on this process.
     """
 
     __slots__ = ("address", "dtype", "field")
 
-    def __init__(self, field: Any) -> None:
-        self.field, self.dtype, self.address = field, field.dtype, _begin(local(field))
+    def __init__(self, field: npt.NDArray[Any]) -> None:
+        self.field, self.dtype, self.address = field, field.dtype, _address(field, field.dtype)
 
     def __reduce__(self) -> tuple[type[Operand], tuple[Any]]:
         """Return what makes a copy, which lies elsewhere."""
@@ -48,8 +53,8 @@ class Function:
     parameters : sequence of Parameter
     place : int
         Its address.
-    run : function of place, packed arguments and number of threads
-        What runs it.
+    team : Threads
+        The threads that run it.
 
     Raises
     ------
@@ -58,10 +63,10 @@ class Function:
         the kernel's or they do not lie one after the other, or a single number is none.
     """
 
-    __slots__ = ("_arrays", "_pack", "_place", "_run", "name")
+    __slots__ = ("_arrays", "_pack", "_run", "_team", "name")
 
-    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, run: Run) -> None:
-        self.name, self._place, self._run = name, place, run
+    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, team: Threads) -> None:
+        self.name, self._team, self._run = name, team, team.running(place)
         self._arrays = [np.dtype(p.dtype) if p.array else None for p in parameters]
         self._pack = struct.Struct("=" + "".join(p.slot for p in parameters)).pack
 
@@ -69,21 +74,22 @@ class Function:
         """Run it, by so many threads if it shares work; that arrays are as large as it asks for is not checked."""
         if len(arguments) != len(self._arrays):
             raise TypeError(f"{self.name} takes {len(self._arrays)} arguments, not {len(arguments)}")
+        slots = []
         try:
             # A solve makes some hundred calls: what is usual is found out first.
-            packed = self._pack(
-                *[
-                    given
-                    if wanted is None
-                    else given.address
-                    if given.__class__ is Operand and given.dtype is wanted
-                    else _address(given, wanted)
-                    for given, wanted in zip(arguments, self._arrays, strict=True)
-                ]
-            )
+            for given, wanted in zip(arguments, self._arrays, strict=True):
+                if wanted is None:
+                    slots.append(given)
+                elif given.__class__ is Operand and given.dtype is wanted:
+                    slots.append(given.address)
+                else:
+                    slots.append(_address(given, wanted))
+            packed = self._pack(*slots)
         except (TypeError, struct.error) as error:
             raise TypeError(f"{self.name}: {error}") from None
-        self._run(self._place, packed, workers)
+        if workers > 1:
+            self._team.gather(workers)
+        self._run(packed, workers)
 
 
 def _address(given: Any, wanted: np.dtype[Any]) -> int:
@@ -92,18 +98,16 @@ def _address(given: Any, wanted: np.dtype[Any]) -> int:
         raise TypeError(f"an array of {wanted} is needed, not {type(given).__name__}")
     if given.dtype != wanted:
         raise TypeError(f"an array of {wanted} is needed, not one of {given.dtype}")
-    return given.address if isinstance(given, Operand) else _begin(given)
+    if isinstance(given, Operand):
+        return given.address
+    try:
+        return ctypes.addressof(ctypes.c_char.from_buffer(given))  # type: ignore[arg-type]
+    except (TypeError, ValueError):  # read only or empty: a slower way
+        if not given.flags.c_contiguous:
+            raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None
+        return address(given)
 
 
 def address(array: npt.NDArray[Any]) -> int:
     """Return where an array begins."""
     return int(array.__array_interface__["data"][0])
-
-
-def _begin(array: Any) -> int:
-    try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(array))
-    except (TypeError, ValueError):  # read only or empty: a slower way
-        if not array.flags.c_contiguous:
-            raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None
-        return address(array)

@@ -13,7 +13,6 @@ import numpy as np
 
 from roughcontact.kernels import disk
 from roughcontact.kernels.calls import Function
-from roughcontact.kernels.distributed import agreed, local
 from roughcontact.kernels.processor import is_off, processor
 from roughcontact.kernels.team import Team
 from roughcontact.threads import once
@@ -86,14 +85,10 @@ def functions(family: str, precision: str) -> Mapping[str, Function]:
 
 
 def takes(field: Any) -> bool:
-    """Whether machine code can work on a field: of NumPy, double or single precision, and the order of this machine.
-
-    Of one in slabs all processes say so of their rows.
-    """
-    here = local(field)
-    if not isinstance(here, np.ndarray):
+    """Whether machine code can work on a field: of NumPy, double or single precision, and the order of this machine."""
+    if not isinstance(field, np.ndarray):
         return False
-    return agreed(field, here.dtype.char in _NAMES and bool(here.dtype.isnative) and is_available())
+    return field.dtype.char in _NAMES and bool(field.dtype.isnative) and is_available()
 
 
 def _families() -> Mapping[str, Any]:
@@ -185,7 +180,7 @@ def _loaded(code: bytes, kernels: Mapping[str, KernelDefinition], precision: str
     if not _TEAM:
         _TEAM.append(Team(lead, serve))
     return {
-        kernel.name: Function(kernel.name, kernel.parameters(precision), place, _TEAM[0].run)
+        kernel.name: Function(kernel.name, kernel.parameters(precision), place, _TEAM[0])
         for kernel, place in zip(kernels.values(), places, strict=True)
     }
 

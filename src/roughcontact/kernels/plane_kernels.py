@@ -55,11 +55,11 @@ def predict_active(
     f: Fields,
     depth: Double,
     least: Double,
-    own: Double,
+    a_ii: Double,
     active: Flags,
     totals: Doubles,
 ) -> None:
-    """Mark where p > 0 or the gap ``u + s - depth < least``, but not where ``own max(p, 0) < gap``.
+    """Mark where p > 0 or the gap ``u + s - depth < least``, but not where ``a_ii max(p, 0) < gap``.
 
     Leave how many are marked, and how many are not for the last reason: there one cell by itself would pull.
     """
@@ -67,7 +67,7 @@ def predict_active(
     for i in cells.each(code, found):
         p = f.p[i]
         gap, one = f.u[i] + f.s[i] - depth, p.filled(1.0)
-        pulls = maximum(p, p.filled(0.0)) * own < gap  # nothing times infinity is NaN, and not below
+        pulls = maximum(p, p.filled(0.0)) * a_ii < gap  # nothing times infinity is NaN, and not below
         candidate = (p > 0.0) | (gap < least)
         stays = candidate & ~pulls
         active[i] = stays

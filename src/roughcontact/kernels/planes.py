@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.kernels.buffers import empty, empty_like
+from roughcontact.kernels.buffers import empty
 from roughcontact.kernels.constants import WIDTH
-from roughcontact.kernels.distributed import Distributed, agreed, local, of_all
-from roughcontact.kernels.loader import code_for, takes
+from roughcontact.kernels.loader import code_for, functions
 from roughcontact.threads import threads
 from roughcontact.validation import Array, Mask
 
 __all__ = [
+    "Combine",
     "Extremes",
     "LevelRange",
     "add_scaled",
@@ -32,6 +32,8 @@ __all__ = [
 ]
 
 Field = npt.NDArray[Any]  # of single or double precision
+# Makes totals of all processes that hold a field from those of this one: the largest of the first n, sums of the rest.
+Combine = Callable[[list[float], int], list[float]]
 
 CELLS = 2**14  # cells that are taken at once; totals are made part by part, whatever the threads
 SEVERAL = 4  # parts from which on a second thread comes in time
@@ -79,24 +81,28 @@ class LevelRange(NamedTuple):
 
 
 def fit(*fields: Any) -> bool:
-    """Whether machine code takes some fields of one shape as they lie in memory, in double precision."""
-    if not takes(fields[0]):
-        return False
-    here, wanted = map(local, fields), (np.dtype(np.float64), local(fields[0]).shape, True)
-    fitting = all(
-        isinstance(f, np.ndarray) and (f.dtype, f.shape, f.flags.c_contiguous) == wanted for f in here
-    )
-    return agreed(fields[0], fitting)
+    """Whether some fields of one shape lie in memory as machine code takes them, in double precision."""
+    wanted = np.dtype(np.float64), getattr(fields[0], "shape", None), True
+    for field in fields:
+        if not isinstance(field, np.ndarray) or wanted != (
+            field.dtype,
+            field.shape,
+            field.flags.c_contiguous,
+        ):
+            return False
+    return True
 
 
-def extremes(pressure: Array, displacement: Array, separation: Array) -> Extremes | None:
+def extremes(
+    pressure: Array, displacement: Array, separation: Array, combine: Combine | None = None
+) -> Extremes | None:
     """Return the extremes; None where some pressure or displacement is no finite number.
 
     This pass and that of `predict_active` save 6 % of a press with half of 512 x 512 periodic cells in contact, on two
     threads, over the passes that NumPy takes (benchmarks/pairs.py, "flat-half").
     """
-    run = code_for("plane_kernels", pressure)["extremes"]
-    found = run_on_plane(run, 7, 10, pressure, displacement, separation)
+    run = functions("plane_kernels", "float64")["extremes"]
+    found = run_on_plane(run, 7, 10, pressure, displacement, separation, combine=combine)
     highest, raised, moved, strongest, weakened, least, nearest, level, count, nothing = found
     if nothing != 0:  # or is no number
         return None
@@ -104,22 +110,33 @@ def extremes(pressure: Array, displacement: Array, separation: Array) -> Extreme
 
 
 def predict_active(
-    pressure: Array, displacement: Array, separation: Array, *, depth: float, least: float, own: float
+    pressure: Array,
+    displacement: Array,
+    separation: Array,
+    combine: Combine | None = None,
+    *,
+    depth: float,
+    least: float,
+    a_ii: float,
 ) -> tuple[Mask, int, int]:
-    """Return the cells under pressure or whose gap is below the least, but for wrong ones; and how many both are.
+    """Return the cells under pressure or whose gap is below the least, except dropped ones, and the numbers of both.
 
-    Those are wrong whose gap is more than their pressure would displace, if each moved itself by `own` alone [m/Pa].
+    A cell is dropped if its gap is more than ``a_ii p``, the displacement of the cell by its own pressure.
     """
-    region = empty_like(pressure, bool)
-    given = pressure, displacement, separation, depth, least, own, region
-    stay, wrong = run_on_plane(code_for("plane_kernels", pressure)["predict_active"], 0, 2, *given)
+    region = empty(pressure.shape, bool)
+    given = pressure, displacement, separation, depth, least, a_ii, region
+    run = functions("plane_kernels", "float64")["predict_active"]
+    stay, wrong = run_on_plane(run, 0, 2, *given, combine=combine)
     return region, int(stay), int(wrong)
 
 
-def level_range(separation: Array, displacement: Array, region: Mask) -> LevelRange:
+def level_range(
+    separation: Array, displacement: Array, region: Mask, combine: Combine | None = None
+) -> LevelRange:
     """Return the levels of a region that has some cell."""
-    run = code_for("plane_kernels", separation)["level_range"]
-    highest, raised, total, count = run_on_plane(run, 2, 4, separation, displacement, region)
+    run = functions("plane_kernels", "float64")["level_range"]
+    fields = separation, displacement, region
+    highest, raised, total, count = run_on_plane(run, 2, 4, *fields, combine=combine)
     return LevelRange(highest, -raised, total / count)
 
 
@@ -140,56 +157,54 @@ def scale_down(
 
 def add_scaled(pressure: Array, change: Field, inside: Field, unit: float) -> Array:
     """Return a pressure with its change, in a unit, zero where it would be negative and outside."""
-    answer: Array = empty_like(pressure, np.float64)
+    answer = empty(pressure.shape, np.float64)
     run = code_for("plane_kernels", inside)["add_scaled"]
     run_on_plane(run, 0, 0, pressure, change, inside, unit, answer)
     return answer
 
 
-def positive_total(pressure: Array, separation: Array) -> float:
+def positive_total(pressure: Array, separation: Array, combine: Combine | None = None) -> float:
     """Return the sum of a pressure where it is positive and no cell is missing."""
-    run = code_for("plane_kernels", pressure)["positive_total"]
-    return run_on_plane(run, 0, 1, pressure, separation)[0]
+    run = functions("plane_kernels", "float64")["positive_total"]
+    return run_on_plane(run, 0, 1, pressure, separation, combine=combine)[0]
 
 
 def positive_part(pressure: Array, separation: Array, scale: float) -> Array:
     """Return a scaled pressure, zero where it would be negative or a cell is missing."""
-    answer: Array = empty_like(pressure, np.float64)
-    run = code_for("plane_kernels", pressure)["positive_part"]
+    answer = empty(pressure.shape, np.float64)
+    run = functions("plane_kernels", "float64")["positive_part"]
     run_on_plane(run, 0, 0, pressure, separation, scale, answer)
     return answer
 
 
-def raise_blocks(separation: Any, share: float) -> Array:
+def raise_blocks(separation: Array, share: float) -> Array | None:
     """Return the mean of each block of 2 x 2 cells [m], less a share of how far they stand out of their plane.
 
-    It is no less than the lowest of them. Shape (ny/2, nx/2): both sides of a process's part are even.
+    It is no less than the lowest of them. Shape (ny/2, nx/2); None where a side is odd, or the plane does not fit.
     """
-    field = local(separation)
-    if separation is not field:
-        whole: Array = separation.in_blocks(raise_blocks(field, share), 2)
-        return whole
-    ny, nx = field.shape
+    ny, nx = separation.shape
+    if ny % 2 or nx % 2 or not fit(separation):
+        return None
     blocks = empty((ny // 2, nx // 2), np.float64)
-    workers = threads() if field.size >= SEVERAL * CELLS else 1
-    code_for("block_kernels", field)["raise_blocks"](ny, nx, share, field, blocks, workers=workers)
+    workers = threads() if separation.size >= SEVERAL * CELLS else 1
+    run = functions("block_kernels", "float64")["raise_blocks"]
+    run(ny, nx, share, separation, blocks, workers=workers)
     return blocks
 
 
 def run_on_plane(
-    run: Callable[..., None], most: int, count: int, *arguments: Field | Mask | Distributed | float
+    run: Callable[..., None],
+    most: int,
+    count: int,
+    field: Field,
+    *others: Field | Mask | float,
+    combine: Combine | None = None,
 ) -> list[float]:
-    """Run a function over all cells; return the largest over all parts of its first totals, sums of the others.
-
-    The first argument is a field. Of fields in slabs all processes together run it.
-    """
-    if not isinstance(arguments[0], np.ndarray):
-        return of_all(arguments[0], run_on_plane(run, most, count, *map(local, arguments)), most)
+    """Run a function over all cells; return the largest over all parts of its first totals, sums of the others."""
     assert CELLS % WIDTH == 0
-    size = arguments[0].size
-    parts = max(-(-size // CELLS), 1)
+    parts = max(-(-field.size // CELLS), 1)
     totals = np.empty((parts, count))
     workers = threads() if parts >= SEVERAL else 1
-    run(size, CELLS, *arguments, *((totals,) if count else ()), workers=workers)
+    run(field.size, CELLS, field, *others, *((totals,) if count else ()), workers=workers)
     found: list[float] = totals[0].tolist()
-    return found
+    return combine(found, most) if combine else found

@@ -11,22 +11,25 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from roughcontact.kernels.calls import address
 from roughcontact.kernels.constants import APART
-from roughcontact.threads import call_others, others_called
+from roughcontact.threads import wake, wakes_pending
 
 __all__ = ["BOX", "Team"]
 
-PAUSES = 2000  # that a thread waits for the next kernel: some 50 us
-NAPS = 200  # that it takes before it sleeps: some 20 ms
-# Places in the box of indices by which threads know of each other. Those that some change while others look are in
-# lines of the cache of their own: the ticket, odd while a kernel is offered; whether there is a leader; how many look
-# at the offer; how many have joined in it; how many serve; and the offer itself.
-TICKET, LED, INSIDE, JOINED, SERVING, OFFER = (k * APART for k in range(6))
+# Back-off of a thread without work: it spins, then sleeps briefly, then leaves the team.
+SPINS = 2000  # some 50 us
+SLEEPS = 200  # some 20 ms
+# Indices of the shared state, a work queue of one entry. Those that some threads change while others read are in cache
+# lines of their own: the sequence number (a sequence lock, odd while a kernel is offered); whether there is a leader;
+# the threads that read the offer, that have joined in it, and that serve; and the offer itself.
+SEQUENCE, HAS_LEADER, INSIDE, JOINED, SERVING, OFFER = (k * APART for k in range(6))
 KERNEL, PACKED, COUNTERS, WANTED = (OFFER + k for k in range(4))
 BOX = OFFER + APART  # indices in all
 
@@ -44,7 +47,7 @@ class Team:
         box, number = ctypes.c_void_p, ctypes.c_int64
         self._lead = ctypes.CFUNCTYPE(None, box, number, ctypes.c_char_p, number)(lead)
         self._serve = ctypes.CFUNCTYPE(None, box, number, number, number, number)(serve)
-        self._nap = _nap()
+        self._sleep = _system_sleep()
         memory = np.zeros(BOX + APART, np.int64)
         first = -(address(memory) // memory.itemsize) % APART  # a line of the cache begins there
         self._box = memory[first : first + BOX].data
@@ -52,16 +55,18 @@ class Team:
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_child=self._begin_again)
 
-    def run(self, kernel: int, packed: bytes, workers: int) -> None:
-        """Run the kernel at an address on packed arguments, by this thread and those of others that come."""
-        if workers > 1:
-            missing = workers - 1 - self._box[SERVING] - others_called()
-            if missing > 0:
-                call_others(self._join, missing)
-        self._lead(self._place, kernel, packed, workers)
+    def running(self, kernel: int) -> Callable[[bytes, int], None]:
+        """Return the run of a kernel at an address, on packed arguments, by this thread and others that come."""
+        return partial(self._lead, self._place, kernel)
+
+    def gather(self, workers: int) -> None:
+        """Call so many threads, this one among them, of which those that do not serve already come."""
+        missing = workers - 1 - self._box[SERVING] - wakes_pending()
+        if missing > 0:
+            wake(self._join, missing)
 
     def _join(self, _: int) -> None:
-        self._serve(self._place, PAUSES, NAPS, *self._nap)
+        self._serve(self._place, SPINS, SLEEPS, *self._sleep)
 
     def _begin_again(self) -> None:
         """In a forked process there is one thread: the one that forked, which leads nobody now."""
@@ -69,7 +74,7 @@ class Team:
             self._box[place] = 0
 
 
-def _nap() -> tuple[int, int]:
+def _system_sleep() -> tuple[int, int]:
     """Return the address of the system's function that lets a thread sleep, and what to tell it for a short time."""
     if sys.platform == "win32":
         return _place(ctypes.windll.kernel32.Sleep), 1  # ms

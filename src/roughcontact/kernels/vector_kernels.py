@@ -1,7 +1,8 @@
 """Vector updates and dot products on a list of groups of cells, as conjugate gradients on a part of a plane need them.
 
 Kernels go through a list of groups of cells, as many as there are lanes, that have some inside the region; what lies
-elsewhere is neither read nor written. Sums are added up in double precision. The mask ``m`` is 1 inside, else 0.
+elsewhere is neither read nor written. Sums are added up in double precision. Letters are those of docs/method.md; the
+mask ``m`` is 1 on the free set F, else 0.
 """
 
 from __future__ import annotations
@@ -55,25 +56,25 @@ def correct_and_dot(
     groups: Groups,
     z: Vector,
     m: Vector,
-    e: Vector,
-    v: Vector,
-    c: Vector,
-    s: Scalar,
+    r: Vector,
+    q: Vector,
+    w: Vector,
+    theta: Scalar,
     sums: Doubles,
 ) -> None:
-    """``z := m (z - s e c)``; leave e.z, z.v, the sum of z, and c.(m v)."""
+    """``z := m (z - theta r w)``; leave r.z, z.q, the sum of z, and w.(m q)."""
     totals = Totals(code, sums, 4)
     for i in groups.cells(code, totals):
-        new = (z[i] - e[i] * c[i] * s) * m[i]
+        new = (z[i] - r[i] * w[i] * theta) * m[i]
         z[i] = new
-        totals.add(e[i] * new, new * v[i], new, c[i] * v[i] * m[i])
+        totals.add(r[i] * new, new * q[i], new, w[i] * q[i] * m[i])
 
 
 @kernel
-def xpay(code: Code, groups: Groups, y: Vector, x: Vector, a: Scalar) -> None:
-    """``y := a y + x``."""
+def xpay(code: Code, groups: Groups, s: Vector, z: Vector, beta: Scalar) -> None:
+    """``s := beta s + z``."""
     for i in groups.cells(code):
-        y[i] = y[i] * a + x[i]
+        s[i] = s[i] * beta + z[i]
 
 
 @kernel
@@ -85,33 +86,33 @@ def multiply(code: Code, groups: Groups, x: Vector, m: Vector) -> None:
 
 @kernel
 def dot_products(
-    code: Code, groups: Groups, t: Vector, v: Vector, m: Vector, r: Vector, sums: Doubles
+    code: Code, groups: Groups, s: Vector, q: Vector, m: Vector, r: Vector, sums: Doubles
 ) -> None:
-    """Leave t.v, m.v, r.t, r.(m t), m.t and m.r."""
+    """Leave s.q, m.q, r.s, r.(m s), m.s and m.r."""
     totals = Totals(code, sums, 6)
     for i in groups.cells(code, totals):
-        inside = m[i] * t[i]
-        totals.add(t[i] * v[i], m[i] * v[i], r[i] * t[i], r[i] * inside, inside, m[i] * r[i])
+        inside = m[i] * s[i]
+        totals.add(s[i] * q[i], m[i] * q[i], r[i] * s[i], r[i] * inside, inside, m[i] * r[i])
 
 
 @kernel
 def axpy_and_max(
     code: Code,
     groups: Groups,
-    x: Vector,
+    change: Vector,
     r: Vector,
-    e: Vector,
-    t: Vector,
+    r_free: Vector,
+    s: Vector,
     m: Vector,
-    a: Scalar,
+    alpha: Scalar,
     most: Doubles,
 ) -> None:
-    """``x := x + a t`` and ``e := m r``; leave the largest entry of abs(e)."""
+    """``change := change + alpha s`` and ``r_free := m r``; leave the largest entry of abs(r_free)."""
     totals = Totals(code, most, 0, 1, least=0.0)
     for i in groups.cells(code, totals):
-        x[i] = x[i] + t[i] * a
+        change[i] = change[i] + s[i] * alpha
         masked = r[i] * m[i]
-        e[i] = masked
+        r_free[i] = masked
         totals.add(abs(masked))
 
 
@@ -127,11 +128,11 @@ def masked_sums(
 
 @kernel
 def subtract_affine(
-    code: Code, groups: Groups, base: Vector, change: Vector, m: Vector, t: Vector, a: Scalar, b: Scalar
+    code: Code, groups: Groups, base: Vector, change: Vector, m: Vector, s: Vector, a: Scalar, b: Scalar
 ) -> None:
-    """``t := t - m (a (base + change + t) + b)``."""
+    """``s := s - m (a (base + change + s) + b)``."""
     for i in groups.cells(code):
-        t[i] = t[i] - m[i] * ((base[i] + change[i] + t[i]) * a + b)
+        s[i] = s[i] - m[i] * ((base[i] + change[i] + s[i]) * a + b)
 
 
 @kernel
@@ -150,24 +151,24 @@ def project_step(
     base: Vector,
     change: Vector,
     m: Vector,
-    t: Vector,
+    s: Vector,
     z: Vector,
-    c: Vector,
+    w: Vector,
     beta: Scalar,
-    shift: Scalar,
-    step: Scalar,
+    mu: Scalar,
+    gamma: Scalar,
     sums: Doubles,
 ) -> None:
-    """``t := step m (beta t + z - shift c)``, projected so that ``p = base + change + t >= 0`` inside, p = 0 elsewhere.
+    """``s := gamma m (beta s + z - mu w)``, projected so that ``p = base + change + s >= 0`` inside, p = 0 elsewhere.
 
     Cells that it would take below zero go to zero, and leave the mask. Leave how many these are, the sum of what all
-    cells were taken to zero by, the sum of what the projection added to t, and the sum of c over cells that left.
+    cells were taken to zero by, the sum of what the projection added to s, and the sum of w over cells that left.
     """
     totals = Totals(code, sums, 4)
     for i in groups.cells(code, totals):
         was, p = m[i], base[i] + change[i]
-        new = (t[i] * beta + z[i] - c[i] * shift) * (was * step)
-        t[i] = new
+        new = (s[i] * beta + z[i] - w[i] * mu) * (was * gamma)
+        s[i] = new
         below = p + new < 0.0
         touched = maximum((p - p * was).heaviside(), where(below, p.filled(1.0), 0.0))
         with code.when(code.any(touched.is_nonzero())):
@@ -176,9 +177,9 @@ def project_step(
             left = rounded_sum(code, base[i], change[i])
             lifted = left * stays - left
             projected = new * stays + lifted
-            t[i] = projected
+            s[i] = projected
             gone = was - stays
-            totals.add(gone, abs(lifted), projected - new, c[i] * gone)
+            totals.add(gone, abs(lifted), projected - new, w[i] * gone)
 
 
 @kernel
@@ -193,7 +194,7 @@ def mask_above(code: Code, cells: Cells, m: Vector, r: Vector, least: Scalar, mo
 
 
 @kernel
-def subtract_shifted(code: Code, cells: Cells, r: Vector, v: Vector, a: Scalar, mean: Scalar) -> None:
-    """``r := r - a (v - mean)`` on a whole field."""
+def subtract_shifted(code: Code, cells: Cells, r: Vector, q: Vector, alpha: Scalar, mean: Scalar) -> None:
+    """``r := r - alpha (q - mean)`` on a whole field."""
     for i in cells.each(code):
-        r[i] = r[i] - (v[i] - mean) * a
+        r[i] = r[i] - (q[i] - mean) * alpha

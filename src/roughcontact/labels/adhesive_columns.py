@@ -131,7 +131,7 @@ _STUCK = (DEPTH, FORCE, AREA, FRACTION, STIFFNESS, MEAN_GAP, *_ENERGIES, LOWEST_
 DETACHMENT_CURVE: Table = {
     ("load",): (*_STUCK, RESIDUAL, STATUS),
     ("detachment",): (
-        Column("detached", "1", "load, counted from 0, that the detachment came on the way to"),
+        Column("detached_at", "1", "load, counted from 0, that the detachment came on the way to"),
     ),
     (): (MODULUS, _OF["nominal_area"], RMS, _PRELOAD, PULL_OFF, LOST),
     ("axis",): SIZES,

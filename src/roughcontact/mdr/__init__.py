@@ -11,7 +11,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.mdr import (
         adhesion as adhesion,
         adhesive_path as adhesive_path,
-        calibration as calibration,
         equivalent_line as equivalent_line,
         foundation as foundation,
         indentation as indentation,

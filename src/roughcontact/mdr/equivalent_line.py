@@ -171,7 +171,7 @@ def line_spectrum(
     factor : float
         pi: line and surface have one rms height as integrals over all waves (eqs 4.54, A.73).
         `lambda_rms`: they have it as sums over the waves of a grid (A.76 as corrected).
-        `calibrated_lambda`: their stiffness is the same at low loads (4.75), and their rms heights are not.
+        Of eq. 4.75: their stiffness is the same at low loads, and their rms heights are not.
 
     Returns
     -------

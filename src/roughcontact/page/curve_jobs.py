@@ -32,7 +32,7 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
         send({"type": "doing", "words": "Looking for the loads that suit this surface"})
     loads, notes = bench.loads(recipe, order.files)
     conductors = conductors_of(recipe.bodies)
-    send({"type": "loads", "count": len(loads), "notes": notes, "columns": columns(conductors)})
+    send({"type": "loads", "count": len(loads.values), "notes": notes, "columns": columns(conductors)})
     send(_statement(recipe, order))
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
@@ -42,7 +42,7 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
                 send(
                     {
                         "type": "point",
-                        "load": float(loads[done]),
+                        "load": float(loads.values[done]),
                         **point_of(solution, conductors),
                         **_judged(solution),
                     }
@@ -54,8 +54,8 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
                 raise
 
     computed = _collected(watched(bench.path(recipe, loads, order.files)))
-    bench.keep_curve(recipe, loads[: len(computed)], computed)
-    send({"type": "curve", **_whole(computed), "stopped": len(computed) < len(loads)})
+    bench.keep_curve(recipe, loads, computed)
+    send({"type": "curve", **_whole(computed), "stopped": len(computed) < len(loads.values)})
 
 
 def theories(order: Order, bench: Workbench, send: Send) -> None:

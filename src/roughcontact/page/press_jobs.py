@@ -95,7 +95,7 @@ def _advice(solution: Solution) -> str:
     """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
     if not solution.status.converged:
         return "The solver has missed its tolerance: take another load, or filter the shortest waves."
-    if solution.contact.any() and not solution.above_cells:
+    if solution.contact.any() and not solution.resolved_from_below:
         return (
             "So few cells bear this load that the grid sets the stiffness: take a larger load or a finer map."
         )

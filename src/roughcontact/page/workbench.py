@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
     from roughcontact.material import Solid
+    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
-    from roughcontact.validation import Array
 
 __all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_loads"]
 
@@ -114,41 +114,42 @@ class Workbench:
             "depth": (1e-3 * height, 10 * height, height),
         }
 
-    def path(self, recipe: PageRecipe, loads: Array, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
+    def path(self, recipe: PageRecipe, loads: Loads, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
         """Return the states of rising loads, each of which is computed when it is asked for."""
-        import roughcontact as rc
+        from roughcontact.contact.loading import solutions_along
 
-        control = "force" if recipe.loads is None else recipe.loads.control
-        given: dict[str, Any] = {f"{control}s": loads, "hardness": hardness_of(recipe.bodies)}
-        return rc.loading_path(self.surface(recipe, files), modulus_of(recipe.bodies), **given)
+        hardness = hardness_of(recipe.bodies)
+        surface, modulus = self.surface(recipe, files), modulus_of(recipe.bodies)
+        return solutions_along(surface, modulus, loads, hardness=hardness)
 
-    def loads(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> tuple[Array, tuple[str, ...]]:
+    def loads(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> tuple[Loads, tuple[str, ...]]:
         """Return the loads of a curve in SI, found where they are not given, and what a reader should know of them."""
         import numpy as np
 
         import roughcontact as rc
+        from roughcontact.solver.loads import Loads
 
         wanted = recipe.loads or PageLoads()
         if wanted.values is not None:
-            return np.array(wanted.values), ()
+            return Loads(wanted.control, np.array(wanted.values)), ()
         if wanted.ends is not None:
-            return np.geomspace(*wanted.ends, wanted.count), ()
+            return Loads(wanted.control, np.geomspace(*wanted.ends, wanted.count)), ()
 
-        def found() -> tuple[Array, tuple[str, ...]]:
+        def found() -> tuple[Loads, tuple[str, ...]]:
             suitable = rc.load_range(
                 self.surface(recipe, files), modulus_of(recipe.bodies), hardness=hardness_of(recipe.bodies)
             )
-            return suitable.forces, suitable.notes
+            return Loads("force", suitable.forces), suitable.notes
 
         return self._once("loads", without_loads(recipe), found)
 
-    def keep_curve(self, recipe: PageRecipe, loads: Array, curve: Curve) -> None:
-        """Keep a curve, for what is asked of it next."""
-        self._keep("curve", _curve_key(recipe, loads), curve)
+    def keep_curve(self, recipe: PageRecipe, loads: Loads, curve: Curve) -> None:
+        """Keep a curve, which may have ended early, for what is asked of it next."""
+        self._keep("curve", (without_loads(recipe), loads.kind, tuple(loads.values[: len(curve)])), curve)
 
-    def curve(self, recipe: PageRecipe, loads: Array) -> Curve | None:
+    def curve(self, recipe: PageRecipe, loads: Loads) -> Curve | None:
         """Return the curve of a surface, its bodies and loads, if it is kept."""
-        return self.kept.get("curve", {}).get(_curve_key(recipe, loads))
+        return self.kept.get("curve", {}).get((without_loads(recipe), loads.kind, tuple(loads.values)))
 
     def _once(self, kind: str, key: Hashable, make: Callable[[], T]) -> T:
         shelf = self.kept.setdefault(kind, {})
@@ -168,11 +169,6 @@ class Workbench:
 def without_loads(recipe: PageRecipe) -> PageRecipe:
     """Return what a curve follows from but for its loads."""
     return replace(recipe, load=None, loads=None)
-
-
-def _curve_key(recipe: PageRecipe, loads: Array) -> Hashable:
-    control = "force" if recipe.loads is None else recipe.loads.control
-    return without_loads(recipe), control, tuple(loads)
 
 
 def modulus_of(bodies: Bodies) -> float:

@@ -23,11 +23,9 @@ if TYPE_CHECKING or _LATE is None:
         surface_figure as surface_figure,
     )
     from roughcontact.plot.curves import (
-        area_curve as area_curve,
         areal_curve as areal_curve,
-        depth_curve as depth_curve,
+        force_curve as force_curve,
         resistance_curve as resistance_curve,
-        stiffness_curve as stiffness_curve,
     )
     from roughcontact.plot.detachment_plot import detachment_force as detachment_force
     from roughcontact.plot.distributions import (

@@ -45,14 +45,14 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
 
 def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     """Return what a state of surfaces that stick is worth telling, line by line."""
-    blank, kind = state.blank, state.geometry
-    grid = blank.operator.grid
+    problem, kind = state.problem, state.geometry
+    grid = problem.operator.grid
     met = "met" if state.status.converged else "MISSED"
     tension = float(np.maximum(-state.pressure, 0.0).max())
     energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
     return [
         ("surface", size_of(grid)),
-        *law_facts(blank.adhesion, blank.modulus, grid.spacing),
+        *law_facts(problem.adhesion, problem.modulus, grid.spacing),
         ("force", quantity("force", state.force, kind)),
         ("nominal pressure", quantity("pressure", state.force / grid.area, kind)),
         ("largest pressure", quantity("pressure", float(state.pressure.max()), kind)),
@@ -69,7 +69,7 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
             f"at most {state.stability:.3g}, residual {state.stability_residual:.0e} "
             "(1 without attraction, 0 at a jump)",
         ),
-        ("certificate", f"{state.residual:.1e} (tolerance {blank.tolerance:.0e}: {met})"),
+        ("certificate", f"{state.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
 
 

@@ -129,17 +129,12 @@ def plot_curve(
     >>> axes.get_xscale(), axes.get_ylabel()
     ('log', 'contact area [µm²]')
     """
-    draw = {"contact_area": curves.area_curve, "depth": curves.depth_curve}
     if law is not None and "stiffness" not in quantity:
         raise ValueError(f"law is about the stiffness: leave it out with {quantity!r}")
-    if quantity == "stiffness":
-        return curves.stiffness_curve(curve, ax, law=law, theories=theories)
-    if quantity in draw:
-        return draw[quantity](curve, ax, theories=theories)
-    if quantity not in curves.PER_AREA:
-        every = ", ".join(("stiffness", *draw, *curves.PER_AREA))
-        raise ValueError(f"quantity must be one of {every}, not {quantity!r}")
-    return curves.areal_curve(curve, ax, quantity=quantity, law=law, theories=theories)
+    if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
+        raise ValueError(f"quantity must be one of {', '.join(every)}, not {quantity!r}")
+    draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve
+    return draw(curve, ax, quantity=quantity, law=law, theories=theories)
 
 
 def plot_loop(

@@ -15,7 +15,7 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.labels.variables import unit_of
-from roughcontact.plot.curves import area_curve, areal_curve, depth_curve, resistance_curve, stiffness_curve
+from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
 from roughcontact.plot.engineering_units import Scale, written
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
@@ -137,9 +137,9 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
     """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "depth"]], width_ratios=(1.6, 1))
-    stiffness_curve(curve, axes["stiffness"], law=law, theories=theories)
-    area_curve(curve, axes["area"], theories=theories)
-    depth_curve(curve, axes["depth"], theories=theories)
+    force_curve(curve, axes["stiffness"], law=law, theories=theories)
+    force_curve(curve, axes["area"], quantity="contact_area", theories=theories)
+    force_curve(curve, axes["depth"], quantity="depth", theories=theories)
     return figure
 
 

@@ -28,8 +28,9 @@ from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.validation import Array, numeric, require
 
 __all__ = [
+    "OF_FORCE",
     "PER_AREA",
-    *("area_curve", "areal_curve", "depth_curve", "resistance_curve", "stiffness_curve"),
+    *("areal_curve", "force_curve", "resistance_curve"),
 ]
 
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
@@ -38,6 +39,7 @@ _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
 # colours and four dashes have no common period: of twenty laws no two look the same.
 _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
+OF_FORCE = ("stiffness", "contact_area", "depth")  # what is drawn against force
 # What is drawn against nominal pressure, and the quantity of the patch that theories give for it.
 PER_AREA = {
     "interfacial_stiffness_per_area": "interfacial_stiffness",
@@ -50,22 +52,29 @@ _ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a facto
 
 
 @numeric
-def stiffness_curve(
-    curve: Curve, ax: Axes | None = None, *, law: PowerLaw | None = None, theories: Sequence[Law] = ()
+def force_curve(
+    curve: Curve,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "stiffness",
+    law: PowerLaw | None = None,
+    theories: Sequence[Law] = (),
 ) -> Axes:
-    """Draw stiffness against force, both logarithmic.
+    """Draw the stiffness, the real contact area or the depth against force, both logarithmic.
 
-    Resolved points are filled, the others open. Horizontal lines mark the stiffness of twenty cells (not on a line
-    contact, where widths tell what is resolved) and that of all measured cells in contact. The outer axes give force
-    and stiffness without dimension.
+    Resolved points are filled, the others open. With the stiffness, horizontal lines mark that of twenty cells (not on
+    a line contact, where widths tell what is resolved) and that of all measured cells in contact, and the outer axes
+    give force and stiffness without dimension. With the area, the right axis gives the relative one. The depth is that
+    since first touch.
 
     Parameters
     ----------
     curve : Curve
     ax : Axes, optional
         Axes to draw on; without, those of a new figure.
+    quantity : {"stiffness", "contact_area", "depth"}
     law : PowerLaw, optional
-        Such as ``curve.fit()``: drawn strongly over its window and thinly beyond.
+        Of the stiffness, such as ``curve.fit()``: drawn strongly over its window and thinly beyond.
     theories : sequence of Law, optional
         Such as those of `roughcontact.loading_laws`: lines in colours of their own.
 
@@ -73,99 +82,54 @@ def stiffness_curve(
     -------
     Axes
 
+    Raises
+    ------
+    ValueError
+        If the quantity is another, or a law is given that is not about it.
+
     Examples
     --------
     >>> import numpy as np
     >>> import roughcontact as rc
     >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
     >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
-    >>> axes = rc.plot.stiffness_curve(curve, law=curve.fit())
+    >>> axes = rc.plot.force_curve(curve, law=curve.fit())
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('force [mN]', 'stiffness [kN/m]')
+    >>> laws = [rc.theory.hertz.law(radius=1e-4, modulus=1e9)]
+    >>> [rc.plot.force_curve(curve, quantity=each, theories=laws).get_ylabel() for each in ("contact_area", "depth")]
+    ['contact area [µm²]', 'depth [µm]']
     """
+    require(quantity in OF_FORCE, f"quantity must be one of {', '.join(OF_FORCE)}, not {quantity!r}")
+    stiffness = quantity == "stiffness"
+    require(stiffness or law is None, f"law is about the stiffness: leave it out with {quantity!r}")
     axes = axes_for(ax)
-    x, y = _draw(axes, curve, "stiffness")
-    values = curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)]
-    limits = _limits(curve)
-    levels = [*values, *limits.values()] or [1.0]
-    low, high = min(levels) / _ROOM, max(levels) * _ROOM
-    axes.set_ylim(low * y.factor, high * y.factor)
-    readable_ticks(axes.yaxis, high / low)
+    _, y = scales = _draw(axes, curve, quantity)
+    limits = _limits(curve) if stiffness else {}
+    if stiffness:
+        levels = [
+            *curve.stiffness[np.isfinite(curve.stiffness) & (curve.stiffness > 0)],
+            *limits.values(),
+        ] or [1.0]
+        low, high = min(levels) / _ROOM, max(levels) * _ROOM
+        axes.set_ylim(low * y.factor, high * y.factor)
+        readable_ticks(axes.yaxis, high / low)
     if law is not None:
-        _draw_law(axes, curve, law, (x, y))
-    _draw_laws(axes, theories, "stiffness", _forces(curve), (x, y))
+        _draw_law(axes, curve, law, scales)
+    _draw_laws(axes, theories, quantity, _forces(curve), scales)
     for words, value in limits.items():
         place = free_place(axes, value * y.factor, ("left", "bottom") if words == _FULL else None)
         level(axes, value * y.factor, words, (0, (6, 3)), **place)
-    if axes.get_legend_handles_labels()[0]:
-        # The corner between the curve and its upper limit is the one that stays free, but for theories.
-        top = math.log(limits[_FULL] / low) / math.log(high / low) if _FULL in limits else 1.0
-        corner: Any = {"loc": "upper left", "bbox_to_anchor": (0.0, top - 0.005)}
-        axes.legend(**({"loc": "best"} if theories else corner), fontsize=TICK, frameon=False)
-    _outer(axes, curve, (x, y))
-    return axes
-
-
-@numeric
-def area_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
-    """Draw the real contact area against force, both logarithmic; the right axis gives the relative one.
-
-    Parameters
-    ----------
-    curve : Curve
-    ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
-    theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import roughcontact as rc
-    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
-    >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
-    >>> axes = rc.plot.area_curve(curve, theories=[rc.theory.hertz.law(radius=1e-4, modulus=1e9)])
-    >>> axes.get_xlabel(), axes.get_ylabel()
-    ('force [mN]', 'contact area [µm²]')
-    """
-    axes = axes_for(ax)
-    x, y = _draw(axes, curve, "contact_area")
-    _draw_laws(axes, theories, "contact_area", _forces(curve), (x, y))
-    outer_axis(axes, "right", "relative real contact area A/A0", _parts_of(curve.nominal_area * y.factor))
-    return axes
-
-
-@numeric
-def depth_curve(curve: Curve, ax: Axes | None = None, *, theories: Sequence[Law] = ()) -> Axes:
-    """Draw the indentation depth, since first touch, against force, both logarithmic.
-
-    Parameters
-    ----------
-    curve : Curve
-    ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
-    theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import roughcontact as rc
-    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
-    >>> axes = rc.plot.depth_curve(rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9)))
-    >>> axes.get_xlabel(), axes.get_ylabel()
-    ('force [mN]', 'depth [µm]')
-    """
-    axes = axes_for(ax)
-    _draw_laws(axes, theories, "depth", _forces(curve), _draw(axes, curve, "depth"))
+    if stiffness:
+        if axes.get_legend_handles_labels()[0]:
+            # The corner between the curve and its upper limit is the one that stays free, but for theories.
+            top = math.log(limits[_FULL] / low) / math.log(high / low) if _FULL in limits else 1.0
+            corner: Any = {"loc": "upper left", "bbox_to_anchor": (0.0, top - 0.005)}
+            axes.legend(**({"loc": "best"} if theories else corner), fontsize=TICK, frameon=False)
+        _outer(axes, curve, scales)
+    elif quantity == "contact_area":
+        parts = _parts_of(curve.nominal_area * y.factor)
+        outer_axis(axes, "right", "relative real contact area A/A0", parts)
     return axes
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -54,15 +54,8 @@ def detachment_force(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
     y = scale(float(np.abs(line[:, 1]).max(initial=0.0)), unit_of("force", kind))
     axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
     axes.plot(line[:, 0] * x.factor, line[:, 1] * y.factor, linewidth=1.1, color=_COLOUR)
-    axes.plot(
-        curve.depth * x.factor,
-        curve.force * y.factor,
-        color=_COLOUR,
-        marker="v",
-        markerfacecolor="none",
-        markersize=3.5,
-        linestyle="none",
-    )
+    marks: Any = {"color": _COLOUR, "markerfacecolor": "none", "markersize": 3.5}
+    axes.plot(curve.depth * x.factor, curve.force * y.factor, "v", **marks)
     words = f"{_pull_off(curve)} {written(curve.pull_off_force, unit_of('force', kind))}"
     title = f"{words}, {_count(len(curve.detachments), 'detachment')}"
     axes.set_title(title + (" (preload too small)" if curve.preload_too_small else ""), fontsize=LABEL)
@@ -123,7 +116,7 @@ def _line(curve: DetachmentCurve) -> Array:
     """Return depths and forces along the curve: between detachments the force is linear in the depth."""
     points: list[tuple[float, float]] = []
     for k, here in enumerate(zip(curve.depth, curve.force, strict=True)):
-        for event, at in zip(curve.detachments, curve.detached, strict=True):
+        for event, at in zip(curve.detachments, curve.detached_at, strict=True):
             if at == k:
                 points += [(event.depth, event.force_before), (event.depth_after, event.force_after)]
         points.append(here)

@@ -17,9 +17,9 @@ from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.spikes import Spikes
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric, require
+from roughcontact.validation import Array, Mask, numeric, require
 
-__all__ = ["contact_profile", "places_of", "pressure_profile", "profile_curve"]
+__all__ = ["contact_profile", "draw_contact", "places_of", "pressure_profile", "profile_curve"]
 
 _LINE, _SPIKE, _CONTACT = "#0072b2", "#d55e00", "#c8290b"
 _FLAT = (7.0, 2.8)  # size of a picture of a line
@@ -125,10 +125,7 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     middle = (x[1:] + x[:-1]) / 2
     for heights, colour, words in ((before, "0.6", "before"), (-solution.gap, _LINE, "under the load")):
         axes.plot(middle, heights * z.factor, color=colour, linewidth=1.0, label=words)
-    touched = np.flatnonzero(solution.contact)
-    if touched.size:
-        style: Any = {"color": _CONTACT, "linewidth": 3.0, "label": "in contact", "zorder": 3}
-        axes.hlines(0.0 * touched, x[touched], x[touched + 1], **style)
+    draw_contact(axes, x, solution.contact, color=_CONTACT, linewidth=3.0)
     axes.set_xlim(x[0], x[-1])
     label_axes(axes, f"{name} [{unit}]", f"height over the flat [{z.unit}]", grid=True)
     axes.legend(fontsize=TICK, frameon=False)
@@ -180,6 +177,13 @@ def _of_line(solution: Solution) -> Solution:
     """Return the solution on the host, if its grid has one axis."""
     require(solution.problem.grid.ndim == 1, "this is a surface: draw it with pressure_map or contact_map")
     return solution.on_host()
+
+
+def draw_contact(axes: Axes, edges: Array, contact: Mask, **style: Any) -> None:
+    """Draw a bar at zero along the cells in contact, between their edges."""
+    touched = np.flatnonzero(contact)
+    if touched.size:
+        axes.hlines(0.0 * touched, edges[touched], edges[touched + 1], label="in contact", zorder=3, **style)
 
 
 def places_of(grid: AnyGrid) -> tuple[Array, str, str]:

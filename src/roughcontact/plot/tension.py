@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from roughcontact.adhesion.adhesive_state import AdhesiveState, Blank
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_state import DetachmentState
-from roughcontact.contact.problem import ContactProblem
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
 from roughcontact.plot.maps import colour_limit
-from roughcontact.plot.profile_plot import places_of
+from roughcontact.plot.profile_plot import draw_contact, places_of
 from roughcontact.plot.raster import colour_bar, length_scale, part, pooled, show
 from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.validation import Array, Mask
@@ -56,14 +53,14 @@ def tension_map(state: State, ax: Axes | None = None) -> Axes:
     >>> axes.images[0].norm.vcenter, axes.images[0].norm.vmin < 0 < axes.images[0].norm.vmax
     (0, True)
     """
-    grid = _bodies(state).operator.grid
+    grid = state.problem.operator.grid
     cells, axes = part(grid, None), axes_for(ax)
     unit = VARIABLES["pressure"].unit
     # As in other maps, a few cells at the edges of spots do not take the colours for themselves.
     highest, cut = colour_limit(state.pressure[state.pressure > 0])
     lowest = float(np.maximum(-state.pressure, 0.0).max()) or highest
     chosen = scale(max(highest, lowest), unit)
-    measured = np.isfinite(_bodies(state).separation)
+    measured = np.isfinite(state.problem.separation)
     values = np.where(measured, state.pressure * chosen.factor, np.nan)
     most, least = pooled(values), -pooled(-values)  # of blocks of cells what is largest, pressure or tension
     if not measured.all():
@@ -106,17 +103,15 @@ def tension_profile(state: State, ax: Axes | None = None) -> Axes:
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('r [nm]', 'pressure, tension negative [MPa]')
     """
-    x, of_x, name = places_of(_bodies(state).operator.grid)
+    x, of_x, name = places_of(state.problem.operator.grid)
     axes = axes_for(ax, (7.0, 2.8))
     unit = unit_of("pressure", state.geometry)
     p = scale(float(np.abs(state.pressure).max()), unit)
     for sign, colour in ((1, _PRESSED), (-1, _PULLED)):
         some = np.maximum(sign * state.pressure, 0.0) * (sign * p.factor)
         axes.stairs(some, x, fill=True, color=colour, linewidth=0)
-    touched = np.flatnonzero(state.contact)
-    if touched.size:
-        style: Any = {"color": _CONTACT, "linewidth": 2.5, "label": "in contact", "zorder": 3}
-        axes.hlines(0.0 * touched, x[touched], x[touched + 1], **style)
+    if state.contact.any():
+        draw_contact(axes, x, state.contact, color=_CONTACT, linewidth=2.5)
         axes.legend(fontsize=TICK, frameon=False)
     axes.set_xlim(x[0], x[-1])
     label_axes(axes, f"{name} [{of_x}]", f"pressure, tension negative [{p.unit}]", grid=True)
@@ -143,19 +138,15 @@ def state_figure(state: State) -> Figure:
     >>> figure.axes[0].get_title()
     'force -440 nN,  depth 0 m,  contact 32.1 %,  stability 0.39'
     """
-    if _bodies(state).operator.grid.ndim == 1:
+    if state.problem.operator.grid.ndim == 1:
         figure = Figure(figsize=(7.0, 3.0), layout="constrained")
         axes = tension_profile(state, figure.subplots())
     else:
-        height, width = _bodies(state).operator.grid.lengths
+        height, width = state.problem.operator.grid.lengths
         figure = Figure(figsize=(6.2, min(max(1.2 + 3.6 * height / width, 2.0), 9.0)), layout="constrained")
         axes = tension_map(state, figure.subplots())
     axes.set_title(_summary(state), fontsize=LABEL)
     return figure
-
-
-def _bodies(state: State) -> Blank | ContactProblem:
-    return state.blank if isinstance(state, AdhesiveState) else state.problem
 
 
 def _outline(contact: Mask) -> Array:

@@ -20,8 +20,6 @@ def readable_ticks(axis: Axis, ratio: float) -> None:
     """Choose the ticks of a logarithmic axis whose largest number is `ratio` times its smallest."""
     axis.set_minor_formatter(ticker.NullFormatter())
     if ratio >= _DECADES:
-        axis.set_major_locator(ticker.LogLocator())
-        axis.set_major_formatter(ticker.LogFormatterSciNotation())
         return
     if ratio >= _STEPS:
         axis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))

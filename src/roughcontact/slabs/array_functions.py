@@ -24,7 +24,7 @@ def _cell_by_cell(function: Callable[[Any], Any]) -> Any:
 
 def _of_pairs(function: Callable[[Any, Any], Any]) -> Any:
     def of_two(self: SlabFunctions, x: SlabArray, y: Any) -> SlabArray:
-        return x.like(function(x.local, x.beside(y)))
+        return x.like(function(x.local, x.rows_of(y)))
 
     return of_two
 
@@ -55,11 +55,11 @@ class SlabFunctions:
 
     def where(self, condition: SlabArray, x: Any, y: Any) -> SlabArray:
         """Return x where the condition holds, else y."""
-        return condition.like(np.where(condition.local, condition.beside(x), condition.beside(y)))
+        return condition.like(np.where(condition.local, condition.rows_of(x), condition.rows_of(y)))
 
     def clip(self, x: SlabArray, low: Any, high: Any) -> SlabArray:
         """Return it between its bounds."""
-        return x.like(np.clip(x.local, x.beside(low), x.beside(high)))
+        return x.like(np.clip(x.local, x.rows_of(low), x.rows_of(high)))
 
     def astype(self, x: SlabArray, dtype: Any, *, copy: Any = True) -> SlabArray:
         """Return it in another type."""
@@ -152,6 +152,16 @@ class SlabFunctions:
         self.communicator.Alltoallv((np.concatenate(sent), there), (taken, back))
         before = sum(back[: self.rank])
         return taken[:before], taken[before:]
+
+    def with_rows_beside(self, x: SlabArray, count: int) -> tuple[Local, int]:
+        """Return the rows of this process with so many before and after them, and which row is the first of all these.
+
+        They are fewer where the whole begins or ends.
+        """
+        row = math.prod(x.shape[1:])
+        before, after = self.beyond(x, count * row)
+        rows = np.concatenate([before, x.local.reshape(-1), after]).reshape(-1, *x.shape[1:])
+        return rows, x.edges[self.rank] - before.size // row
 
     # --- of the whole ---
 

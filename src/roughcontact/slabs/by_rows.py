@@ -11,12 +11,12 @@ import numpy as np
 from roughcontact.slabs.slab_array import Local, SlabArray
 from roughcontact.slabs.slabs import Slabs
 
-__all__ = ["dealt_from_first", "rows_to_first"]
+__all__ = ["gather_to_first", "scatter_from_first"]
 
 AT_ONCE = 2**23  # numbers that go at once: some tens of megabytes beside what a process holds
 
 
-def rows_to_first(field: SlabArray, multiple: int = 1) -> Iterator[tuple[int, Local | None]]:
+def gather_to_first(field: SlabArray, multiple: int = 1) -> Iterator[tuple[int, Local | None]]:
     """Yield the number of a row, and on the first process the rows from there on, down the plane.
 
     Parameters
@@ -46,7 +46,7 @@ def rows_to_first(field: SlabArray, multiple: int = 1) -> Iterator[tuple[int, Lo
         yield start, taken if rank == 0 else None
 
 
-def dealt_from_first(slabs: Slabs, whole: Local | None, shape: tuple[int, ...]) -> SlabArray:
+def scatter_from_first(slabs: Slabs, whole: Local | None, shape: tuple[int, ...]) -> SlabArray:
     """Return an array of which the first process has the whole, in double precision, in slabs.
 
     Parameters

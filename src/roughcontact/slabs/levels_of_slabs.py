@@ -6,7 +6,7 @@ from typing import Any
 
 from roughcontact.slabs.slab_array import SlabArray
 
-__all__ = ["dealt_as", "divides", "gathered_if_small"]
+__all__ = ["divides", "gathered_if_small", "scatter_like"]
 
 # Cells: to solve on so many takes some tens of megabytes.
 SMALL = 2**18
@@ -22,7 +22,7 @@ def gathered_if_small(field: Any) -> Any:
     return field.gathered() if isinstance(field, SlabArray) and field.size <= SMALL else field
 
 
-def dealt_as(values: Any, model: Any) -> Any:
+def scatter_like(values: Any, model: Any) -> Any:
     """Return an array that each process has as a whole, dealt out as a model; any other as it is."""
     if not isinstance(model, SlabArray) or isinstance(values, SlabArray):
         return values

@@ -20,21 +20,21 @@ Local = npt.NDArray[Any]
 
 def _plain(function: Callable[[Any, Any], Any]) -> Any:
     def method(self: SlabArray, other: Any) -> SlabArray:
-        return self.like(function(self.local, self.beside(other)))
+        return self.like(function(self.local, self.rows_of(other)))
 
     return method
 
 
 def _reflected(function: Callable[[Any, Any], Any]) -> Any:
     def method(self: SlabArray, other: Any) -> SlabArray:
-        return self.like(function(self.beside(other), self.local))
+        return self.like(function(self.rows_of(other), self.local))
 
     return method
 
 
 def _in_place(function: Callable[[Any, Any], Any]) -> Any:
     def method(self: SlabArray, other: Any) -> SlabArray:
-        function(self.local, self.beside(other))
+        function(self.local, self.rows_of(other))
         return self
 
     return method
@@ -105,8 +105,8 @@ class SlabArray:
         """Return numbers of blocks of so many rows, each on the process that holds these rows."""
         return SlabArray(local, tuple(edge // side for edge in self.edges), self.functions)
 
-    def beside(self, other: Any) -> Any:
-        """Return what stands beside the rows of this process: the same rows of another, or a number.
+    def rows_of(self, other: Any) -> Any:
+        """Return the rows of this process of another array; a number as it is.
 
         Raises
         ------
@@ -137,7 +137,7 @@ class SlabArray:
 
     def __getitem__(self, key: Any) -> SlabArray:
         if isinstance(key, SlabArray):  # a mask
-            part = self.local[self.beside(key)]
+            part = self.local[self.rows_of(key)]
             ends = np.cumsum([0, *self.functions.communicator.allgather(len(part))])
             return SlabArray(part, tuple(map(int, ends)), self.functions)
         key = key if isinstance(key, tuple) else (key,)
@@ -158,7 +158,7 @@ class SlabArray:
     def __setitem__(self, key: Any, value: Any) -> None:
         if key is not Ellipsis:
             raise TypeError("entries of an array in slabs are set all at once: array[...] = values")
-        self.local[...] = self.beside(value)
+        self.local[...] = self.rows_of(value)
 
     def __neg__(self) -> SlabArray:
         return self.like(-self.local)

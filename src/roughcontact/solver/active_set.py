@@ -7,18 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.kernels import loader
 from roughcontact.solver import tuning
-from roughcontact.solver.bound_constrained_cg import inner_solve, inner_system
-from roughcontact.solver.control import State, Status, Tangent, Terms
-from roughcontact.solver.direct import press_cells
+from roughcontact.solver.bound_constrained_cg import InnerSystem, inner_solve, inner_system
+from roughcontact.solver.control import Specification, State, Status, Tangent
+from roughcontact.solver.direct import Cells, press_cells
 from roughcontact.solver.inner_operator import (
     FullGrid,
     InnerOperator,
@@ -26,13 +26,12 @@ from roughcontact.solver.inner_operator import (
     first_product,
     inner_operator_on,
 )
-from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet
+from roughcontact.solver.optimality import Evaluation, Iterate, Optimality, PredictedSet, Quality
 from roughcontact.solver.plastic import press_plastic
 from roughcontact.solver.polonsky_keer import PolonskyKeer
-from roughcontact.solver.projection import elastic_control, feasible_start, project
+from roughcontact.solver.projection import elastic_control, project
 from roughcontact.solver.subdomain import prolong
-from roughcontact.validation import Array, Mask, require_numbers, whole
+from roughcontact.validation import Array, require_numbers, whole
 
 __all__ = ["ActiveSet"]
 
@@ -70,7 +69,7 @@ class ActiveSet:
         require_numbers(self)
         whole(self.max_steps, "max_steps")
 
-    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+    def run(self, operator: Operator, separation: Array, spec: Specification, initial: Array) -> State:
         """Solve for the pressure.
 
         Parameters
@@ -79,7 +78,7 @@ class ActiveSet:
             Displacement [m] from pressure [Pa].
         separation : array, shape ``operator.grid.shape``
             Undeformed gap at first touch [m], infinite where nothing was measured.
-        terms : Terms
+        spec : Specification
             Prescribed force or depth, tolerance and hardness.
         initial : array, shape ``operator.grid.shape``
             Pressure to start from [Pa]; zeros will do.
@@ -96,153 +95,233 @@ class ActiveSet:
         >>> grid = rc.Grid((32, 32), 1e-6)
         >>> gap = -rc.shapes.paraboloid(grid, radius=1e-4).heights
         >>> problem = rc.ContactProblem(gap - gap.min(), rc.half_space(grid, 1e9), rc.Force(1e-3))
-        >>> state = rc.ActiveSet().run(problem.operator, problem.separation, problem.terms, np.zeros(grid.shape))
+        >>> state = rc.ActiveSet().run(problem.operator, problem.separation, problem.spec, np.zeros(grid.shape))
         >>> state.status.converged, f"{state.depth * 1e9:.0f} nm"
         (True, '175 nm')
         """
-        if terms.plastic:
-            return self._run_plastic(operator, separation, terms, initial)
-        conditions = Optimality.of(operator, terms, namespace(separation))
-        start = [  # A1
-            feasible_start(conditions.measure, separation, terms.control, initial, conditions.self_influence)
-        ]
-        del initial  # planes are large: each is held by the one who needs it
-        state = self._iterate(operator, separation, conditions, start.pop())
+        if spec.plastic:
+            return self._run_plastic(operator, separation, spec, initial)
+        conditions = Optimality.of(operator, spec, separation)
+        start = conditions.feasible_start(separation, initial)  # A1
+        outer = self._outer(operator, separation, conditions, start)
+        del initial, start  # fields are large: the outer iteration alone holds its pressure
+        state = outer.run()
         if state.status.converged:
             return state
-        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, terms, state.pressure)
+        rest = PolonskyKeer(max_steps=self.max_steps).run(operator, separation, spec, state.pressure)
         return replace(rest, steps=rest.steps + state.steps)
 
-    def _run_plastic(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
+    def _run_plastic(
+        self, operator: Operator, separation: Array, spec: Specification, initial: Array
+    ) -> State:
         """Solve under a hardness, from the elastic answer.
 
         Where there is none at the depth that is prescribed, from the one at the largest depth.
         """
-        conditions = Optimality.of(operator, terms, namespace(separation))
+        conditions = Optimality.of(operator, spec, separation)
         measure, xp = conditions.measure, conditions.measure.xp
-        control = elastic_control(operator, separation, terms.control, xp)
-        unlimited = replace(terms, control=control, hardness=math.inf)
+        control = elastic_control(operator, separation, spec.control, xp)
+        unlimited = replace(spec, control=control, hardness=math.inf)
         elastic = self.run(operator, separation, unlimited, initial)
-        if control == terms.control and bool(xp.all(elastic.pressure <= terms.hardness)):
+        if control == spec.control and bool(xp.all(elastic.pressure <= spec.hardness)):
             return elastic
-        excess = xp.where(elastic.pressure > terms.hardness, elastic.pressure - terms.hardness, 0.0)
-        start, steps = project(measure, elastic.pressure, separation, terms), elastic.steps
-        alike = isinstance(terms.hardness, int | float)  # the inner solves know one upper bound for all cells
-        if alike and measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
-            state = self._iterate(operator, separation, conditions, start)
+        excess = xp.where(elastic.pressure > spec.hardness, elastic.pressure - spec.hardness, 0.0)
+        start, steps = project(measure, elastic.pressure, separation, spec), elastic.steps
+        uniform = isinstance(spec.hardness, int | float)  # inner solves take one upper bound for all cells
+        if uniform and measure.total(excess) < tuning.PLASTIC_FORCE * measure.total(elastic.pressure):
+            state = self._outer(operator, separation, conditions, start).run()
             if state.status.converged:
                 return replace(state, steps=steps + state.steps)
             start, steps = state.pressure, steps + state.steps
-        state = press_plastic(operator, separation, terms, start, self.max_steps)
+        state = press_plastic(operator, separation, spec, start, self.max_steps)
         return replace(state, steps=steps + state.steps)
 
-    def _iterate(self, operator: Operator, separation: Array, conditions: Optimality, p: Array) -> State:
-        """Iterate A2 to A10 from a feasible pressure: converged, or stagnated."""
-        terms, measure, xp = conditions.terms, conditions.measure, conditions.measure.xp
-        tolerance, hardness = terms.tolerance, terms.hardness
-        singular = is_semidefinite(operator)  # with every cell in contact, that is
+    def _outer(self, operator: Operator, separation: Array, conditions: Optimality, p: Array) -> _Outer:
         # Factorisations are made on the host, and know no hardness.
-        dense_limit = self.dense_limit if measure.on_host and not terms.plastic else 0
-        (u, exact), steps = first_product(operator, p), 1  # A2
-        tangent: Tangent | None = None
-        inner: InnerOperator | None = None
-        best, idle, first = np.inf, 0, True
-        while True:
-            iterate = Iterate(p, u, separation)
-            d, residual, scale, seen = conditions.evaluate(iterate)  # A3, A4
-            if residual <= tolerance and exact:
-                return State(p, d, residual, steps, Status.CONVERGED, tangent, u, seen)
-            if residual <= tolerance:  # A5: the certificate needs an exact product
-                u, exact, steps = operator.apply(p), True, steps + 1
-                continue
-            idle = 0 if residual < tuning.PROGRESS * best else idle + 1
-            best = min(best, residual)
-            if steps >= self.max_steps or idle > tuning.ROUNDS_AT_ALL:
-                return State(p, d, residual, steps, Status.STAGNATED)
-            allowed = 0.5 * tolerance * scale
-            # A6: from another grid or load, only cells on which a projected step leaves a pressure.
-            set_ = conditions.predict_free_set(iterate, depth=d, allowed=allowed, projected=first)
-            free, count = set_.free, set_.count
-            bad = first and _worth_screening(set_, measure)
-            # A first set that is but a guess is solved roughly, by steps that cost little: the next has fewer cells.
-            guessed = first and not (singular and terms.depth is not None) and _is_guess(set_, p, measure)
-            guessed = guessed and _steps_cost_little(operator)
-            if guessed:
-                dense_limit = min(dense_limit, tuning.DIRECT_ROUGHLY)
-            direct = not guessed and factorisation_pays(operator, count, dense_limit, tolerance)
-            if bad and direct:
-                free = _screened(
-                    operator, iterate, conditions, free, tuning.SCREENING_RESIDUAL * residual * scale
-                )
-                count = int(np.count_nonzero(free))
-            first, size = False, math.prod(free.shape)
-            # With all cells at the hardness no free one determines the depth.
-            if not count and terms.plastic and bool(xp.any(p >= hardness)):
-                return State(p, d, residual, steps, Status.STAGNATED)
-            if not count:  # too shallow a depth for this grid
-                p, u = xp.zeros_like(p), xp.zeros_like(p)
-                continue
-            if singular and count == size and terms.depth is not None:
-                # Up to the mean separation one cell may always go without pressure; with all of them the
-                # mean pressure would be undetermined.
-                cells = xp.reshape(xp.arange(size, device=free.device), free.shape)
-                free, count = cells != xp.argmin(p), size - 1
-            whole = singular and count == size  # of which the matrix is singular
-            if direct and not whole:  # A8
-                try:
-                    solved = press_cells(operator, separation, terms.control, np.flatnonzero(free))
-                except np.linalg.LinAlgError:  # not definite to working precision: iterate instead
-                    dense_limit = 0
-                    continue
-                del u, iterate
-                p = prolong(solved.pressure, solved.cells, free.shape)
-                tangent = Tangent(prolong(solved.tangent, solved.cells, free.shape), solved.error)
-                steps += 1
-            else:  # A9
-                stuck = idle >= tuning.ROUNDS_IN_SINGLE
-                inner = FullGrid(operator) if stuck else inner_operator_on(operator, set_.support, inner)
-                target = max(tuning.SCREENING_RESIDUAL if guessed else 0.0, inner.contraction)
-                limit = scale * max(tuning.INNER_TOLERANCE * tolerance, target * residual)
-                system = inner_system(inner, iterate, conditions, free, limit=limit)
-                gap = u + separation if terms.plastic else None
-                del u, iterate, set_, free  # it has what it needs of them
-                p, done = inner_solve(system, conditions, max_steps=self.max_steps - steps)
-                del system
-                tangent, steps = None, steps + done + 1
-                if gap is not None:
-                    p = project(measure, p, gap, terms)
-            u, exact = operator.apply(p), True  # A10
+        direct = conditions.measure.on_host and not conditions.spec.plastic
+        dense_limit = self.dense_limit if direct else 0
+        return _Outer(operator, separation, conditions, self.max_steps, dense_limit, p)
 
 
-def _worth_screening(predicted: PredictedSet, measure: Measure) -> bool:
-    """Whether a prediction is bad and its factorisation costs much: from one load to the next it is good."""
-    bad = predicted.dropped > predicted.count / 100
-    return bad and predicted.count > tuning.SCREENING_CELLS and not measure.varies
+@dataclass(slots=True, eq=False)
+class _Outer:
+    """The outer iteration from a feasible pressure. It alone holds the large fields of its iterate.
 
-
-def _is_guess(predicted: PredictedSet, pressure: Array, measure: Measure) -> bool:
-    """Whether many cells are predicted from the pressure of few, as of summits, or the prediction is bad."""
-    few = measure.on_host and 2 * int(np.count_nonzero(pressure)) < predicted.count
-    return _worth_screening(predicted, measure) or (few and predicted.count > tuning.SCREENING_CELLS)
-
-
-def _steps_cost_little(operator: Operator) -> bool:
-    """Whether some tens of steps in machine code cost less than a matrix of many cells and its factorisation."""
-    few = operator.grid.size <= tuning.SCREENING_GRID and loader.is_available()
-    return few and capabilities(operator).local_inverse() is not None
-
-
-def _screened(operator: Operator, iterate: Iterate, conditions: Optimality, free: Mask, limit: float) -> Mask:
-    """Return the cells of a predicted free set that have pressure when their problem is solved roughly (A7).
-
-    A product with their matrix grows with the square of their number, its factorisation with the third power.
+    Attributes
+    ----------
+    pressure, displacement : array
+        The iterate: p [Pa] and u [m]; no displacement is held between the solve for p and the next product.
+    exact : bool
+        Whether u is of an exact product.
+    dense_limit : int
+        Free sets of up to so many cells are factorised.
+    steps : int
+        Products so far.
+    first : bool
+        Whether the next prediction of F is the first.
+    best, idle : float, int
+        Smallest residual so far, and rounds without progress.
+    inner : InnerOperator, optional
+        Of the last inner solve.
+    tangent : Tangent, optional
+        Of the pressure, where the last solve was direct.
     """
-    cells = np.flatnonzero(free)
-    area = float(operator.weights)  # the same for all, see `_worth_screening`
+
+    operator: Operator
+    separation: Array
+    conditions: Optimality
+    max_steps: int
+    dense_limit: int
+    pressure: Array
+    displacement: Any = None
+    exact: bool = False
+    steps: int = 0
+    first: bool = True
+    best: float = math.inf
+    idle: int = 0
+    inner: InnerOperator | None = None
+    tangent: Tangent | None = None
+
+    def run(self) -> State:
+        """Iterate A2 to A10: converged, or stagnated."""
+        tolerance = self.conditions.spec.tolerance
+        self.displacement, self.exact = first_product(self.operator, self.pressure)  # A2
+        self.steps = 1
+        while True:
+            # A3, A4
+            found = self.conditions.evaluate(Iterate(self.pressure, self.displacement, self.separation))
+            if found.residual <= tolerance and self.exact:
+                return self._state(found, Status.CONVERGED)
+            if found.residual <= tolerance:  # A5: the certificate needs an exact product
+                self.displacement = None
+            elif self._stagnates(found.residual) or not self._correct(found):  # A6 to A9
+                return self._state(found, Status.STAGNATED)
+            if self.displacement is None:  # A10
+                self.displacement, self.exact = self.operator.apply(self.pressure), True
+                self.steps += 1
+
+    def _stagnates(self, residual: float) -> bool:
+        """Take note of a residual; return whether there are no steps left, or no progress for too long."""
+        self.idle = 0 if residual < tuning.PROGRESS * self.best else self.idle + 1
+        self.best = min(self.best, residual)
+        return self.steps >= self.max_steps or self.idle > tuning.ROUNDS_AT_ALL
+
+    def _correct(self, found: Evaluation) -> bool:
+        """Solve on the predicted free set (A6 to A9); return False if no cell is free and the cells at H give no depth.
+
+        The prediction and its system are gone when this returns, and before the projection: fields are large.
+        """
+        spec = self.conditions.spec
+        solved = self._solve(self._reduced(found))
+        if solved and spec.plastic:
+            gap = self.displacement + self.separation
+            self.pressure, self.displacement = (
+                project(self.conditions.measure, self.pressure, gap, spec),
+                None,
+            )
+        return solved
+
+    def _reduced(self, found: Evaluation) -> Cells | InnerSystem:
+        """Return the problem on the predicted free set: its cells, if they are solved directly, or a system for B."""
+        operator, conditions, spec = self.operator, self.conditions, self.conditions.spec
+        iterate = Iterate(self.pressure, self.displacement, self.separation)
+        allowed = 0.5 * spec.tolerance * found.scale
+        predicted = conditions.predict_free_set(  # A6
+            iterate, depth=found.depth, allowed=allowed, first=self.first
+        )
+        self.first = False
+        # A7: roughly by B where its steps cost little, and then with fewer cells; else by B on the matrix of F.
+        rough = predicted.quality is not Quality.GOOD and self._rough_steps_pay()
+        if rough:
+            self.dense_limit = min(self.dense_limit, tuning.DIRECT_ROUGHLY)
+        pays = factorisation_pays(operator, predicted.count, self.dense_limit, spec.tolerance)
+        direct = pays and not rough
+        if direct and predicted.quality is Quality.BAD:
+            limit = tuning.SCREENING_RESIDUAL * found.residual * found.scale
+            predicted = _screened(operator, iterate, conditions, predicted, limit)
+        if predicted.count == math.prod(predicted.free.shape) and is_semidefinite(operator):
+            if spec.depth is None:
+                direct = False  # the matrix is singular
+            else:
+                predicted = _all_but_one(predicted, self.pressure, conditions.measure.xp)
+        if not predicted.count:
+            return np.empty(0, np.intp)
+        if direct:
+            return np.flatnonzero(predicted.free)
+        stuck = self.idle >= tuning.ROUNDS_IN_SINGLE
+        self.inner = inner = (
+            FullGrid(operator) if stuck else inner_operator_on(operator, predicted.support, self.inner)
+        )
+        factor = max(inner.contraction, tuning.SCREENING_RESIDUAL if rough else 0.0)
+        limit = found.scale * max(tuning.INNER_TOLERANCE * spec.tolerance, factor * found.residual)
+        return inner_system(inner, iterate, conditions, predicted.free, limit=limit)
+
+    def _solve(self, reduced: Cells | InnerSystem) -> bool:
+        """Solve a reduced problem: few cells directly (A8), more by algorithm B (A9), none by zero pressure."""
+        conditions, spec, shape = self.conditions, self.conditions.spec, self.pressure.shape
+        if isinstance(reduced, InnerSystem):
+            if not spec.plastic:
+                self.displacement = None  # the system has what it needs of it
+            left = self.max_steps - self.steps
+            self.pressure, steps = inner_solve(reduced, conditions, max_steps=left)
+            self.tangent, self.steps = None, self.steps + steps
+        elif len(reduced):
+            try:
+                solved = press_cells(self.operator, self.separation, spec.control, reduced)
+            except np.linalg.LinAlgError:  # not definite to working precision: the next round iterates
+                self.dense_limit = 0
+                return True
+            self.displacement = None
+            self.pressure = prolong(solved.pressure, solved.cells, shape)
+            self.tangent = Tangent(prolong(solved.tangent, solved.cells, shape), solved.error)
+        else:
+            xp = self.conditions.measure.xp
+            if spec.plastic and bool(xp.any(self.pressure >= spec.hardness)):
+                return False
+            # The depth is too small for this grid.
+            self.pressure, self.displacement = xp.zeros_like(self.pressure), xp.zeros_like(self.pressure)
+        return True
+
+    def _rough_steps_pay(self) -> bool:
+        """Whether some tens of steps in machine code cost less than a matrix of many cells and its factorisation."""
+        operator, depth = self.operator, self.conditions.spec.depth
+        few = operator.grid.size <= tuning.SCREENING_GRID and loader.is_available()
+        if not few or (depth is not None and is_semidefinite(operator)):
+            return False
+        return capabilities(operator).local_inverse() is not None
+
+    def _state(self, found: Evaluation, status: Status) -> State:
+        p, d, residual, steps = self.pressure, found.depth, found.residual, self.steps
+        if not status.converged:
+            return State(p, d, residual, steps, status)
+        return State(p, d, residual, steps, status, self.tangent, self.displacement, found.extremes)
+
+
+def _all_but_one(predicted: PredictedSet, pressure: Array, xp: Any) -> PredictedSet:
+    """Return the prediction of all cells without that of the least pressure.
+
+    Up to the mean separation one cell of a periodic surface may always go without pressure; with all of them the mean
+    pressure would be undetermined.
+    """
+    free = predicted.free
+    cells = xp.reshape(xp.arange(predicted.count, device=free.device), free.shape)
+    return replace(predicted, free=cells != xp.argmin(pressure), count=predicted.count - 1)
+
+
+def _screened(
+    operator: Operator, iterate: Iterate, conditions: Optimality, predicted: PredictedSet, limit: float
+) -> PredictedSet:
+    """Return the prediction without the cells that have no pressure when it is solved roughly, on its matrix (A7).
+
+    A product with the matrix grows with the square of the number of cells, its factorisation with the third power.
+    """
+    cells = np.flatnonzero(predicted.free)
+    area = float(operator.weights)  # one for all cells, see `Optimality.predict_free_set`
     part = FullGrid(DenseOperator(Grid(len(cells), area), operator.as_matrix(cells)))
     p, separation = iterate.pressure.ravel()[cells], iterate.separation.ravel()[cells]
     begun, all_free = Iterate(p, part.apply(p), separation), np.ones(len(cells), dtype=bool)
     found = inner_solve(
         inner_system(part, begun, conditions, all_free, limit=limit), conditions, max_steps=50
     )
-    return prolong(found.pressure, cells, free.shape) > 0
+    free = prolong(found.pressure, cells, predicted.free.shape) > 0
+    return replace(predicted, free=free, count=int(np.count_nonzero(free)))

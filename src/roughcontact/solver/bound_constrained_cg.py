@@ -1,6 +1,6 @@
 """Bound-constrained preconditioned conjugate gradients: the inner solve of the active set method.
 
-Labels B1 to B17 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
+Labels B1 to B18 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
 changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that the step is
 estimated before the product, so that one product serves projection and line search, is this package's own.
 """
@@ -15,8 +15,8 @@ from roughcontact.kernels import buffers
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Force
 from roughcontact.solver.inner_operator import InnerOperator
-from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import Iterate, Optimality
+from roughcontact.solver.rows_operator import on_own_rows
 from roughcontact.solver.vectors import Vectors, scaled_vectors
 from roughcontact.validation import Array, Mask
 
@@ -108,7 +108,7 @@ def inner_system(
     iterate : Iterate
         Pressure [Pa] to start from, its displacement [m], and the separation [m].
     conditions : Optimality
-        Of the whole problem: its terms, and the displacement of a cell per unit pressure on itself.
+        Of the whole problem: its spec, and the displacement of a cell per unit pressure on itself.
     free : bool array
         The predicted free set, one cell at least, none of them missing. Of the others those at the hardness keep it,
         the rest goes to zero.
@@ -116,11 +116,12 @@ def inner_system(
         Largest residual on F [m].
     """
     pressure, displacement, separation = iterate
-    measure = Measure(inner.weights, conditions.measure.xp)
+    if not conditions.spec.plastic:  # machine code knows no hardness
+        inner = on_own_rows(inner, pressure)
     # Cells that were not measured never touch, nor does what lies beyond the edge.
     part = Iterate(inner.gather(pressure), inner.gather(displacement), inner.gather(separation, math.inf))
     free = inner.gather(free)
-    vectors, unit = scaled_vectors(inner, measure, conditions.terms, free, part, otherwise=limit)
+    vectors, unit = scaled_vectors(inner, conditions.measure, conditions.spec, free, part, otherwise=limit)
     return InnerSystem(inner, vectors, part.pressure, unit, limit / unit)
 
 
@@ -138,15 +139,15 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
     max_steps : int
         Largest number of products.
     """
-    (inner, vectors, start, unit, goal), terms = system, conditions.terms
+    (inner, vectors, start, unit, goal), spec = system, conditions.spec
     target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
-    with buffers.large_ones_kept():
+    with buffers.keep_large_buffers():
         while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
             residual, done, estimate = bound_constrained_cg(
                 inner,
                 vectors,
                 estimate,
-                force_given=terms.depth is None,
+                force_given=spec.depth is None,
                 self_influence=conditions.self_influence,
                 limit=target,
                 max_steps=max_steps - steps,
@@ -160,15 +161,17 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
                 target = goal
             else:
                 break
-    p = vectors.pressure(start, unit)
+    p = vectors.pressure(start, unit)  # B18
     if vectors.upper is not None:
-        p = conditions.measure.xp.where(vectors.upper, terms.hardness, p)
-    elif isinstance(terms.control, Force):
-        total = Measure(inner.weights, conditions.measure.xp).total(p)
+        p = conditions.measure.xp.where(vectors.upper, spec.hardness, p)
+        return InnerSolution(inner.scatter(p), steps)
+    p = inner.scatter(p)
+    if isinstance(spec.control, Force):
+        total = conditions.measure.total(p)
         if not total > 0:
             return InnerSolution(inner.scatter(start), steps)
-        p *= terms.control.value / total
-    return InnerSolution(inner.scatter(p), steps)
+        p *= spec.control.value / total
+    return InnerSolution(p, steps)
 
 
 def bound_constrained_cg(

@@ -1,7 +1,6 @@
 """The vectors of an inner solve in machine code: work follows the free set, not the grid.
 
-For NumPy's arrays and those in slabs, cells of one size and no upper bound. Every member does what that of
-`vectors.ArrayVectors` says.
+For NumPy's arrays, cells of one size and no upper bound. Every member does what that of `vectors.ArrayVectors` says.
 """
 
 from __future__ import annotations
@@ -9,13 +8,13 @@ from __future__ import annotations
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact.cached import cached_property
-from roughcontact.kernels import buffers as room, planes
+from roughcontact.kernels import buffers, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.constants import ROUNDINGS
-from roughcontact.kernels.distributed import contiguous
 from roughcontact.solver import tuning
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Preconditioned, Products, Projected
@@ -24,7 +23,7 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["CompiledVectors"]
 
-Field = Any  # of single or double precision, an array or one in slabs
+Field = npt.NDArray[Any]  # of single or double precision
 
 
 class CompiledVectors:
@@ -42,9 +41,7 @@ class CompiledVectors:
         self.correction, self.r = self._correction.field, self._r.field
         self.s, self.q = self._s.field, self._q.field
         self._inner, self._weight = inner, weight
-        local = inner.local_inverse
-        fits = local is None or local.fits(free)
-        self._local, self._theta = (local, inner.diagonal_correction) if fits else (None, 0.0)
+        self._local, self._theta = inner.local_inverse, inner.diagonal_correction
         self._uses_w, self._lost = False, 0.0
         # Sums over F as the solve began: of the pressure, of its cells (this one is kept up to date), of r.
         self._p_sum, self._count, self._r_sum = 0.0, 0.0, 0.0
@@ -62,14 +59,14 @@ class CompiledVectors:
         otherwise: float,
     ) -> tuple[Self, float]:
         """Return the vectors of a solve from an iterate, and their unit; see `scaled_vectors`."""
-        start, displacement, separation = (contiguous(field, np.float64) for field in iterate)
-        free, precision = contiguous(free, bool), inner.scaled(np.empty(0)).dtype
-        levels = planes.level_range(separation, displacement, free)
+        start, displacement, separation = (np.ascontiguousarray(field, np.float64) for field in iterate)
+        free, precision = np.ascontiguousarray(free, bool), inner.scaled(np.empty(0)).dtype
+        levels = planes.level_range(separation, displacement, free, inner.combine)
         if depth is None:
             depth = levels.mean
         unit = max(depth - levels.lowest, levels.highest - depth) or otherwise or 1.0
         inside = zeros_with_margins(free, precision)
-        residual, base = (room.empty_like(free, precision) for _ in range(2))
+        residual, base = (buffers.empty(free.shape, precision) for _ in range(2))
         into = inside, residual, base
         planes.scale_down(start, displacement, separation, free, into, depth=depth, unit=unit)
         return cls(inner, weight, inside, residual, base), unit
@@ -101,7 +98,7 @@ class CompiledVectors:
         if self._w_sum is None:
             # With the Schur correction w is a constant part of M^-1 1, which cancels in all that is made of it.
             args = self._inverse_of_one, self._free, self._free, self._q, self._free, 0.0
-            self._w_sum = self._sums("correct_and_dot", 4, *args)[2]
+            self._w_sum = self._region.run("correct_and_dot", 4, *args, weight=self._weight)[2]
         return self._w_sum
 
     def precondition(self) -> Preconditioned:
@@ -109,8 +106,8 @@ class CompiledVectors:
         self._z = self._inverse(self._r_free)
         one = self._inverse_of_one if self._theta or self._uses_w else self._z
         fields = self._z, self._free, self._r_free, self._q, one
-        rz, zq, z_sum, wq = self._sums("correct_and_dot", 4, *fields, self._theta)
-        return Preconditioned(rz, zq, z_sum, wq)
+        found = self._region.run("correct_and_dot", 4, *fields, self._theta, weight=self._weight)
+        return Preconditioned(*found)
 
     def update_direction(self, beta: float) -> Field:
         """Make s = z + beta s, and return it."""
@@ -147,7 +144,8 @@ class CompiledVectors:
         """Take q = A s; return the inner products of s, q and r."""
         self._q = self._located(q)
         self.q = self._q.field
-        return Products(*self._sums("dot_products", 6, self._s, self._q, self._free, self._r))
+        fields = self._s, self._q, self._free, self._r
+        return Products(*self._region.run("dot_products", 6, *fields, weight=self._weight))
 
     def advance(self, alpha: float, mean: float) -> float:
         """Add alpha s to the pressure, subtract alpha (q - mean) from r; return the largest size of r on F."""
@@ -158,7 +156,7 @@ class CompiledVectors:
         """Free the cells whose residual is larger than a threshold; return the largest of these."""
         # Cells that drop out of the list of groups are never visited again.
         self._region.run("multiply", 0, self._s, self._free)
-        worst = mask_above(self.free, self.r, threshold)
+        worst = mask_above(self.free, self.r, threshold, self._inner.combine)
         if worst:
             self.__dict__.pop("_region", None)
             self._forget_inverse_of_one()
@@ -168,19 +166,19 @@ class CompiledVectors:
         """Return the pressure that there is now."""
         self._forget_directions()
         self._forget_inverse_of_one()
-        return planes.add_scaled(contiguous(start, np.float64), self.correction, self.free, unit)
+        return planes.add_scaled(np.ascontiguousarray(start, np.float64), self.correction, self.free, unit)
 
     def _located(self, field: Field) -> Operand:
         if field.shape != self.free.shape:  # machine code checks no shape
             raise ValueError(f"a field of shape {field.shape} where {self.free.shape} is expected")
-        return Operand(contiguous(field, self.free.dtype))
+        return Operand(np.ascontiguousarray(field, self.free.dtype))
 
     def _zeros(self) -> Operand:
-        return Operand(room.zeros_like(self.free, self.free.dtype))
+        return Operand(buffers.zeros(self.free.shape, self.free.dtype))
 
     @cached_property
     def _region(self) -> ActiveCells:
-        return ActiveCells(self.free, (self._base.field, self.correction))
+        return ActiveCells(self.free, (self._base.field, self.correction), self._inner.combine)
 
     @cached_property
     def _inverse_of_one(self) -> Operand:
@@ -205,6 +203,3 @@ class CompiledVectors:
         if self._local is None:
             return self._located(self._inner.approximate_inverse(field.field))
         return self._located(self._local.on(self._region, field.field))
-
-    def _sums(self, name: str, count: int, *arguments: Operand | float) -> list[float]:
-        return [self._weight * one for one in self._region.run(name, count, *arguments)]

@@ -19,11 +19,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import beside, largest, namespace, on_host
+from roughcontact.arrays import as_like, max_abs, namespace, on_host
 from roughcontact.halfspace.operators.operator import Operator, exact_of, self_influences
-from roughcontact.kernels import planes
-from roughcontact.kernels.distributed import local, of_all, with_rows_beside
-from roughcontact.solver.control import Force, Solver, Start, State, Status, Terms
+from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.solver.control import Force, Solver, Specification, Start, State, Status
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.optimality import UNITS, Iterate, Optimality
 from roughcontact.solver.refinement import defect_correction
@@ -48,12 +47,12 @@ def weakly_active(pressure: Array, gap: Array, allowed: float) -> Mask:
     return (pressure == 0) & (gap <= allowed)  # type: ignore[no-any-return]
 
 
-def _pressed_by_rounding(pressure: Array, own: Any, allowed: float) -> Mask:
+def _pressed_by_rounding(pressure: Array, a_ii: Any, allowed: float) -> Mask:
     """Return the cells whose pressure is no more than displacements that are known to what is `allowed` [m] make it."""
-    return (pressure > 0) & (pressure * own <= AMPLIFIED * allowed)  # type: ignore[no-any-return]
+    return (pressure > 0) & (pressure * a_ii <= AMPLIFIED * allowed)  # type: ignore[no-any-return]
 
 
-def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
+def added_stiffness(operator: Operator, pressed: Any, weak: Any) -> float:
     """Return by how much the stiffness grows at most where weakly active cells join those that are pressed [N/m].
 
     The stiffness of a region is a capacity, which is submodular: a cell adds no more to the whole than to those pressed
@@ -61,19 +60,32 @@ def added_stiffness(operator: Operator, pressed: Mask, weak: Mask) -> float:
     """
     if int(namespace(weak).count_nonzero(weak)) > MANY:
         return math.inf
-    # In slabs each process sees to its own cells: no other has room for all.
-    pressed, weak = (f if local(f) is not f else on_host(f) > 0 for f in (pressed, weak))
-    rows, begin, own = with_rows_beside(pressed, NEAR)
+    if isinstance(pressed, SlabArray):  # each process sees to its own cells: no other has room for all
+        functions, edges = pressed.functions, pressed.edges
+        rows, begin = functions.with_rows_beside(pressed, NEAR)
+        places = np.argwhere(weak.local)
+        places[:, 0] += edges[functions.rank]
+        return float(functions.combined([_added_at(operator, places, rows, begin, pressed.shape)], 0)[0])
+    here = on_host(pressed) > 0
+    return _added_at(operator, np.argwhere(on_host(weak) > 0), here, 0, here.shape)
+
+
+def _added_at(
+    operator: Operator, places: npt.NDArray[np.intp], rows: Mask, begin: int, shape: tuple[int, ...]
+) -> float:
+    """Return by how much the stiffness grows with the cells at some places [N/m].
+
+    Of the pressed cells of a field of some shape, `rows` from `begin` on are at hand.
+    """
     total, shift = 0.0, np.zeros(rows.ndim, np.intp)
     shift[0] = begin
-    for place in np.argwhere(local(weak)):
-        place[0] += own
+    for place in places:
         start = np.maximum(place - NEAR, 0)
         box = tuple(map(slice, start - shift, place + NEAR + 1 - shift))
-        near = np.ravel_multi_index(tuple((np.argwhere(rows[box]) + start).T), pressed.shape)
-        cells = np.append(near, np.ravel_multi_index(tuple(place), pressed.shape))
+        near = np.ravel_multi_index(tuple((np.argwhere(rows[box]) + start).T), shape)
+        cells = np.append(near, np.ravel_multi_index(tuple(place), shape))
         total += _stiffness(operator, cells) - (_stiffness(operator, near) if len(near) else 0.0)
-    return of_all(pressed, [total], 0)[0]
+    return total
 
 
 def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
@@ -83,37 +95,37 @@ def _stiffness(operator: Operator, cells: npt.NDArray[np.intp]) -> float:
 
 
 def resolve_contact(
-    solver: Solver, operator: Operator, separation: Array, terms: Terms, start: Start
+    solver: Solver, operator: Operator, separation: Array, spec: Specification, start: Start
 ) -> State:
     """Run a solver, by defect correction where the sum is not exact, and set pressures that are but rounding to zero.
 
     Parameters
     ----------
     solver : Solver
-    operator, separation, terms
+    operator, separation, spec
         The problem, as `Solver.run` takes it.
     start : Start
         The pressure to begin with is handed over.
     """
     exact = exact_of(operator)
-    conditions = Optimality.of(exact, terms, namespace(separation))
+    conditions = Optimality.of(exact, spec, separation)
 
-    def run(terms: Terms, start: Start) -> State:
+    def run(spec: Specification, start: Start) -> State:
         if exact is operator:
-            return solver.run(operator, separation, terms, start.take())
-        asked = replace(conditions, terms=terms)
-        return defect_correction(solver, operator, exact, separation, asked, start.take())
+            return solver.run(operator, separation, spec, start.move())
+        asked = replace(conditions, spec=spec)
+        return defect_correction(solver, operator, exact, separation, asked, start.move())
 
-    state = run(terms, start)
+    state = run(spec, start)
     if state.status is not Status.CONVERGED:
         return replace(state, displacement=None)
-    iterated = state.residual > FINEST and terms.tolerance <= LOOSE
+    iterated = state.residual > FINEST and spec.tolerance <= LOOSE
     known = UNITS + (state.residual if iterated or state.residual <= FINEST else 0.0)
-    weak = _weak(exact, separation, state, known, conditions.measure.xp)
+    weak = _weak(exact, separation, conditions, state, known)
     if weak is not None and iterated and _matter(exact, conditions.measure, state, weak):
-        finer = run(replace(terms, tolerance=FINEST), Start(state.pressure, state.depth))
+        finer = run(replace(spec, tolerance=FINEST), Start(state.pressure, state.depth))
         steps = state.steps + finer.steps
-        state = finer if finer.residual <= terms.tolerance else state
+        state = finer if finer.residual <= spec.tolerance else state
         state = replace(state, steps=steps, status=Status.CONVERGED)
         known = UNITS + state.residual
     elif iterated:
@@ -123,25 +135,27 @@ def resolve_contact(
     return replace(state, displacement=None, extremes=None)
 
 
-def _weak(operator: Operator, separation: Array, state: State, known: float, xp: Any) -> Mask | None:
+def _weak(
+    operator: Operator, separation: Array, conditions: Optimality, state: State, known: float
+) -> Mask | None:
     """Return the cells whose pressure or gap is known to nothing; None without any.
 
     Displacements are `known` to so much of the largest.
     """
-    p, u, own = state.pressure, _displacement(operator, state), _own(operator, state.pressure)
-    iterate = Iterate(p, u, separation)
-    seen = state.extremes
-    if seen is None and iterate.fits_machine_code():
-        seen = planes.extremes(*iterate)
+    p, u, a_ii = state.pressure, _displacement(operator, state), _self_influences(operator, state.pressure)
+    extremes, passes = state.extremes, conditions.passes
+    if extremes is None and passes is not None and passes.fit(p, u, separation):
+        extremes = passes.extremes(p, u, separation)
     if (  # nearly always there is no such cell
-        isinstance(own, float)
-        and seen is not None
-        and min(own * seen.least / AMPLIFIED, seen.nearest - state.depth) > known * seen.displacement
+        isinstance(a_ii, float)
+        and extremes is not None
+        and min(a_ii * extremes.least / AMPLIFIED, extremes.nearest - state.depth)
+        > known * extremes.displacement
     ):
         return None
-    allowed = known * largest(u)
-    weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, own, allowed)
-    return weak if bool(xp.any(weak)) else None
+    allowed = known * max_abs(u)
+    weak = weakly_active(p, u + separation - state.depth, allowed) | _pressed_by_rounding(p, a_ii, allowed)
+    return weak if bool(conditions.measure.xp.any(weak)) else None
 
 
 def _matter(operator: Operator, measure: Measure, state: State, weak: Mask) -> bool:
@@ -158,20 +172,20 @@ def _floored(
     operator: Operator, separation: Array, conditions: Optimality, state: State, known: float
 ) -> State:
     """Return the state without pressures whose own displacement is no more than is `known` of the largest."""
-    p, terms, measure, xp = state.pressure, conditions.terms, conditions.measure, conditions.measure.xp
-    allowed = known * largest(_displacement(operator, state))
-    weak = _pressed_by_rounding(p, _own(operator, p), allowed)
+    p, spec, measure, xp = state.pressure, conditions.spec, conditions.measure, conditions.measure.xp
+    allowed = known * max_abs(_displacement(operator, state))
+    weak = _pressed_by_rounding(p, _self_influences(operator, p), allowed)
     if not bool(xp.any(weak)):
         return state
     p = xp.where(weak, 0.0, p)
-    if isinstance(terms.control, Force) and not terms.plastic:
+    if isinstance(spec.control, Force) and not spec.plastic:
         total = measure.total(p)
         if not total > 0:  # nothing displaces anything, as on one periodic cell
             return state
-        p *= terms.control.value / total
+        p *= spec.control.value / total
     iterate = Iterate(p, operator.apply(p), separation)
     depth, residual, *_ = conditions.evaluate(iterate)
-    if residual > terms.tolerance:  # which then is below the rounding floor
+    if residual > spec.tolerance:  # which then is below the rounding floor
         return state
     return replace(state, pressure=p, depth=depth, residual=residual, steps=state.steps + 1, tangent=None)
 
@@ -180,6 +194,6 @@ def _displacement(operator: Operator, state: State) -> Array:
     return operator.apply(state.pressure) if state.displacement is None else state.displacement
 
 
-def _own(operator: Operator, pressure: Array) -> Any:
-    own = self_influences(operator)
-    return own if isinstance(own, float) else beside(own, pressure)
+def _self_influences(operator: Operator, pressure: Array) -> Any:
+    a_ii = self_influences(operator)
+    return a_ii if isinstance(a_ii, float) else as_like(a_ii, pressure)

@@ -42,7 +42,7 @@ def conjugate_gradients(
     if not r_max > limit:
         return r_max, steps
     last = vectors.inner_products(vectors.q)
-    with buffers.large_ones_kept():
+    with buffers.keep_large_buffers():
         while r_max > limit and steps < max_steps:  # C1
             rz, zq, _, _ = vectors.precondition()  # C2
             if not rz > 0:

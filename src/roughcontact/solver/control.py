@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.validation import Array, require_numbers, scalar
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from roughcontact.kernels.planes import Extremes
 
 __all__ = [
-    *("Control", "Depth", "Force", "Solver", "Start", "State", "Status", "Tangent", "Terms"),
+    *("Control", "Depth", "Force", "Solver", "Start", "State", "Status", "Tangent", "Specification"),
     "checked_tolerance",
 ]
 
@@ -84,7 +84,7 @@ Control = Force | Depth
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class Specification:
     """What is asked of a solver, whatever the bodies.
 
     Parameters
@@ -95,26 +95,31 @@ class Terms:
         Largest residual of a solution, see ``roughcontact.solver.optimality``.
     hardness : float or array, shape of the cells
         Pressure that no cell exceeds [Pa]; a cell that reaches it is perfectly plastic.
+
+    Attributes
+    ----------
+    depth : float or None
+        The prescribed depth [m]; None under a prescribed force.
+    plastic : bool
+        Whether there is an upper bound of the pressure.
     """
 
     control: Control
     tolerance: float = 1e-8
     hardness: float | Array = math.inf
+    depth: float | None = field(init=False)
+    plastic: bool = field(init=False)
 
-    @property
-    def depth(self) -> float | None:
-        """The prescribed depth [m]; None under a prescribed force."""
-        return None if isinstance(self.control, Force) else self.control.value
-
-    @property
-    def plastic(self) -> bool:
-        """Whether any pressure reaches a limit."""
-        return not isinstance(self.hardness, int | float) or self.hardness < math.inf
+    def __post_init__(self) -> None:
+        depth = None if isinstance(self.control, Force) else self.control.value
+        object.__setattr__(self, "depth", depth)
+        limited = not isinstance(self.hardness, int | float) or self.hardness < math.inf
+        object.__setattr__(self, "plastic", limited)
 
     @property
     def largest_hardness(self) -> float:
         """The hardness of the hardest cell [Pa]."""
-        return self.hardness if isinstance(self.hardness, int | float) else largest(self.hardness)
+        return self.hardness if isinstance(self.hardness, int | float) else max_abs(self.hardness)
 
 
 def checked_tolerance(tolerance: Any) -> float:
@@ -182,19 +187,19 @@ _MESSAGES = {
 
 @dataclass(slots=True, eq=False)
 class Start:
-    """Where a solve begins: a pressure [Pa], which is handed over, and a depth [m].
+    """Where a solve begins: a pressure [Pa] and a depth [m]; it owns the pressure until that is moved to the solve.
 
-    Planes are large: whoever takes the pressure is the only one to hold it, and lets go of it when there is another.
+    Fields are large: one that has been replaced is held by nobody, so that its memory is free.
     """
 
-    pressure: Any  # an array, until it is taken
+    pressure: Any  # an array; None once it is moved
     depth: float
 
-    def take(self) -> Array:
-        """Return the pressure; the next one to ask gets none."""
-        taken: Array
-        taken, self.pressure = self.pressure, None
-        return taken
+    def move(self) -> Array:
+        """Return the pressure, which the caller owns from now on."""
+        moved: Array
+        moved, self.pressure = self.pressure, None
+        return moved
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -225,6 +230,6 @@ class State:
 class Solver(Protocol):
     """Frozen settings with one method; everything that changes during a run stays inside the run."""
 
-    def run(self, operator: Operator, separation: Array, terms: Terms, initial: Array) -> State:
-        """Solve for the pressure from an `initial` one, on the given terms."""
+    def run(self, operator: Operator, separation: Array, spec: Specification, initial: Array) -> State:
+        """Solve for the pressure from an `initial` one, on the given spec."""
         ...

@@ -14,7 +14,7 @@ from roughcontact.solver.control import Control, Force
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array
 
-__all__ = ["DirectSolution", "press_cells", "solve_cells"]
+__all__ = ["Cells", "DirectSolution", "press_cells", "solve_cells"]
 
 Cells = npt.NDArray[np.intp]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
-from roughcontact.arrays import is_numpy, largest, over, times
+from roughcontact.arrays import divide, is_numpy, max_abs, multiply
 from roughcontact.halfspace.operators.operator import (
     Capabilities,
     Linear,
@@ -21,6 +21,8 @@ from roughcontact.halfspace.operators.operator import (
 from roughcontact.halfspace.sums.local_inverse import DIAGONAL_CORRECTION, LocalInverse
 from roughcontact.halfspace.sums.particle_mesh import TileOperator
 from roughcontact.halfspace.sums.tiles import Tiles
+from roughcontact.kernels.active_cells import ActiveCells
+from roughcontact.kernels.planes import Combine
 from roughcontact.solver import tuning
 from roughcontact.validation import Array, Mask
 
@@ -37,6 +39,14 @@ __all__ = [
 SINGLE_RANGE = 1e-25
 
 
+class TruncatedInverse(Protocol):
+    """M0^-1 in machine code, on the free cells of a whole grid."""
+
+    def on(self, region: ActiveCells, field: Any, /) -> Any:
+        """Return the pressure [Pa] on a region under a displacement [m] that is zero elsewhere, and has margins."""
+        ...
+
+
 class InnerOperator(Linear, Protocol):
     """A symmetric map between some cells, in some precision, its preconditioner, and the way there and back."""
 
@@ -51,8 +61,13 @@ class InnerOperator(Linear, Protocol):
         ...
 
     @property
-    def local_inverse(self) -> LocalInverse | None:
-        """M0^-1 in machine code on the free cells of a whole grid; None where `approximate_inverse` does it."""
+    def local_inverse(self) -> TruncatedInverse | None:
+        """M0^-1 in machine code; None where `approximate_inverse` does it."""
+        ...
+
+    @property
+    def combine(self) -> Combine | None:
+        """What makes totals of all processes from those of this one, where others hold cells too."""
         ...
 
     def approximate_inverse(self, displacement: Array) -> Array:
@@ -78,6 +93,7 @@ class FullGrid:
 
     operator: Operator
     single: bool = False
+    combine: ClassVar[None] = None
     _can: Capabilities = field(init=False, repr=False)  # asked for once: each step of a solve uses it
 
     def __post_init__(self) -> None:
@@ -114,8 +130,8 @@ class FullGrid:
     def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return the field over a unit, in the precision of the products."""
         if self.single:
-            return over(values, unit, "float32")
-        return values if unit == 1 else over(values, unit, "float64")
+            return divide(values, unit, "float32")
+        return values if unit == 1 else divide(values, unit, "float64")
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
@@ -162,11 +178,11 @@ def first_product(
         # Where tiles will be used, no transfer function of single precision is made for the grid.
         if inner.contraction and _tiles_of(operator, pressure > 0) is not None:
             inner = FullGrid(operator)
-    size = largest(pressure) if inner.contraction else 0.0
+    size = max_abs(pressure) if inner.contraction else 0.0
     if not size > 0:
         return operator.apply(pressure), True
     part = inner.scaled(inner.gather(pressure), size)
-    return times(inner.scatter(inner.apply(part)), size), False
+    return multiply(inner.scatter(inner.apply(part)), size), False
 
 
 def factorisation_pays(operator: Operator, count: int, limit: int, tolerance: float = 0.0) -> bool:

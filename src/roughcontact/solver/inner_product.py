@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed
+from roughcontact.arrays import DeviceTable
 from roughcontact.validation import Array, Mask
 
 __all__ = ["Measure", "Preconditioned", "Products", "Projected"]
@@ -26,36 +26,37 @@ class Measure:
         Of an operator [m^2], on the host.
     xp : module
         The functions for the fields, by the names of the array API standard.
+
+    Attributes
+    ----------
+    on_host : bool
+        Whether the fields are NumPy's, which SciPy and machine code can work on.
+    varies : bool
+        Whether the cells have different weights.
     """
 
     weights: float | Array
     xp: Any = np
-    _placed: Placed | None = field(init=False, repr=False)
+    on_host: bool = field(init=False, repr=False)
+    varies: bool = field(init=False, repr=False)
+    _table: DeviceTable | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        placed = Placed(self.weights) if isinstance(self.weights, np.ndarray) else None
-        object.__setattr__(self, "_placed", placed)
-
-    @property
-    def on_host(self) -> bool:
-        """Whether the fields are NumPy's, which SciPy and machine code can work on."""
-        return self.xp is np
-
-    @property
-    def varies(self) -> bool:
-        """Whether the cells have different weights."""
-        return self._placed is not None
+        table = DeviceTable(self.weights) if isinstance(self.weights, np.ndarray) else None
+        object.__setattr__(self, "_table", table)
+        object.__setattr__(self, "varies", table is not None)
+        object.__setattr__(self, "on_host", self.xp is np)
 
     def total(self, field: Array | Mask) -> float:
         """Return the weighted sum of a field: the force [N] of a pressure [Pa]."""
         numbers = self._number(field)
-        if self._placed is not None:
-            return float(self.xp.sum(self._placed.beside(numbers) * numbers))
+        if self._table is not None:
+            return float(self.xp.sum(self._table.as_like(numbers) * numbers))
         return float(self.weights * float(self.xp.sum(numbers)))
 
     def dot(self, a: Array, b: Array) -> float:
         """Return the weighted inner product of two fields."""
-        first = a if self._placed is None else self._placed.beside(a) * a
+        first = a if self._table is None else self._table.as_like(a) * a
         product = float(np.vdot(first, b)) if self.on_host else float(self.xp.sum(first * b))
         return product if self.varies else float(self.weights * product)
 

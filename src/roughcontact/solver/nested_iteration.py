@@ -10,11 +10,10 @@ import numpy as np
 from roughcontact.arrays import namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
-from roughcontact.kernels import buffers, planes
-from roughcontact.kernels.distributed import agreed, local
-from roughcontact.slabs.levels_of_slabs import dealt_as, divides, gathered_if_small
+from roughcontact.slabs.levels_of_slabs import divides, gathered_if_small, scatter_like
+from roughcontact.slabs.passes import passes_over
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Control, Depth, Solver, Start, Terms
+from roughcontact.solver.control import Control, Depth, Solver, Specification, Start
 from roughcontact.solver.projection import elastic_control
 from roughcontact.solver.subdomain import SubdomainSolver, bounding_box, prolong
 from roughcontact.solver.summit_start import summit_start
@@ -43,11 +42,9 @@ def nested_start(
         control = _reachable(control, separation, blocks, xp)
     small = gathered_if_small(blocks)
     start = Start(*nested_start(part, small, control, solver))
-    terms = Terms(control, tuning.COARSE_TOLERANCE)
-    state, subdomain = SubdomainSolver(part).solve(solver, small, terms, start)
-    coarse = dealt_as(prolong(state.pressure, subdomain, blocks.shape), blocks)
-    if small is not blocks:
-        buffers.give_back()  # planes of whole levels, which finer ones in slabs have no use for
+    spec = Specification(control, tuning.COARSE_TOLERANCE)
+    state, subdomain = SubdomainSolver(part).solve(solver, small, spec, start)
+    coarse = scatter_like(prolong(state.pressure, subdomain, blocks.shape), blocks)
     return _interpolated(coarse, factors, separation, xp), state.depth
 
 
@@ -134,9 +131,10 @@ def block_separation(separation: Array, factors: tuple[int, ...]) -> Array:
 
 
 def _raised_blocks(separation: Array, factors: tuple[int, ...]) -> Array:
-    even = not any(n % 2 for n in local(separation).shape)
-    if factors == (2, 2) and planes.fit(separation) and agreed(separation, even):
-        return planes.raise_blocks(separation, tuning.SUMMITS)
+    passes = passes_over(separation) if factors == (2, 2) else None
+    raised = None if passes is None else passes.raise_blocks(separation, tuning.SUMMITS)
+    if raised is not None:
+        return raised
     low = block_minimum(separation, factors)
     if factors != (2, 2):
         return low

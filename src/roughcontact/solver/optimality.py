@@ -8,19 +8,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs, namespace
 from roughcontact.halfspace.operators.operator import Operator, self_influence
-from roughcontact.kernels import planes
-from roughcontact.solver.control import Force, Terms
+from roughcontact.kernels.planes import Extremes
+from roughcontact.slabs.passes import Passes, passes_over
+from roughcontact.solver import tuning
+from roughcontact.solver.control import Force, Specification
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 from roughcontact.validation import Array, Mask
 
-__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet"]
+__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
 
 
 # Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
@@ -46,10 +49,6 @@ class Iterate(NamedTuple):
     displacement: Array
     separation: Array
 
-    def fits_machine_code(self, plastic: bool = False) -> bool:
-        """Whether machine code takes the fields as they lie in memory; it knows no hardness."""
-        return not plastic and planes.fit(*self)
-
 
 class Evaluation(NamedTuple):
     """The residual of an iterate, and the depth at which it was found.
@@ -69,7 +68,15 @@ class Evaluation(NamedTuple):
     depth: float
     residual: float
     scale: float
-    extremes: planes.Extremes | None = None
+    extremes: Extremes | None = None
+
+
+class Quality(Enum):
+    """What is to be expected of a predicted free set (docs/method.md, "The first prediction")."""
+
+    GOOD = "predicted by an outer step or from a similar load, or of few cells"
+    GUESSED = "predicted from a pressure on less than half as many cells, as of summits"
+    BAD = "more than one cell in a hundred was left out"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,12 +93,15 @@ class PredictedSet:
         How many with pressure or penetration were left out, since a projected step of one cell leaves them none.
     support : bool array
         F and all cells with pressure.
+    quality : Quality
+        Of the first prediction of a run; those of its own iterates are good.
     """
 
     free: Mask
     count: int
     dropped: int
     support: Mask
+    quality: Quality = Quality.GOOD
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,33 +110,60 @@ class Optimality:
 
     Parameters
     ----------
-    terms : Terms
+    spec : Specification
     measure : Measure
         It carries the array library.
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
+    passes : Passes, optional
+        Over the fields, in machine code: it knows no hardness, and cells of one size alone.
     """
 
-    terms: Terms
+    spec: Specification
     measure: Measure
     self_influence: float
+    passes: Passes | None = None
 
     @classmethod
-    def of(cls, operator: Operator, terms: Terms, xp: Any = np) -> Optimality:
-        """Return the conditions for an operator and what is asked, on fields of an array library."""
-        return cls(terms, Measure(operator.weights, xp), self_influence(operator))
+    def of(cls, operator: Operator, spec: Specification, separation: Array) -> Optimality:
+        """Return the conditions for an operator and what is asked, on fields like the separation of the bodies."""
+        measure = Measure(operator.weights, namespace(separation))
+        passes = None if spec.plastic or measure.varies else passes_over(separation)
+        return cls(spec, measure, self_influence(operator), passes)
+
+    def feasible_start(self, separation: Array, initial: Array) -> Array:
+        """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
+
+        Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
+        them alone by the depth.
+        """
+        measure, passes, control = self.measure, self.passes, self.spec.control
+        if passes is not None and passes.fit(initial, separation):
+            total = float(measure.weights) * passes.positive_total(initial, separation)
+            if total > 0:
+                scale = control.value / total if isinstance(control, Force) else 1.0
+                return passes.positive_part(initial, separation, scale)
+        xp = measure.xp
+        p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
+        if not bool(xp.any(p > 0)):
+            lowest = separation == xp.min(separation)
+            lone = 1.0 if isinstance(control, Force) else control.value / self.self_influence
+            p = xp.where(lowest, lone, p)
+        if isinstance(control, Force):
+            p *= control.value / measure.total(p)
+        return p  # type: ignore[no-any-return]
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
         """Return depth and residual of an iterate."""
-        terms, measure = self.terms, self.measure
-        if not measure.varies and iterate.fits_machine_code(terms.plastic):
-            return self._evaluate_in_one_pass(iterate)
+        spec, measure, passes = self.spec, self.measure, self.passes
+        if passes is not None and passes.fit(*iterate):
+            return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
-        between = (pressure > 0) & (pressure < terms.hardness)
-        depth = force_multiplier(measure, gap, pressure, between) if terms.depth is None else terms.depth
+        between = (pressure > 0) & (pressure < spec.hardness)
+        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth
         gap -= depth
-        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
@@ -136,15 +173,15 @@ class Optimality:
         is infinite for a pressure that is negative, beyond the hardness, infinite or NaN. It measures the error of
         the algebra, not that of the grid.
         """
-        xp, hardness = self.measure.xp, self.terms.hardness
+        xp, hardness = self.measure.xp, self.spec.hardness
         # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
         strongest = float(xp.max(pressure))
         limited = bool(xp.all(pressure <= hardness))
         if not (float(xp.min(pressure)) >= 0 and limited and strongest < math.inf):
             return math.inf
         open_under_pressure = float(xp.max(xp.where(pressure > 0, gap, -math.inf)))
-        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.terms.plastic else gap))
-        scale = largest(displacement) if math.prod(displacement.shape) else 0.0
+        lowest = float(xp.min(xp.where(pressure == hardness, 0.0, gap) if self.spec.plastic else gap))
+        scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
         return self.relative(max(-lowest, open_under_pressure), scale, strongest)
 
     def relative(self, violation: float, scale: float, strongest: float) -> float:
@@ -158,41 +195,53 @@ class Optimality:
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        floor = UNITS * self.self_influence * strongest if isinstance(self.terms.control, Force) else 0.0
+        floor = UNITS * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
         return min(relative, UNITS) if violation <= floor else relative
 
     def predict_free_set(
-        self, iterate: Iterate, *, depth: float, allowed: float, projected: bool = False
+        self, iterate: Iterate, *, depth: float, allowed: float, first: bool = False
     ) -> PredictedSet:
         """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
 
-        If `projected`, those with ``A_ii p < g`` are left out: one projected step of the cell alone leaves no pressure
-        on them. Cells at the hardness are free where their gap is more than is allowed.
+        Cells at the hardness are free where their gap is more than is allowed. The `first` prediction comes from
+        another grid or load: cells with ``A_ii p < g`` are left out, since one projected step of such a cell alone
+        leaves no pressure on it.
         """
-        (pressure, displacement, separation), terms = iterate, self.terms
-        own = self.self_influence if projected else math.inf
-        if iterate.fits_machine_code(terms.plastic):
-            free, count, dropped = planes.predict_active(*iterate, depth=depth, least=-allowed, own=own)
-            return PredictedSet(free, count, dropped, free | (pressure > 0) if dropped else free)
-        xp, carrying = self.measure.xp, pressure > 0
-        gap = displacement + separation - depth
-        free, dropped = carrying | (gap < -allowed), 0
-        if terms.plastic:
-            upper = pressure >= terms.hardness
-            free = (free & ~upper) | (upper & (gap > allowed))
-        if projected:
-            tensile = free & (pressure * own < gap)
-            free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
-        return PredictedSet(free, int(xp.count_nonzero(free)), dropped, free | carrying)
+        (pressure, displacement, separation), spec = iterate, self.spec
+        a_ii, passes = self.self_influence if first else math.inf, self.passes
+        if passes is not None and passes.fit(*iterate):
+            free, count, dropped = passes.predict_active(*iterate, depth=depth, least=-allowed, a_ii=a_ii)
+            support = free | (pressure > 0) if dropped else free
+        else:
+            xp, carrying = self.measure.xp, pressure > 0
+            gap = displacement + separation - depth
+            free, dropped = carrying | (gap < -allowed), 0
+            if spec.plastic:
+                upper = pressure >= spec.hardness
+                free = (free & ~upper) | (upper & (gap > allowed))
+            if first:
+                tensile = free & (pressure * a_ii < gap)
+                free, dropped = free & ~tensile, int(xp.count_nonzero(tensile))
+            count, support = int(xp.count_nonzero(free)), free | carrying
+        quality = self._quality(count, dropped, pressure) if first else Quality.GOOD
+        return PredictedSet(free, count, dropped, support, quality)
 
-    def _evaluate_in_one_pass(self, iterate: Iterate) -> Evaluation:
-        seen, depth = planes.extremes(*iterate), self.terms.depth
-        if seen is None or (not seen.count and depth is None):
+    def _quality(self, count: int, dropped: int, pressure: Array) -> Quality:
+        if count <= tuning.SCREENING_CELLS:
+            return Quality.GOOD
+        if dropped > count / 100 and not self.measure.varies:
+            return Quality.BAD
+        few = self.measure.on_host and 2 * int(np.count_nonzero(pressure)) < count
+        return Quality.GUESSED if few else Quality.GOOD
+
+    def _evaluate_in_one_pass(self, iterate: Iterate, passes: Passes) -> Evaluation:
+        extremes, depth = passes.extremes(*iterate), self.spec.depth
+        if extremes is None or (not extremes.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:
-            depth = seen.level / seen.count
+            depth = extremes.level / extremes.count
         residual = math.inf
-        if seen.weakest >= 0:
-            violation = max(depth - seen.lowest, seen.highest - depth)
-            residual = self.relative(violation, seen.displacement, seen.strongest)
-        return Evaluation(depth, residual, seen.displacement, seen)
+        if extremes.weakest >= 0:
+            violation = max(depth - extremes.lowest, extremes.highest - depth)
+            residual = self.relative(violation, extremes.displacement, extremes.strongest)
+        return Evaluation(depth, residual, extremes.displacement, extremes)

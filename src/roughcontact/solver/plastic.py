@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from roughcontact.arrays import namespace
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.solver import tuning
-from roughcontact.solver.control import Depth, State, Terms
+from roughcontact.solver.control import Depth, Specification, State
 from roughcontact.solver.optimality import Optimality
 from roughcontact.solver.polonsky_keer import PolonskyKeer
 from roughcontact.solver.projection import bearing_level
@@ -16,36 +15,40 @@ from roughcontact.validation import Array
 __all__ = ["press_plastic"]
 
 
-def press_plastic(operator: Operator, separation: Array, terms: Terms, start: Array, max_steps: int) -> State:
-    """Press on terms with a hardness, from a `start` of the pressure [Pa].
+def press_plastic(
+    operator: Operator, separation: Array, spec: Specification, start: Array, max_steps: int
+) -> State:
+    """Press under a specification with a hardness, from a `start` of the pressure [Pa].
 
     Where nearly every cell in contact is plastic, the few between the bounds hardly determine the depth at a given
     force, and the projected method may cycle. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)
-    state = replace(solver, patience=tuning.PLASTIC_PATIENCE).run(operator, separation, terms, start)
-    if state.status.converged or terms.depth is not None:
+    state = replace(solver, patience=tuning.PLASTIC_PATIENCE).run(operator, separation, spec, start)
+    if state.status.converged or spec.depth is not None:
         return state
-    pressure, steps = _by_depth(operator, separation, terms, solver)
-    state = solver.run(operator, separation, terms, pressure)
+    pressure, steps = _by_depth(operator, separation, spec, solver)
+    state = solver.run(operator, separation, spec, pressure)
     return replace(state, steps=state.steps + steps)
 
 
-def _by_depth(operator: Operator, separation: Array, terms: Terms, solver: PolonskyKeer) -> tuple[Array, int]:
+def _by_depth(
+    operator: Operator, separation: Array, spec: Specification, solver: PolonskyKeer
+) -> tuple[Array, int]:
     """Return a pressure whose force is nearly the one prescribed, and the products that it took."""
-    conditions = Optimality.of(operator, terms, namespace(separation))
-    measure, force = conditions.measure, terms.control.value
+    conditions = Optimality.of(operator, spec, separation)
+    measure, force = conditions.measure, spec.control.value
     pressure, steps = measure.xp.zeros_like(separation), 0
 
     def excess(depth: float) -> float:
         nonlocal pressure, steps
-        state = solver.run(operator, separation, replace(terms, control=Depth(depth)), pressure)
+        state = solver.run(operator, separation, replace(spec, control=Depth(depth)), pressure)
         pressure, steps = state.pressure, steps + state.steps
         return measure.total(pressure) / force - 1
 
     # At least what the hardness does to a single cell: a flat body bears at depth zero, which cannot be doubled.
-    bearing = bearing_level(measure, separation, measure.xp.isfinite(separation), terms, force)
-    low, high = 0.0, max(bearing, conditions.self_influence * terms.largest_hardness)
+    bearing = bearing_level(measure, separation, measure.xp.isfinite(separation), spec, force)
+    low, high = 0.0, max(bearing, conditions.self_influence * spec.largest_hardness)
     below, above = -1.0, excess(high)
     for _ in range(tuning.DEPTH_TRIALS):
         if above >= 0:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import is_array, is_numpy, largest, namespace
+from roughcontact.arrays import is_array, is_numpy, max_abs, multiply, namespace
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
@@ -23,6 +23,7 @@ from roughcontact.solver.inner_operator import (
     inner_operator_on,
 )
 from roughcontact.solver.inner_product import Measure
+from roughcontact.solver.rows_operator import on_own_rows
 from roughcontact.solver.subdomain import Subdomain, bounding_box, prolong, restrict
 from roughcontact.solver.vectors import vectors_on
 from roughcontact.threads import one_blas_thread
@@ -150,27 +151,29 @@ def prescribe(
         target = xp.where(
             region, xp.zeros(region.shape, dtype=xp.float64, device=region.device) + displacement, 0.0
         )
-    size = largest(target)
+    size = max_abs(target)
     if not 0 < size < math.inf:
         raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
         raise ValueError("the initial pressure must be finite [Pa]")
     subdomain = _subdomain(operator, region)
     part, inside, wanted = operator, region, target
-    start = None if initial is None else xp.where(region, initial, 0.0)
     if subdomain is not None:
         part = _part(operator, subdomain)
         inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
-        start = None if start is None else restrict(start, subdomain)
+
+    def start() -> Array | None:
+        """Return the pressure to start from. Fields are large: the solve alone holds it."""
+        begun = None if initial is None else xp.where(region, initial, 0.0)
+        return begun if begun is None or subdomain is None else restrict(begun, subdomain)
+
     with one_blas_thread():
-        begun = [start]
-        del start  # whoever needs a plane is the only one to hold it, here and below
-        pressure, residual, steps = _solve(part, inside, wanted, begun.pop(), tolerance * size, max_steps, xp)
+        pressure, residual, steps = _solve(part, inside, wanted, start(), tolerance * size, max_steps, xp)
         # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
         work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
     return Prescribed(
-        whole, Measure(operator.weights, xp).total(whole), work, largest(residual) / size, steps
+        whole, Measure(operator.weights, xp).total(whole), work, max_abs(residual) / size, steps
     )
 
 
@@ -216,7 +219,7 @@ def _solve(
     operator: Operator,
     region: Mask,
     wanted: Array,
-    start: Array | None,
+    pressure: Array | None,
     limit: float,
     max_steps: int,
     xp: Any,
@@ -225,20 +228,19 @@ def _solve(
     before = math.inf
     inner: InnerOperator | None = None
     exact, steps = True, 0
-    if start is not None:
-        pressure, inner, steps = start, inner_operator_on(operator, region), 1
-        u, exact = first_product(operator, start, inner)
-        del start
+    if pressure is not None:
+        inner, steps = inner_operator_on(operator, region), 1
+        u, exact = first_product(operator, pressure, inner)
     elif (found := _on_few_cells(operator, region, wanted)) is not None:
         pressure, u = found
         # The matrix may differ from that of the products.
-        if largest(xp.where(region, wanted - u, 0.0)) > limit:
+        if max_abs(xp.where(region, wanted - u, 0.0)) > limit:
             u, steps = operator.apply(pressure), 1
     else:
         pressure, u = (xp.zeros(wanted.shape, dtype=wanted.dtype, device=wanted.device) for _ in range(2))
     while True:
         r = xp.where(region, wanted - u, 0.0)  # D2
-        error = largest(r)
+        error = max_abs(r)
         if not error > limit or steps >= max_steps:
             if exact:
                 return pressure, r, steps
@@ -251,20 +253,20 @@ def _solve(
                 return pressure, r, steps
             inner = FullGrid(operator)  # the inexact one reduces the residual no more
         before = error
-        part = inner.scaled(inner.gather(r), error)  # so that single precision holds all numbers
-        del u, r
-        vectors = vectors_on(
-            inner, Measure(inner.weights, xp), inner.gather(region), part, xp.zeros_like(part)
-        )
+        rows = on_own_rows(inner, r)
+        part = rows.scaled(rows.gather(r), error)  # so that single precision holds all numbers
+        del u, r  # fields are large, here and below
+        none = namespace(part).zeros_like(part)
+        vectors = vectors_on(rows, Measure(inner.weights, xp), rows.gather(region), part, none)
         _, done = conjugate_gradients(  # D3
-            inner,
+            rows,
             vectors,
             limit=max(0.5 * limit / error, inner.contraction),
             max_steps=max_steps - steps - 1,
         )
         correction = vectors.correction
         del vectors, part
-        pressure = pressure + inner.scatter(error * xp.astype(correction, xp.float64))  # D4
+        pressure = pressure + rows.scatter(multiply(correction, error))  # D4
         u, exact, steps = operator.apply(pressure), True, steps + done + 1
 
 

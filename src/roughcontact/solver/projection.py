@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
-from roughcontact.kernels import planes
-from roughcontact.solver.control import Control, Depth, Force, Terms
+from roughcontact.solver.control import Control, Depth, Force, Specification
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
@@ -19,7 +18,6 @@ __all__ = [
     "bearing_force",
     "bearing_level",
     "elastic_control",
-    "feasible_start",
     "force_multiplier",
     "project",
 ]
@@ -52,39 +50,16 @@ def elastic_control(operator: Operator, separation: Array, control: Control, xp:
     return control if control.value <= mean else Depth(mean)
 
 
-def feasible_start(
-    measure: Measure, separation: Array, control: Control, initial: Array, self_influence: float
-) -> Array:
-    """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
-
-    Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
-    them alone by the depth.
-    """
-    xp = measure.xp
-    if not measure.varies and planes.fit(initial, separation):
-        total = float(measure.weights) * planes.positive_total(initial, separation)
-        if total > 0:
-            scale = control.value / total if isinstance(control, Force) else 1.0
-            return planes.positive_part(initial, separation, scale)
-    p = xp.where(xp.isfinite(separation) & (initial > 0), initial, 0.0)
-    if not bool(xp.any(p > 0)):
-        lowest = separation == xp.min(separation)
-        p = xp.where(lowest, 1.0 if isinstance(control, Force) else control.value / self_influence, p)
-    if isinstance(control, Force):
-        p *= control.value / measure.total(p)
-    return p  # type: ignore[no-any-return]
-
-
-def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Array:
+def project(measure: Measure, pressure: Array, gap: Array, spec: Specification) -> Array:
     """Return the pressure projected onto the bounds, and onto the force where one is prescribed.
 
     Where cells without pressure have to carry some, those of the smallest `gap` do.
     """
-    hardness, xp = terms.hardness, measure.xp
-    if not isinstance(terms.control, Force):
+    hardness, xp = spec.hardness, measure.xp
+    if not isinstance(spec.control, Force):
         return xp.clip(pressure, 0.0, hardness)  # type: ignore[no-any-return]
-    force = terms.control.value
-    if not terms.plastic:
+    force = spec.control.value
+    if not spec.plastic:
         return _project_onto_simplex(measure, pressure, force)
     pressure = xp.clip(pressure, 0.0, hardness)
     # The missing force is distributed over the cells between the bounds. Each pass takes at least one cell to a bound,
@@ -95,36 +70,36 @@ def project(measure: Measure, pressure: Array, gap: Array, terms: Terms) -> Arra
             break
         free = (pressure > 0) & (pressure < hardness)
         if not bool(xp.any(free)):  # all at their bounds: the next cells to touch take it, or all give some
-            free = _nearest(measure, gap, pressure, terms, missing) if missing > 0 else pressure > 0
+            free = _nearest(measure, gap, pressure, spec, missing) if missing > 0 else pressure > 0
         pressure = xp.where(free, xp.clip(pressure + missing / measure.total(free), 0.0, hardness), pressure)
     return pressure
 
 
-def bearing_force(measure: Measure, cells: Mask, terms: Terms) -> float:
+def bearing_force(measure: Measure, cells: Mask, spec: Specification) -> float:
     """Return the force that cells bear at their hardness [N]."""
-    if isinstance(terms.hardness, int | float):
-        return terms.hardness * measure.total(cells)
-    return measure.total(measure.xp.where(cells, terms.hardness, 0.0))
+    if isinstance(spec.hardness, int | float):
+        return spec.hardness * measure.total(cells)
+    return measure.total(measure.xp.where(cells, spec.hardness, 0.0))
 
 
-def bearing_level(measure: Measure, level: Array, cells: Mask, terms: Terms, force: float) -> float:
+def bearing_level(measure: Measure, level: Array, cells: Mask, spec: Specification, force: float) -> float:
     """Return the smallest value such that the cells of no larger `level` bear a force at their hardness."""
     xp = measure.xp
     high, level = float(xp.max(xp.where(cells, level, -np.inf))), xp.where(cells, level, np.inf)
     low = float(xp.min(level))
     for _ in range(60):  # by bisection: cells are many, bisections are few
         middle = (low + high) / 2
-        if bearing_force(measure, level <= middle, terms) < force:
+        if bearing_force(measure, level <= middle, spec) < force:
             low = middle
         else:
             high = middle
     return high
 
 
-def _nearest(measure: Measure, gap: Array, pressure: Array, terms: Terms, force: float) -> Mask:
+def _nearest(measure: Measure, gap: Array, pressure: Array, spec: Specification, force: float) -> Mask:
     """Return the cells without pressure of the smallest gap, as many as bear twice a `force` at the hardness."""
     free = (pressure == 0) & measure.xp.isfinite(gap)
-    return free & (gap <= bearing_level(measure, gap, free, terms, 2 * force))  # type: ignore[no-any-return]
+    return free & (gap <= bearing_level(measure, gap, free, spec, 2 * force))  # type: ignore[no-any-return]
 
 
 def _project_onto_simplex(measure: Measure, pressure: Array, force: float) -> Array:

@@ -35,18 +35,20 @@ def defect_correction(
     initial : array
         Pressure to begin with [Pa].
     """
-    terms = conditions.terms
-    inner = replace(terms, tolerance=terms.tolerance / 2)
+    spec = conditions.spec
+    inner = replace(spec, tolerance=spec.tolerance / 2)
     defect, pressure, steps, best = conditions.measure.xp.zeros_like(separation), initial, 0, math.inf
     while True:
         # D1: the inexact problem, on which the defect acts as a part of the separation
         state = solver.run(operator, separation + defect, inner, pressure)
         pressure, steps = state.pressure, steps + state.steps + 1
         displacement = exact.apply(pressure)
-        depth, residual, _, seen = conditions.evaluate(Iterate(pressure, displacement, separation))
-        met, reduced = residual <= terms.tolerance, residual < best / 2
+        depth, residual, _, extremes = conditions.evaluate(Iterate(pressure, displacement, separation))
+        met, reduced = residual <= spec.tolerance, residual < best / 2
         if met or not reduced or not state.status.converged:
             status = Status.STAGNATED if state.status.converged else state.status
             status = Status.CONVERGED if met else status
-            return State(pressure, depth, residual, steps, status, displacement=displacement, extremes=seen)
+            return State(
+                pressure, depth, residual, steps, status, displacement=displacement, extremes=extremes
+            )
         best, defect = residual, displacement - operator.apply(pressure)  # D2: (A - A~) p

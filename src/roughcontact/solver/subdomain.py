@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy
 from roughcontact.halfspace.operators.operator import Capabilities, Operator, capabilities
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.solver import tuning
 from roughcontact.solver.complementarity import resolve_contact
-from roughcontact.solver.control import Solver, Start, State, Terms
+from roughcontact.solver.control import Solver, Specification, Start, State
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
@@ -79,25 +78,25 @@ class SubdomainSolver:
         self,
         solver: Solver,
         separation: Array,
-        terms: Terms,
+        spec: Specification,
         start: Start,
     ) -> tuple[State, Subdomain]:
         """Solve from a pressure on the whole grid and a depth; return the state and its subdomain."""
-        if not (self._can.positive and is_numpy(separation)):
+        if not (self._can.positive and isinstance(separation, np.ndarray)):
             # Elsewhere than on the host a box costs a transfer for each of its sides.
             whole = tuple(slice(0, n) for n in separation.shape)
-            return resolve_contact(solver, self.operator, separation, terms, start), whole
+            return resolve_contact(solver, self.operator, separation, spec, start), whole
         candidates = (separation < start.depth) | (start.pressure > 0)
         if not candidates.any():
             candidates = separation == separation.min()
-        if terms.plastic and terms.depth is None:
-            candidates |= _bearing_cells(Measure(self.operator.weights), separation, terms)
+        if spec.plastic and spec.depth is None:
+            candidates |= _bearing_cells(Measure(self.operator.weights), separation, spec)
         steps = 0
         while True:
             subdomain = self._subdomain(candidates)
             part = self.operator_on(subdomain)
-            limits = replace(terms, hardness=restrict_hardness(terms.hardness, subdomain))
-            inside = Start(restrict(start.take(), subdomain), start.depth)
+            limits = replace(spec, hardness=restrict_hardness(spec.hardness, subdomain))
+            inside = Start(restrict(start.move(), subdomain), start.depth)
             # Machine code takes fields whose numbers lie one after the other.
             below = np.ascontiguousarray(restrict(separation, subdomain))
             state = resolve_contact(solver, part, below, limits, inside)
@@ -114,8 +113,7 @@ class SubdomainSolver:
             if self._list is None or self._list[0] is not subdomain:
                 self._list = (subdomain, self._between(subdomain))
             return self._list[1]
-        shape = tuple(s.stop - s.start for s in subdomain)
-        if shape == self.operator.grid.shape:
+        if _size(subdomain) == self.operator.grid.size:
             return self.operator
         if self._box is None or self._box[0] != subdomain:
             self._box = (subdomain, self.operator.restrict(subdomain))
@@ -174,13 +172,13 @@ def restrict_hardness(hardness: float | Array, subdomain: Subdomain) -> float | 
     return hardness if isinstance(hardness, int | float) else restrict(hardness, subdomain)
 
 
-def _bearing_cells(measure: Measure, separation: Array, terms: Terms) -> Mask:
+def _bearing_cells(measure: Measure, separation: Array, spec: Specification) -> Mask:
     """Return the lowest cells that could carry twice the force under the hardness: a subdomain needs as many."""
     order = np.argsort(separation, axis=None, kind="stable")
     area = measure.on(order)
-    if not isinstance(terms.hardness, int | float):  # softer cells bear as smaller ones would
-        area = area * (terms.hardness.ravel()[order] / terms.largest_hardness)
-    count = int(np.searchsorted(np.cumsum(area), 2 * terms.control.value / terms.largest_hardness)) + 1
+    if not isinstance(spec.hardness, int | float):  # softer cells bear as smaller ones would
+        area = area * (spec.hardness.ravel()[order] / spec.largest_hardness)
+    count = int(np.searchsorted(np.cumsum(area), 2 * spec.control.value / spec.largest_hardness)) + 1
     bearing = np.zeros(separation.size, dtype=bool)
     bearing[order[:count]] = True
     return (bearing & np.isfinite(separation).ravel()).reshape(separation.shape)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 
-from roughcontact.arrays import largest
+from roughcontact.arrays import max_abs
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
 from roughcontact.kernels.constants import NEVER, ROUNDINGS
 from roughcontact.solver.compiled_vectors import CompiledVectors
-from roughcontact.solver.control import Terms
+from roughcontact.solver.control import Specification
 from roughcontact.solver.inner_operator import InnerOperator
 from roughcontact.solver.inner_product import Measure, Preconditioned, Products, Projected
 from roughcontact.solver.optimality import Iterate
@@ -86,11 +86,11 @@ class ArrayVectors:
     def residual_max(self) -> float:
         """Return the largest size of r on F."""
         self._r_free = self.r * self.free
-        return largest(self._r_free)
+        return max_abs(self._r_free)
 
     def bound_violation(self) -> float:
         """Return how far a pressure is out of its bounds at most, or that of an active cell from its bound."""
-        return largest(self._out_of_bounds())
+        return max_abs(self._out_of_bounds())
 
     def constraint_direction(self) -> float:
         """Make w = M^-1 1 on F; return its sum 1.w (B4)."""
@@ -170,7 +170,7 @@ class ArrayVectors:
         if not bool(xp.any(freed)):
             return 0.0
         self._set_free(self._free | freed, self._upper & ~freed)
-        return largest(xp.where(freed, r, 0.0))
+        return max_abs(xp.where(freed, r, 0.0))
 
     def pressure(self, start: Array, unit: float) -> Array:
         """Return the pressure on F that began as `start` and was corrected, in a `unit`; nowhere negative."""
@@ -213,14 +213,19 @@ def vectors_on(
 ) -> Vectors:
     """Return the vectors of a solve, in machine code where there is some; parameters as of `ArrayVectors`."""
     if _has_machine_code(residual, measure, bound):
-        return CompiledVectors(
-            inner, float(measure.weights), with_margins(free, residual.dtype), residual, base
-        )
+        free = with_margins(free, residual.dtype)
+        return CompiledVectors(inner, float(measure.weights), free, residual, base)
     return ArrayVectors(inner, measure, free, residual, base, upper, bound)
 
 
 def scaled_vectors(
-    inner: InnerOperator, measure: Measure, terms: Terms, free: Mask, iterate: Iterate, *, otherwise: float
+    inner: InnerOperator,
+    measure: Measure,
+    spec: Specification,
+    free: Mask,
+    iterate: Iterate,
+    *,
+    otherwise: float,
 ) -> tuple[Vectors, float]:
     """Return the vectors of a solve for a depth, in units of the first residual, and this unit (B1).
 
@@ -228,7 +233,7 @@ def scaled_vectors(
     ----------
     inner : InnerOperator
     measure : Measure
-    terms : Terms
+    spec : Specification
         Where no depth is prescribed it is the mean of u + f over F.
     free : bool array
         F at first, one cell at least, on the cells of the inner operator.
@@ -244,14 +249,14 @@ def scaled_vectors(
         Largest residual on F [m]: with it single precision holds all numbers. Pressures are in the unit too [Pa].
     """
     start, displacement, separation = iterate
-    bound = terms.largest_hardness  # that of all cells: others are solved by projection
+    bound = spec.largest_hardness  # that of all cells: others are solved by projection
     if _has_machine_code(separation, measure, bound):
         area = float(measure.weights)
-        return CompiledVectors.scaled(inner, area, free, iterate, depth=terms.depth, otherwise=otherwise)
+        return CompiledVectors.scaled(inner, area, free, iterate, depth=spec.depth, otherwise=otherwise)
     xp = measure.xp
     level = separation + displacement
-    depth = measure.mean(level, free) if terms.depth is None else terms.depth
-    unit = largest((depth - level)[free]) or otherwise or 1.0
+    depth = measure.mean(level, free) if spec.depth is None else spec.depth
+    unit = max_abs((depth - level)[free]) or otherwise or 1.0
     there = xp.isfinite(separation)
     residual = inner.scaled((depth - xp.where(there, level, 0.0)) / unit)
     residual = xp.where(there, residual, NEVER)

@@ -19,17 +19,16 @@ from roughcontact.study.executors import (
     Dask as Dask,
     Processes as Processes,
     Serial as Serial,
-    Slurm as Slurm,
 )
 from roughcontact.study.export import export as export
-from roughcontact.study.perform import perform as perform
 from roughcontact.study.ranges import Range as Range
 from roughcontact.study.record import Row as Row
 from roughcontact.study.run import run as run
+from roughcontact.study.run_task import run_task as run_task
 from roughcontact.study.store import Store as Store
 from roughcontact.study.study import Study as Study
 from roughcontact.study.study_errors import StoreError as StoreError, StudyError as StudyError
-from roughcontact.study.task import Executor as Executor, Outcome as Outcome, Summary as Summary, Task as Task
+from roughcontact.study.task import Executor as Executor, Result as Result, Summary as Summary, Task as Task
 
 __all__ = [
     name for name, each in globals().items() if not (name.startswith("_") or isinstance(each, _Module))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
-from roughcontact.study.gathering import Gathering
+from roughcontact.study.collect import Collector
 from roughcontact.study.study_errors import StudyError
 from roughcontact.version import __version__
 
@@ -72,7 +72,7 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
     """Return the records of a study side by side.
 
     Dimensions are the names of the study's table in their order (``row`` first, where it has rows), ``sample``, and
-    behind them those of the gathering. Along each lie the values of the parameter, in SI; parameters that are the same
+    behind them those of the collector. Along each lie the values of the parameter, in SI; parameters that are the same
     for all cases are coordinates without a dimension, unless the records say more by this name.
 
     - A variable that is the same in all records is kept once, with the dimensions it has in a record. So is a
@@ -102,7 +102,7 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
     outer, cases = tuple(layout.sizes), tuple(layout.sizes.values())
     status = np.full(cases, "missing")
     times = np.full(cases, np.nan)
-    gathering = Gathering(layout.sizes, frozenset(layout.coordinates))
+    collector = Collector(layout.sizes, frozenset(layout.coordinates))
     versions = set()
     for row in rows:
         place = layout.places.get(row.key)
@@ -111,11 +111,11 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
         status[place], times[place] = row.status, row.seconds
         record = row.record
         if record is not None:
-            gathering.add(place, record)
+            collector.add(place, record)
             versions.add(row.version)
 
-    constants = {name: value for name, value in layout.constants.items() if name not in gathering.names}
-    data, coordinates = gathering.laid()
+    constants = {name: value for name, value in layout.constants.items() if name not in collector.names}
+    data, coordinates = collector.variables()
     data["case_status"] = (outer, status, {"long_name": "whether the case is done, failed or missing"})
     if seconds:
         data["case_seconds"] = (outer, times, {"long_name": "wall time of the case", "units": "s"})
@@ -126,7 +126,7 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
     return xarray.Dataset(
         data,
         {**layout.coordinates, **coordinates, **constants},
-        {**_CONVENTIONS, **gathering.attributes, **source},
+        {**_CONVENTIONS, **collector.attributes, **source},
     )
 
 

@@ -15,12 +15,12 @@ from roughcontact.study.study_errors import StoreError, computed_again, on_disk
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["parted", "read_fields", "tidied", "write_fields"]
+__all__ = ["cleaned", "read_fields", "split", "write_fields"]
 
 _FOLDER = "fields"
 
 
-def parted(record: xarray.Dataset, names: tuple[str, ...]) -> tuple[xarray.Dataset, xarray.Dataset]:
+def split(record: xarray.Dataset, names: tuple[str, ...]) -> tuple[xarray.Dataset, xarray.Dataset]:
     """Return a record without its fields, and the fields, each with the coordinates that it needs."""
     rest = record.drop_vars(names)
     needed = {dimension for values in rest.data_vars.values() for dimension in values.dims}
@@ -68,7 +68,7 @@ def read_fields(folder: Path, key: str) -> xarray.Dataset:
         ) from error
 
 
-def tidied(folder: Path) -> None:
+def cleaned(folder: Path) -> None:
     """Remove what a killed process has left half-written."""
     for path in (folder / _FOLDER).glob(".*.part"):
         with suppress(OSError):

@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
 from roughcontact.study.executors.serial import Serial
-from roughcontact.study.perform import perform
+from roughcontact.study.run_task import run_task
 from roughcontact.study.store import Store
 
 if TYPE_CHECKING:
     from roughcontact.study.study import Study
-    from roughcontact.study.task import Executor, Outcome, Summary
+    from roughcontact.study.task import Executor, Result, Summary
 
 __all__ = ["run"]
 
@@ -26,7 +26,7 @@ def run(
     executor: Executor | None = None,
     *,
     retry: bool = False,
-    on_outcome: Callable[[Outcome], None] | None = None,
+    on_result: Callable[[Result], None] | None = None,
     on_progress: Callable[[Summary], None] | None = None,
 ) -> Summary:
     """Compute the cases of a study that a folder does not hold yet.
@@ -42,10 +42,10 @@ def run(
         Where cases are computed; by default one after the other in this process.
     retry : bool, optional
         Whether cases that failed before are tried again.
-    on_outcome : function, optional
-        Called with every outcome, after it was stored.
+    on_result : function, optional
+        Called with every result, after it was stored.
     on_progress : function, optional
-        Called with the `Summary` at the beginning and after every outcome.
+        Called with the `Summary` at the beginning and after every result.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def run(
     >>> summary = rc.study.run(study, "few")
     >>> summary.done, summary.left
     (2, 0)
-    >>> rc.study.run(study.with_samples(3), "few", on_outcome=lambda outcome: print("a case more")).done
+    >>> rc.study.run(study.with_samples(3), "few", on_result=lambda result: print("a case more")).done
     a case more
     3
     """
@@ -76,14 +76,14 @@ def run(
         tasks = {task.key: task for task in study.tasks() if task.key not in known}
         if on_progress is not None:
             on_progress(summary)
-        outcomes = (executor or Serial()).outcomes(perform, list(tasks.values()))
+        results = (executor or Serial()).results(run_task, list(tasks.values()))
         # Closing it stops the workers.
-        with closing(cast("Any", outcomes)):
-            for outcome in outcomes:
-                store.add(tasks[outcome.key], outcome)
-                summary = summary.after(failed=outcome.record is None, seconds=time.monotonic() - start)
-                if on_outcome is not None:
-                    on_outcome(outcome)
+        with closing(cast("Any", results)):
+            for result in results:
+                store.add(tasks[result.key], result)
+                summary = summary.after(failed=result.record is None, seconds=time.monotonic() - start)
+                if on_result is not None:
+                    on_result(result)
                 if on_progress is not None:
                     on_progress(summary)
     return replace(summary, seconds=time.monotonic() - start)

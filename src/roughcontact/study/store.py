@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from filelock import FileLock, Timeout
 
 from roughcontact.study.cases import find_case
-from roughcontact.study.field_files import parted, read_fields, tidied, write_fields
+from roughcontact.study.field_files import cleaned, read_fields, split, write_fields
 from roughcontact.study.record import COLUMNS, Row, checksum, encode, residual_of
 from roughcontact.study.schema import DATABASE, connected, guarded, made, patiently
 from roughcontact.study.study import Study
@@ -24,7 +24,7 @@ from roughcontact.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.study.task import Outcome, Task
+    from roughcontact.study.task import Result, Task
 
 __all__ = ["STUDY", "Store"]
 
@@ -59,7 +59,7 @@ class Store:
     >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
     >>> task = next(study.tasks())
     >>> with rc.study.Store.open("few", study) as store:
-    ...     store.add(task, rc.study.perform(task))
+    ...     store.add(task, rc.study.run_task(task))
     ...     print(store.summary().left, store.outdated(), task.key in store.done_keys(), len(store.failed_keys()))
     ...     print([row.status for row in store.rows()], store.failed())
     1 0 True 0
@@ -115,7 +115,7 @@ class Store:
             made(place)
             connection = connected(place, write=True)
             held.callback(connection.close)
-            tidied(place)
+            cleaned(place)
             if before != study:
                 with on_disk(place, f"{STUDY} cannot be written"):
                     study.write(place / STUDY)
@@ -141,7 +141,7 @@ class Store:
         """
         self._held.close()
 
-    def add(self, task: Task, outcome: Outcome) -> None:
+    def add(self, task: Task, result: Result) -> None:
         """Store what came of a task, in one transaction.
 
         A case that failed before is replaced; one that is done stays as it is.
@@ -150,7 +150,7 @@ class Store:
         ----------
         task : Task
             One of the study's.
-        outcome : Outcome
+        result : Result
             What came of it.
 
         Raises
@@ -158,11 +158,11 @@ class Store:
         StoreError
             If it cannot be written; what was stored before stays.
         """
-        record, residual = outcome.record, None
+        record, residual = result.record, None
         if record is not None:
             residual = residual_of(record)
             if task.case.fields:
-                record, fields = parted(record, task.case.fields)
+                record, fields = split(record, task.case.fields)
                 # First, so that there is never a row without them.
                 write_fields(self.folder, task.key, fields)
         values = (
@@ -170,8 +170,8 @@ class Store:
             task.sample,
             json.dumps(task.parameters.model_dump(mode="json")),
             "failed" if record is None else "done",
-            outcome.message.encode("utf-8", "replace").decode("utf-8"),  # bytes that are no letters become ?
-            float(outcome.seconds),
+            result.message.encode("utf-8", "replace").decode("utf-8"),  # bytes that are no letters become ?
+            float(result.seconds),
             __version__,
             residual,
             None if record is None else encode(record),

@@ -26,7 +26,7 @@ from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
 from roughcontact.study.checked import TOO_DEEP, Checked
 from roughcontact.study.ranges import Range
-from roughcontact.study.study_errors import StudyError, explained, meant
+from roughcontact.study.study_errors import StudyError, description, expected
 from roughcontact.study.task import Task, canonical, key_of
 from roughcontact.study.toml import toml_of
 from roughcontact.units import as_text
@@ -298,7 +298,7 @@ class Study(Checked):
         for place, names in places.items():
             for name in sorted(names - model.model_fields.keys()):
                 raise StudyError(
-                    f"{place}: the case {self.case!r} has no parameter {name!r}: {meant(name, model.model_fields)}"
+                    f"{place}: the case {self.case!r} has no parameter {name!r}: {expected(name, model.model_fields)}"
                 )
         for one, other in itertools.combinations(places, 2):
             for name in sorted(places[one] & places[other]):
@@ -327,6 +327,6 @@ def _reading(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
         try:
             return read(value)
         except ValidationError as error:
-            raise ValueError(explained(error)) from None
+            raise ValueError(description(error)) from None
 
     return reading

@@ -15,7 +15,16 @@ if TYPE_CHECKING:
     from pydantic import ValidationError
 
 __all__ = [
-    *("SAFE", "StoreError", "StudyError", "computed_again", "disk_trouble", "explained", "meant", "on_disk"),
+    *(
+        "SAFE",
+        "StoreError",
+        "StudyError",
+        "computed_again",
+        "disk_trouble",
+        "description",
+        "expected",
+        "on_disk",
+    ),
 ]
 
 SAFE = "what was stored before is safe"
@@ -93,14 +102,14 @@ def on_disk(folder: str | os.PathLike[str], what: str) -> Iterator[None]:
         raise disk_trouble(folder, what, error.__cause__ or error) from error
 
 
-def meant(name: str, known: Iterable[str]) -> str:
+def expected(name: str, known: Iterable[str]) -> str:
     """Return what a misspelt `name` may have meant, and all that is known."""
     known = sorted(known)
     near = get_close_matches(name, known, n=1)
     return (f"did you mean {near[0]!r}? " if near else "") + f"It may be {', '.join(known)}"
 
 
-def explained(error: ValidationError, known: Iterable[str] = ()) -> str:
+def description(error: ValidationError, known: Iterable[str] = ()) -> str:
     """Return what is wrong with the values of a model, which has fields of the `known` names."""
     return "; ".join(_line(each, known) for each in error.errors(include_url=False))
 
@@ -108,7 +117,7 @@ def explained(error: ValidationError, known: Iterable[str] = ()) -> str:
 def _line(found: Mapping[str, Any], known: Iterable[str]) -> str:
     place = ".".join(str(part) for part in found["loc"])
     if found["type"] == "extra_forbidden":
-        return f"there is no {place!r}: {meant(place, known)}"
+        return f"there is no {place!r}: {expected(place, known)}"
     if found["type"] == "missing":
         return f"{place!r} is missing"
     if found["type"] in ("value_error", "assertion_error"):  # of a validator, with words of its own

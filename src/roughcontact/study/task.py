@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from roughcontact.study.case import Case, Parameters
 
-__all__ = ["Executor", "Outcome", "Perform", "Summary", "Task", "canonical", "generator", "key_of"]
+__all__ = ["Executor", "Result", "RunTask", "Summary", "Task", "canonical", "generator", "key_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class Task:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class Result:
     """What came of a task: a record, or the reason why there is none.
 
     Parameters
@@ -68,8 +68,8 @@ class Outcome:
     >>> import roughcontact as rc
     >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
     >>> task = next(rc.study.Study(name="few", case="curve", parameters=fixed).tasks())
-    >>> outcome = rc.study.perform(task)
-    >>> outcome.key == task.key, outcome.message, outcome.record.sizes["load"]
+    >>> result = rc.study.run_task(task)
+    >>> result.key == task.key, result.message, result.record.sizes["load"]
     (True, '', 3)
     """
 
@@ -79,7 +79,7 @@ class Outcome:
     seconds: float
 
 
-Perform = Callable[[Task], Outcome]
+RunTask = Callable[[Task], Result]
 
 
 class Executor(Protocol):
@@ -90,8 +90,8 @@ class Executor(Protocol):
     >>> import roughcontact as rc
     >>> class Backwards:  # the last case first
     ...     workers = 1
-    ...     def outcomes(self, perform, tasks):
-    ...         yield from map(perform, reversed(list(tasks)))
+    ...     def results(self, run_task, tasks):
+    ...         yield from map(run_task, reversed(list(tasks)))
     >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
     >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
     >>> rc.study.run(study, "few", Backwards()).done
@@ -102,22 +102,22 @@ class Executor(Protocol):
     def workers(self) -> int:
         """How many tasks are computed at once."""
 
-    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
-        """Yield one outcome for each task, in whatever order they come.
+    def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield one result for each task, in whatever order they come.
 
-        `perform` never raises. A task that takes its worker down is yielded as failed, and takes no other task with
+        `run_task` never raises. A task that takes its worker down is yielded as failed, and takes no other task with
         it. Closing the iterator (or Ctrl-C while it waits) stops the workers; nothing goes on in the background.
 
         Parameters
         ----------
-        perform : function
-            Takes a task and returns its outcome; it never raises.
+        run_task : function
+            Takes a task and returns its result; it never raises.
         tasks : iterable of Task
             The tasks, which are taken one by one as workers become free.
 
         Yields
         ------
-        Outcome
+        Result
             One for each task.
 
         Raises

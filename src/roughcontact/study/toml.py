@@ -37,12 +37,10 @@ def _key(name: str) -> str:
 
 
 def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
+    if isinstance(value, (bool, str)):
+        return _text(value)
     if isinstance(value, (int, float)):
         return repr(value)
-    if isinstance(value, str):
-        return _text(value)
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, Mapping):
@@ -52,6 +50,6 @@ def _value(value: Any) -> str:
     )
 
 
-def _text(text: str) -> str:
-    # JSON's escapes are among those of TOML, which wants one more.
+def _text(text: bool | str) -> str:
+    # JSON writes truth values as TOML does, and its escapes are among those of TOML, which wants one more.
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -4,30 +4,16 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-import numpy.typing as npt
-import scipy.fft
-
 from roughcontact.grid import Grid
 from roughcontact.slabs.slabs import Slabs
-from roughcontact.surface.random_phases import Amplitudes, Keys, draw_keys, require_amplitudes, unit_waves
+from roughcontact.surface.random_heights import SizedSpectrum, random_heights
+from roughcontact.surface.random_phases import Amplitudes
 from roughcontact.surface.spectrum import SelfAffineSpectrum, StretchedSpectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.wave_grid import (
-    Spectrum,
-    Support,
-    cell_centres,
-    wave_amplitudes,
-    wave_integers,
-    wavenumbers,
-)
-from roughcontact.surface.waves_in_slabs import SizedSpectrum, heights_in_slabs
-from roughcontact.validation import Array, RngLike, numeric
+from roughcontact.surface.wave_grid import Spectrum, Support, wavenumbers
+from roughcontact.validation import RngLike, numeric
 
 __all__ = ["self_affine", "synthesise", "wavenumbers"]
-
-
-BLOCK = 2**15  # waves made at once: a megabyte or two of words and angles
 
 
 @numeric(rms="m", rms_band="m", rolloff="m", long_cutoff="m", short_cutoff="m")
@@ -126,7 +112,8 @@ def self_affine(
         if not isinstance(anisotropy, list | tuple) or len(anisotropy) != 2:
             raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
-    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal, slabs)
+    sized = SizedSpectrum(spectrum, support, rms, rms_band)
+    heights = random_heights(grid, sized, rng, amplitudes, nodal, slabs)
     return Surface(heights, grid, (f"self-affine, H = {hurst:g}{_size(rms, rms_band)}, inverse FFT",))
 
 
@@ -192,7 +179,8 @@ def synthesise(
     """
     if rms is not None and not (math.isfinite(rms) and rms > 0):
         raise ValueError(f"rms must be positive and finite [m], not {rms}")
-    heights = _heights(grid, spectrum, rng, rms, rms_band, support, amplitudes, nodal, slabs)
+    sized = SizedSpectrum(spectrum, support, rms, rms_band)
+    heights = random_heights(grid, sized, rng, amplitudes, nodal, slabs)
     size = _size(rms, rms_band)
     return Surface(heights, grid, (f"random surface of a given spectrum{size}, inverse FFT",))
 
@@ -202,53 +190,3 @@ def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
         return ""
     of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} to {rms_band[1]:g} m"
     return f", rms = {rms:g} m{of}"
-
-
-def _heights(
-    grid: Grid,
-    spectrum: Spectrum,
-    rng: RngLike,
-    rms: float | None,
-    rms_band: tuple[float, float] | None,
-    support: Support,
-    amplitudes: Amplitudes,
-    nodal: bool,
-    slabs: Slabs | None,
-) -> Array:
-    """Return the heights of eqs 2.12 and 2.15; the border has looked at `rms`, the rest is looked at here."""
-    require_amplitudes(amplitudes)
-    if nodal and any(grid.periodic):
-        raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
-    if nodal and min(grid.shape) < 3:
-        raise ValueError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}")
-
-    shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
-    if slabs is not None:
-        sized = SizedSpectrum(spectrum, support, rms, rms_band)
-        return heights_in_slabs(grid, sized, rng, amplitudes, slabs)  # type: ignore[return-value]
-    amplitude = wave_amplitudes(spectrum, shape, grid.spacing, support, rms=rms, rms_band=rms_band)
-    amplitude *= math.prod(shape)  # of the transform
-    waves = _waves(draw_keys(rng), amplitude, shape, amplitudes, nodal)
-    heights = np.asarray(scipy.fft.irfftn(waves, s=shape, overwrite_x=True))
-    return np.pad(heights, [(0, 1)] * grid.ndim, mode="wrap") if nodal else heights
-
-
-def _waves(
-    keys: Keys, amplitude: Array, shape: tuple[int, ...], amplitudes: Amplitudes, nodal: bool
-) -> npt.NDArray[np.complex128]:
-    """Return the waves about the first point, row by row: its place is the origin (nodal) or half a cell from it."""
-    *rows, columns = wave_integers(shape)
-    ky = rows[0] if rows else np.zeros(1, dtype=np.int64)
-    along, *across = reversed(cell_centres(shape))
-    waves = np.empty((len(ky), len(columns)), np.complex128)
-    powers = amplitude.reshape(waves.shape)
-    step = max(1, BLOCK // len(columns))
-    for start in range(0, len(ky), step):
-        part = slice(start, start + step)
-        waves[part] = unit_waves(keys, ky[part], (0, len(columns)), amplitudes)
-        waves[part] *= powers[part]
-        if not nodal:
-            waves[part] *= along
-            for turn in across:
-                waves[part] *= turn[part]
-    return waves.reshape(amplitude.shape)

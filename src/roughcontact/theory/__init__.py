@@ -15,7 +15,6 @@ if TYPE_CHECKING or _LATE is None:
         asperities as asperities,
         bearing_area_model as bearing_area_model,
         beat_wave as beat_wave,
-        bounds as bounds,
         bush_gibson_thomas as bush_gibson_thomas,
         cattaneo as cattaneo,
         chang_etsion_bogy as chang_etsion_bogy,

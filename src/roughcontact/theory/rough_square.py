@@ -34,7 +34,7 @@ LEAST_STIFFNESS = 0.035
 _REFERENCE = 0.02  # F/(E* h L) inside the window, where the errors of exponent and level hardly hang together
 _ROUND = 1e-9  # of a force at an end of the window
 # H; alpha and its standard error; kappa and its standard error over it; the correlation of both errors.
-# `python benchmarks/law_formula.py` prints it.
+# `python reproduction/benchmarks/law_formula.py` prints it.
 _TABLE = (
     (0.1, 0.75738, 0.00315, 0.068037, 0.00563, -0.62),
     (0.25, 0.71424, 0.00328, 0.071091, 0.00632, -0.45),

@@ -6,8 +6,8 @@ import pytest
 import roughcontact as rc
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.loop_case import CASE, LoopParameters
-from roughcontact.study.record import decode, encode, require_record
 from roughcontact.study.study_errors import StudyError
+from study.cases.pure import pure_record
 
 GIVEN = {
     "points": 32,
@@ -44,11 +44,7 @@ def test_it_is_the_loop_of_the_library(flow):
 
 
 def test_it_is_pure_and_survives_as_text():
-    one = run(seed=3)
-    require_record(one)
-    assert one.identical(run(seed=3))
-    assert not one.equals(run(seed=4))
-    assert decode(encode(one)).identical(one)
+    pure_record(run)
 
 
 def test_without_a_hardness_it_is_refused():

@@ -15,14 +15,14 @@ SCRIPT = """
 import signal
 
 from roughcontact.study.executors.processes import Processes
-from study.executors.workload import NUMBERS, perform, tasks
+from study.executors.workload import NUMBERS, run_task, tasks
 
 # A shell that starts a job in the background makes it deaf to Ctrl-C; a person's does not.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 print("started", flush=True)
 given = tasks(NUMBERS, [{"seconds": s} for s in %s])
-for outcome in Processes(2).outcomes(perform, given):
-    print(outcome.key, flush=True)
+for result in Processes(2).results(run_task, given):
+    print(result.key, flush=True)
 print("finished")
 """
 PATIENCE = 30  # [s], of a busy machine

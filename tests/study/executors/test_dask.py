@@ -11,10 +11,10 @@ import psutil
 import pytest
 
 from roughcontact.study.case import Case
-from roughcontact.study.executors import dask, farm
+from roughcontact.study.executors import dask, submission
 from roughcontact.study.executors.dask import Dask
 from roughcontact.study.executors.worker import WorkersError
-from study.executors.workload import FATE, NUMBERS, Numbers, bits, perform, tasks, truth, workers
+from study.executors.workload import FATE, NUMBERS, Numbers, bits, run_task, tasks, truth, workers
 
 distributed = pytest.importorskip("distributed")
 
@@ -35,14 +35,14 @@ def test_a_killed_worker_costs_nothing_and_a_killing_case_only_itself(monkeypatc
     rng = random.Random(2)
     given = tasks(NUMBERS, [{"value": i, "seconds": 0.002} for i in range(200)])
     (killer,) = tasks(FATE, [{"how": "kill"}], first=200)
-    kills, outcomes = set(rng.sample(range(20, 180), 2)), []
-    for outcome in Dask(workers=2).outcomes(perform, [*given[:100], killer, *given[100:]]):
-        outcomes.append(outcome)
-        if len(outcomes) in kills:
+    kills, results = set(rng.sample(range(20, 180), 2)), []
+    for result in Dask(workers=2).results(run_task, [*given[:100], killer, *given[100:]]):
+        results.append(result)
+        if len(results) in kills:
             time.sleep(rng.uniform(0, 0.004))
             rng.choice(workers()).kill()
-    assert bits(outcomes) == truth(given) | {killer.key: None}
-    (message,) = (outcome.message for outcome in outcomes if outcome.message)
+    assert bits(results) == truth(given) | {killer.key: None}
+    (message,) = (result.message for result in results if result.message)
     assert "its worker died in each of 2 tries" in message
     assert workers() == []
 
@@ -62,8 +62,8 @@ def answered(port, strangers):
 
 def test_nobody_without_the_keys_of_the_run_is_answered():
     pytest.importorskip("cryptography")
-    outcomes = Dask(workers=1).outcomes(perform, tasks(NUMBERS, [{}, {}, {}]))
-    next(outcomes)
+    results = Dask(workers=1).results(run_task, tasks(NUMBERS, [{}, {}, {}]))
+    next(results)
     family = [psutil.Process(), *workers()]
     assert len(family) == 2
     listening = {
@@ -85,7 +85,7 @@ def test_nobody_without_the_keys_of_the_run_is_answered():
         for address, given in (f"tcp://127.0.0.1:{port}", {}), (f"tls://127.0.0.1:{port}", known):
             with pytest.raises(OSError, match=r"closed|certificate|reset"):
                 asyncio.run(distributed.connect(address, 60, **given))
-    assert len(list(outcomes)) == 2
+    assert len(list(results)) == 2
     assert workers() == []
 
 
@@ -93,27 +93,27 @@ def test_a_scheduler_that_runs_already_is_used_and_left_alone(threads):
     given = tasks(NUMBERS, [{"value": i} for i in range(20)])
     for engine in Dask(cluster=threads), Dask(threads.scheduler_address):
         assert engine.workers == 1
-        assert bits(engine.outcomes(perform, given)) == truth(given)
+        assert bits(engine.results(run_task, given)) == truth(given)
     assert threads.status.name == "running"
 
 
 def test_a_scheduler_that_goes_is_told_of(threads):
-    outcomes = Dask(threads.scheduler_address).outcomes(perform, tasks(NUMBERS, [{"seconds": 0.1}] * 9))
-    next(outcomes)
+    results = Dask(threads.scheduler_address).results(run_task, tasks(NUMBERS, [{"seconds": 0.1}] * 9))
+    next(results)
     threads.close()
     with pytest.raises(WorkersError, match="the scheduler is gone; start it again"):
-        list(outcomes)
+        list(results)
 
 
 def test_a_scheduler_that_does_not_answer_is_told_of(monkeypatch):
-    monkeypatch.setattr(farm, "ANSWER", 0.2)
+    monkeypatch.setattr(submission, "ANSWER", 0.2)
     with pytest.raises(WorkersError, match="no scheduler answers at tcp"):
-        list(Dask("tcp://127.0.0.1:9").outcomes(perform, tasks(NUMBERS, [{}])))
+        list(Dask("tcp://127.0.0.1:9").results(run_task, tasks(NUMBERS, [{}])))
 
 
 def test_workers_of_another_version_are_refused(threads, monkeypatch):
-    from_elsewhere = Dask(threads.scheduler_address).outcomes(perform, tasks(NUMBERS, [{}]))
-    monkeypatch.setattr(farm, "__version__", "0.0.7")
+    from_elsewhere = Dask(threads.scheduler_address).results(run_task, tasks(NUMBERS, [{}]))
+    monkeypatch.setattr(submission, "__version__", "0.0.7")
     with pytest.raises(WorkersError, match=r"and here is 0\.0\.7"):
         list(from_elsewhere)
 
@@ -121,14 +121,14 @@ def test_workers_of_another_version_are_refused(threads, monkeypatch):
 def test_a_case_that_cannot_be_sent_or_loaded_is_refused(threads, monkeypatch):
     engine = Dask(cluster=threads)
     with pytest.raises(WorkersError, match="'local' cannot be sent to another process"):
-        list(engine.outcomes(perform, tasks(Case("local", 1, Numbers, lambda p, rng: None), [{}])))
-    monkeypatch.setattr(farm, "pickled", lambda *_: b"cfleeting\nrun\n.")
+        list(engine.results(run_task, tasks(Case("local", 1, Numbers, lambda p, rng: None), [{}])))
+    monkeypatch.setattr(submission, "pickled", lambda *_: b"cfleeting\nrun\n.")
     with pytest.raises(WorkersError, match="No module named 'fleeting'"):
-        list(engine.outcomes(perform, tasks(NUMBERS, [{}])))
+        list(engine.results(run_task, tasks(NUMBERS, [{}])))
 
 
 def test_starts_nothing_for_nothing():
-    assert list(Dask("tcp://127.0.0.1:9").outcomes(perform, [])) == []
+    assert list(Dask("tcp://127.0.0.1:9").results(run_task, [])) == []
 
 
 def test_what_makes_no_sense_is_refused(monkeypatch):

@@ -13,9 +13,9 @@ STUDY = Study(
 )
 
 
-def exported(folder, executor, on_outcome=None):
+def exported(folder, executor, on_result=None):
     """Return every bit of what a study exports, and what it has to say of itself."""
-    summary = run(STUDY, folder, executor, on_outcome=on_outcome)
+    summary = run(STUDY, folder, executor, on_result=on_result)
     assert (summary.done, summary.failed, summary.left) == (175, 35, 0)
     with Store.open(folder) as store:
         found = export(store)

@@ -13,16 +13,16 @@ import numpy as np
 import psutil
 
 from roughcontact.study.case import Case, Parameters
-from roughcontact.study.task import Outcome, Task
+from roughcontact.study.task import Result, Task
 
 
-def perform(task):
-    """Return the outcome of a task, as the study's own function does."""
+def run_task(task):
+    """Return the result of a task, as the study's own function does."""
     try:
         rng = np.random.default_rng([task.seed, task.sample])
-        return Outcome(task.key, task.case.run(task.parameters, rng), "", 0.01)
+        return Result(task.key, task.case.run(task.parameters, rng), "", 0.01)
     except Exception as error:
-        return Outcome(task.key, None, str(error), 0.01)
+        return Result(task.key, None, str(error), 0.01)
 
 
 class Numbers(Parameters):
@@ -107,16 +107,16 @@ def tasks(case, rows, first=0):
     return [Task(f"key{i}", case, case.parameters(**row), 0, i) for i, row in enumerate(rows, first)]
 
 
-def bits(outcomes):
+def bits(results):
     """Return every bit of the records, to be compared with ``==``; a key that comes twice is an error."""
     found = {}
-    for outcome in outcomes:
-        assert outcome.key not in found
-        assert (outcome.record is None) == bool(outcome.message)
-        found[outcome.key] = outcome.record and {name: v.tobytes() for name, v in outcome.record.items()}
+    for result in results:
+        assert result.key not in found
+        assert (result.record is None) == bool(result.message)
+        found[result.key] = result.record and {name: v.tobytes() for name, v in result.record.items()}
     return found
 
 
 def truth(found):
     """Return the bits that serial execution gives."""
-    return bits(map(perform, found))
+    return bits(map(run_task, found))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.halfspace.influence.love import over_cell
 from roughcontact.validation import Array
 
 __all__ = ["cerruti", "cerruti_table"]
@@ -46,7 +47,7 @@ def cerruti(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
     near, far = distance < NEAR * dy, distance >= FAR * dy
     middle = ~near & ~far
     value = np.empty((3, *a.shape))
-    value[:, near] = _closed(a[near], b[near], dx, dy)
+    value[:, near] = over_cell(_corner, a[near], b[near], dx, dy)
     value[:, middle] = _across(a[middle], b[middle], dx, dy, points=8)
     value[:, far] = _across(a[far], b[far], dx, dy, points=3)
     value[2] *= np.sign(x) * np.sign(y)
@@ -65,13 +66,8 @@ def cerruti_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     return table
 
 
-def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:
-    """Return corner sums of ``y asinh(x/|y|)``, ``x asinh(y/|x|)`` and ``-r``, whose mixed derivatives they are."""
-    right, left, top, bottom = x + dx / 2, x - dx / 2, y + dy / 2, y - dy / 2
-    return _corner(right, top) - _corner(left, top) - _corner(right, bottom) + _corner(left, bottom)
-
-
 def _corner(x: Array, y: Array) -> Array:
+    """Return ``y asinh(x/|y|)``, ``x asinh(y/|x|)`` and ``-r``, of which the integrands are mixed derivatives."""
     a, b = np.abs(x), np.abs(y)
     with np.errstate(divide="ignore", invalid="ignore"):
         first = np.where(b > 0, y * np.arcsinh(x / b), 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -51,7 +52,7 @@ def love(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
         a, b = (c[close] for c in np.broadcast_arrays(a, b))
         near = np.maximum(b, a - dx / 2) < NEAR * dy
         inner = np.empty(a.shape)
-        inner[near] = _closed(a[near], b[near], dx, dy)
+        inner[near] = over_cell(_corner, a[near], b[near], dx, dy)
         inner[~near] = _across(a[~near], b[~near], dx, dy)
         value[close] = inner
     value *= unit
@@ -117,13 +118,14 @@ def _square_log(x: Array) -> Array:
     return np.asarray(x**2 * np.log(np.where(x == 0, 1.0, np.abs(x))))
 
 
-def _closed(x: Array, y: Array, dx: float, dy: float) -> Array:
-    """Eq. A.16 by F(x, y) = x asinh(y/x) + y asinh(x/y), which keeps the digits that the logarithms lose."""
+def over_cell(corner: Callable[[Array, Array], Array], x: Array, y: Array, dx: float, dy: float) -> Array:
+    """Return the integral over a cell at an offset of what has the mixed antiderivative `corner`."""
     right, left, top, bottom = x + dx / 2, x - dx / 2, y + dy / 2, y - dy / 2
-    return _corner(right, top) - _corner(left, top) - _corner(right, bottom) + _corner(left, bottom)
+    return corner(right, top) - corner(left, top) - corner(right, bottom) + corner(left, bottom)
 
 
 def _corner(x: Array, y: Array) -> Array:
+    """Return F(x, y) = x asinh(y/x) + y asinh(x/y) of eq. A.16, which keeps the digits that the logarithms lose."""
     a, b = np.abs(x), np.abs(y)
     with np.errstate(divide="ignore", invalid="ignore"):
         value = np.where(a > 0, a * np.arcsinh(b / a), 0) + np.where(b > 0, b * np.arcsinh(a / b), 0)

@@ -231,14 +231,14 @@ class Tables:
         """
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
-        if not self.has(needed):
+        if not _holds(self._largest.values.shape, needed):
             if min(self._largest.values.shape) < FIRST_TABLE and needed != (1, 1):
                 self.table(tuple(min(FIRST_TABLE, end) for end in self.limit))
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
         large = self._largest  # another thread may put a larger one in its place
-        if all(n <= have for n, have in zip(needed, large.values.shape, strict=True)):
+        if _holds(large.values.shape, needed):
             return large.at(a, b)
         a, b = np.broadcast_arrays(a, b)
         near = (a < large.values.shape[0]) & (b < large.values.shape[1])
@@ -301,10 +301,9 @@ class Tables:
         return None if coarse is None else Tables(coarse, grid.shape)
 
 
-def spans(*places: Offsets) -> tuple[int, int]:
+def spans(rows: Offsets, columns: Offsets) -> tuple[int, int]:
     """Return the shape of the table that holds all offsets between cells of these rows and columns."""
-    down, across = (int(np.ptp(one)) + 1 if one.size else 1 for one in places)
-    return down, across
+    return (int(np.ptp(rows)) + 1, int(np.ptp(columns)) + 1) if rows.size else (1, 1)
 
 
 def blocks(length: int, width: int) -> list[slice]:
@@ -340,7 +339,7 @@ def _to_all_sides(table: Array) -> Array:
 
 
 def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
-    return all(n <= have for n, have in zip(small, large, strict=True))
+    return small[0] <= large[0] and small[1] <= large[1]
 
 
 def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], columns: slice = ALL) -> Array:

@@ -84,7 +84,7 @@ class CellsOperator:
     @property
     def weights(self) -> float:
         """Area of a cell [m^2]."""
-        return self.grid.cell_area
+        return self.grid.spacing[0]
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import Placed, namespace
+from roughcontact.arrays import DeviceTable, namespace
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.operator import Capabilities
 from roughcontact.validation import Array
@@ -37,10 +37,10 @@ class DenseOperator:
     matrix: Array
     positive: bool = True
     modulus: float | None = None
-    _placed: Placed = field(init=False, repr=False)
+    _table: DeviceTable = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_placed", Placed(self.matrix))
+        object.__setattr__(self, "_table", DeviceTable(self.matrix))
 
     @property
     def weights(self) -> float | Array:
@@ -61,7 +61,7 @@ class DenseOperator:
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
         xp = namespace(pressure)
-        product = self._placed.beside(pressure) @ xp.reshape(pressure, (-1,))
+        product = self._table.as_like(pressure) @ xp.reshape(pressure, (-1,))
         return xp.reshape(product, pressure.shape)  # type: ignore[no-any-return]
 
     def as_matrix(self, cells: Cells | None = None) -> Array:

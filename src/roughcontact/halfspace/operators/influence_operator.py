@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol, get_args
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import less, namespace, require_floating, require_no_unit
+from roughcontact.arrays import namespace, require_floating, require_no_unit, subtract
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
@@ -87,15 +87,15 @@ class InfluenceOperator:
     @property
     def capabilities(self) -> Capabilities:
         """What it can do beyond the protocol."""
-        fourier = self.summation is fourier_sum
+        fourier, periodic = self.summation is fourier_sum, self._periodic
         return Capabilities(
             exact=self.exact,
             modulus=self.influence.modulus,
             positive=self.positive,
-            semidefinite=self._periodic and self.constant == 0,
+            semidefinite=periodic and self.constant == 0,
             single_precision=fourier,
             # A mean that moves next to nothing does no harm in the steps of a solve.
-            single_convolution=(lambda field: self._sum.apply(field)) if fourier and self._periodic else None,
+            single_convolution=(lambda field: self._sum.apply(field)) if fourier and periodic else None,
             submatrix=self.submatrix if isinstance(self.influence, Tables) else None,
             coarsened=self.coarsened,
             approximate_inverse=self.approximate_inverse,
@@ -117,7 +117,7 @@ class InfluenceOperator:
         # The mean apart: where it moves nothing, its rounding moves nothing either.
         xp, plane = namespace(pressure), {"axis": (-2, -1), "keepdims": True}
         mean = xp.mean(pressure, **plane)
-        displacement = self._sum.apply(less(pressure, mean))
+        displacement = self._sum.apply(subtract(pressure, mean))
         if self.constant:
             displacement += self.constant * mean
         return displacement
@@ -136,7 +136,7 @@ class InfluenceOperator:
         part = self.grid.window(window)
         if part.shape == self.grid.shape:
             return self  # the whole keeps its period
-        if not self._periodic:  # a window that holds the whole period of a singly periodic body keeps it
+        if any(self.grid.periodic) and not self._periodic:  # a window may hold the whole of the one period
             sides = zip(self.grid.periodic, self.grid.shape, part.shape, strict=True)
             part = Grid(part.shape, part.spacing, [periodic and n == m for periodic, n, m in sides])
         return replace(self, grid=part)

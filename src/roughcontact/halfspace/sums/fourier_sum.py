@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import Placed, namespace
+from roughcontact.arrays import DeviceTable, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.influence.tables import Periodic
@@ -117,11 +117,11 @@ class TensorConvolution:
     __slots__ = ("_transfer", "lengths")
 
     def __init__(self, transfer: Array, lengths: Pair) -> None:
-        self._transfer, self.lengths = Placed(transfer), lengths
+        self._transfer, self.lengths = DeviceTable(transfer), lengths
 
     def apply(self, fields: Array) -> Array:
         """Return the convolution of fields of shape (2, ny, nx), padded by zeros, cut back to their own shape."""
-        factors, xp, (my, _) = self._transfer.beside(fields), namespace(fields), self.lengths
+        factors, xp, (my, _) = self._transfer.as_like(fields), namespace(fields), self.lengths
         upper = my // 2 + 1
 
         def multiply(spectrum: Any, columns: slice) -> None:

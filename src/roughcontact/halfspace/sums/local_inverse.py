@@ -20,16 +20,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import is_numpy
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import ALL, definite, wavenumbers
 from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
-from roughcontact.slabs.levels_of_slabs import divides
 from roughcontact.transforms import Convolution, fast_even_length
 from roughcontact.validation import Array
 
-__all__ = ["DIAGONAL_CORRECTION", "LocalInverse", "local_inverse"]
+__all__ = ["BLOCK", "DIAGONAL_CORRECTION", "LocalInverse", "local_inverse"]
 
 Field = npt.NDArray[Any]  # of single or double precision
 Pair = tuple[int, int]
@@ -78,13 +76,7 @@ class LocalInverse:
         box = blocks[0], blocks[1]
         return cls(near, Convolution(partial(_far, modulus, box, tuple(BLOCK * d for d in spacing)), box))
 
-    def fits(self, field: Any) -> bool:
-        """Whether it is one for a field: in slabs all blocks must lie on one process each, and none beside them."""
-        if self.far is None or is_numpy(field):
-            return True
-        return divides(field, (BLOCK,)) and self.far.lengths == tuple(-(-n // BLOCK) for n in field.shape)
-
-    def on(self, region: ActiveCells, field: Any) -> Any:
+    def on(self, region: ActiveCells, field: Field) -> Field:
         """Return the pressure [Pa] on a region under a displacement [m] that is zero elsewhere, and has margins."""
         pressure = sum_stencil(region, field, self.near.astype(field.dtype))
         if self.far is not None:

@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.arrays import over
+from roughcontact.arrays import divide
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
@@ -121,6 +121,7 @@ class TileOperator:
     contraction: float = 3e-5
     diagonal_correction: ClassVar[float] = DIAGONAL_CORRECTION
     local_inverse: ClassVar[None] = None  # `inverse` is that of the tiles
+    combine: ClassVar[None] = None
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
         """Return a field of the plane on the tiles, another value beyond the edge."""
@@ -132,7 +133,7 @@ class TileOperator:
 
     def scaled(self, values: Any, unit: float = 1.0) -> Any:
         """Return numbers over a unit, in single precision."""
-        return over(values, unit, "float32")
+        return divide(values, unit, "float32")
 
     def apply(self, pressure: Single) -> Single:
         """Return the displacement [m] under `pressure` [Pa]."""

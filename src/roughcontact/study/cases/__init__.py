@@ -9,7 +9,7 @@ from types import MappingProxyType, ModuleType
 from typing import TYPE_CHECKING
 
 from roughcontact.study.case import Case
-from roughcontact.study.study_errors import StudyError, meant
+from roughcontact.study.study_errors import StudyError, expected
 
 if TYPE_CHECKING:  # bundlers of programs read this
     from roughcontact.study.cases import (
@@ -58,7 +58,7 @@ def find_case(name: str) -> Case:
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:
-        raise StudyError(f"there is no case {name!r}: {meant(name, CASES)}; {_OWN}")
+        raise StudyError(f"there is no case {name!r}: {expected(name, CASES)}; {_OWN}")
     module, _, attribute = place.partition(":")
     found = getattr(_module(module, name), attribute, None)
     if not isinstance(found, Case):

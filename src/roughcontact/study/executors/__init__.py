@@ -3,4 +3,3 @@
 from roughcontact.study.executors.dask import Dask as Dask
 from roughcontact.study.executors.processes import Processes as Processes
 from roughcontact.study.executors.serial import Serial as Serial
-from roughcontact.study.executors.slurm import Slurm as Slurm

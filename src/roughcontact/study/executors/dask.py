@@ -11,13 +11,13 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.study.executors.farm import Site, connected, farmed
 from roughcontact.study.executors.keys import NO_PAGES, require_keys
 from roughcontact.study.executors.processes import usable_cores
+from roughcontact.study.executors.submission import Cluster, connected, submitted
 from roughcontact.study.executors.worker import WorkersError, require_cluster
 
 if TYPE_CHECKING:
-    from roughcontact.study.task import Outcome, Perform, Task
+    from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["Dask"]
 
@@ -59,7 +59,7 @@ class Dask:
     >>> executor = rc.study.Dask(workers=2)
     >>> executor.workers
     2
-    >>> outcomes = executor.outcomes(rc.study.perform, [])  # or rc.study.run(study, "folder", executor)
+    >>> results = executor.results(rc.study.run_task, [])  # or rc.study.run(study, "folder", executor)
     """
 
     def __init__(
@@ -86,19 +86,19 @@ class Dask:
         with connected(self._target) as client:
             return sum(client.nthreads().values())
 
-    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
-        """Yield one outcome for each task, in the order in which they are done.
+    def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield one result for each task, in the order in which they are done.
 
         Parameters
         ----------
-        perform : function
-            Takes a task and returns its outcome; it never raises.
+        run_task : function
+            Takes a task and returns its result; it never raises.
         tasks : iterable of Task
             The tasks, which are taken one by one as workers become free.
 
         Yields
         ------
-        Outcome
+        Result
             One for each task.
 
         Raises
@@ -106,14 +106,14 @@ class Dask:
         WorkersError
             If the scheduler cannot be reached or is gone, or its workers cannot load the case.
         """
-        return farmed(self._opened, perform, tasks)
+        return submitted(self._opened, run_task, tasks)
 
-    def _opened(self) -> AbstractContextManager[Site]:
-        return _local(self._workers) if self._target is None else nullcontext(Site(self._target))
+    def _opened(self) -> AbstractContextManager[Cluster]:
+        return _local(self._workers) if self._target is None else nullcontext(Cluster(self._target))
 
 
 @contextmanager
-def _local(workers: int) -> Iterator[Site]:
+def _local(workers: int) -> Iterator[Cluster]:
     """Start a scheduler and workers of one thread each, which obey nobody but this process."""
     import dask.config
     from distributed import LocalCluster
@@ -144,7 +144,7 @@ def _local(workers: int) -> Iterator[Site]:
                 '`if __name__ == "__main__":`, since they run the rest of it first'
             ) from error
         with cluster:
-            yield Site(cluster, partial(cluster.scale, workers), PATIENCE)
+            yield Cluster(cluster, partial(cluster.scale, workers), PATIENCE)
 
 
 @contextmanager

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from typing import IO, Any
 
 from roughcontact.study.executors.worker import computed, pickled
-from roughcontact.study.task import Perform, Task
+from roughcontact.study.task import RunTask, Task
 
 __all__ = ["Attempt", "Worker", "serve"]
 
@@ -52,14 +52,14 @@ class Worker:
 
     Parameters
     ----------
-    perform : bytes
+    run_task : bytes
         The pickled function that the tasks are put to.
     inbox : queue of pairs
-        Receives ``(worker, message)``: None once it is ready, the bytes of an outcome, a text where it cannot load
+        Receives ``(worker, message)``: None once it is ready, the bytes of a result, a text where it cannot load
         what it was sent; and ``EOFError`` as the last one, when its process is gone.
     """
 
-    perform: bytes
+    run_task: bytes
     inbox: queue.SimpleQueue[tuple[Worker, Any]]
     held: deque[Attempt] = field(default_factory=deque)  # the first is being computed
     room: int = 1
@@ -76,7 +76,7 @@ class Worker:
             process_group=0 if os.name == "posix" else None,
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
-        self._send(self.perform)
+        self._send(self.run_task)
         threading.Thread(target=self._listen, name=f"worker {self.pid}", daemon=True).start()
 
     @property
@@ -92,7 +92,7 @@ class Worker:
     def answered(self, seconds: float) -> None:
         """Strike the first task off, which took so many seconds."""
         self.held.popleft()
-        # The next one in advance bridges the time that the coordinator takes to store an outcome. Long tasks would
+        # The next one in advance bridges the time that the coordinator takes to store a result. Long tasks would
         # wait behind each other while a worker is idle.
         self.room = 2 if seconds < QUICK else 1
 
@@ -158,7 +158,7 @@ def serve() -> None:
     threading.Thread(target=listen, daemon=True).start()
     with suppress(OSError):
         _write(outgoing, None)
-        perform: Perform | None = None
+        run_task: RunTask | None = None
         while True:
             message = inbox.get()
             try:
@@ -166,10 +166,10 @@ def serve() -> None:
             except Exception as error:
                 _write(outgoing, f"{type(error).__name__}: {error}")
                 continue
-            if perform is None:
-                perform = loaded
+            if run_task is None:
+                run_task = loaded
             else:
-                _write(outgoing, computed(perform, loaded))
+                _write(outgoing, computed(run_task, loaded))
 
 
 def _write(stream: IO[bytes], message: object) -> None:

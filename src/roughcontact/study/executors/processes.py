@@ -13,7 +13,7 @@ from typing import Any
 
 from roughcontact.study.executors.process import Attempt, Worker
 from roughcontact.study.executors.worker import TRIES, WorkersError, cannot_load, lost, pickled
-from roughcontact.study.task import Outcome, Perform, Task
+from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["Processes", "usable_cores"]
 
@@ -36,8 +36,8 @@ class Processes:
     Examples
     --------
     >>> import roughcontact as rc
-    >>> executor = rc.study.Processes(2)  # rc.study.run(study, "folder", executor), or its outcomes one by one
-    >>> executor.workers, list(executor.outcomes(rc.study.perform, []))
+    >>> executor = rc.study.Processes(2)  # rc.study.run(study, "folder", executor), or its results one by one
+    >>> executor.workers, list(executor.results(rc.study.run_task, []))
     (2, [])
     """
 
@@ -54,19 +54,19 @@ class Processes:
         """How many tasks are computed at once."""
         return self._workers
 
-    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
-        """Yield one outcome for each task, in the order in which they are done.
+    def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield one result for each task, in the order in which they are done.
 
         Parameters
         ----------
-        perform : function
-            Takes a task and returns its outcome; it never raises.
+        run_task : function
+            Takes a task and returns its result; it never raises.
         tasks : iterable of Task
             The tasks, which are taken one by one as workers become free.
 
         Yields
         ------
-        Outcome
+        Result
             One for each task.
 
         Raises
@@ -74,8 +74,8 @@ class Processes:
         WorkersError
             If the workers do not start, or cannot load the case.
         """
-        with closing(_Crew(pickled(perform, "the function"), iter(tasks), self.workers)) as crew:
-            yield from crew.outcomes()
+        with closing(_Crew(pickled(run_task, "the function"), iter(tasks), self.workers)) as crew:
+            yield from crew.results()
 
 
 def usable_cores() -> int:
@@ -89,7 +89,7 @@ def usable_cores() -> int:
 class _Crew:
     """The workers of one run, and what they have before them."""
 
-    perform: bytes
+    run_task: bytes
     tasks: Iterator[Task]
     size: int
     again: deque[Attempt] = field(default_factory=deque)
@@ -98,13 +98,13 @@ class _Crew:
     inbox: queue.SimpleQueue[tuple[Worker, Any]] = field(default_factory=queue.SimpleQueue)
     stillborn: int = 0
 
-    def outcomes(self) -> Iterator[Outcome]:
+    def results(self) -> Iterator[Result]:
         while self._employ():
             worker, message = self.inbox.get()
             if isinstance(message, bytes):
-                outcome: Outcome = pickle.loads(message)
-                worker.answered(outcome.seconds)
-                yield outcome
+                result: Result = pickle.loads(message)
+                worker.answered(result.seconds)
+                yield result
             elif message is None:
                 worker.ready, self.stillborn = True, 0
             elif message is EOFError:
@@ -126,7 +126,7 @@ class _Crew:
                 if len(worker.held) < min(room, worker.room) and (attempt := self._next()):
                     worker.give(attempt)
             while room == 1 and len(self.workers) < self.size and (attempt := self._next()):
-                self.workers.append(Worker(self.perform, self.inbox))
+                self.workers.append(Worker(self.run_task, self.inbox))
                 self.workers[-1].give(attempt)
         return any(worker.held for worker in self.workers)
 
@@ -139,7 +139,7 @@ class _Crew:
             return self.alone.popleft()
         return None
 
-    def _bury(self, worker: Worker) -> Iterator[Outcome]:
+    def _bury(self, worker: Worker) -> Iterator[Result]:
         """See to the tasks of a worker that died."""
         self.workers.remove(worker)
         death = worker.death()

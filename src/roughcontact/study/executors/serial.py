@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from roughcontact.study.task import Outcome, Perform, Task
+    from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["Serial"]
 
@@ -22,7 +22,7 @@ class Serial:
     >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
     >>> study = rc.study.Study(name="few", case="curve", samples=2, parameters=fixed)
     >>> executor = rc.study.Serial()
-    >>> executor.workers, [outcome.message for outcome in executor.outcomes(rc.study.perform, study.tasks())]
+    >>> executor.workers, [result.message for result in executor.results(rc.study.run_task, study.tasks())]
     (1, ['', ''])
     """
 
@@ -31,20 +31,20 @@ class Serial:
         """How many tasks are computed at once: one."""
         return 1
 
-    def outcomes(self, perform: Perform, tasks: Iterable[Task]) -> Iterator[Outcome]:
-        """Yield the outcome of each task, in their order.
+    def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
+        """Yield the result of each task, in their order.
 
         Parameters
         ----------
-        perform : function
-            Takes a task and returns its outcome; it never raises.
+        run_task : function
+            Takes a task and returns its result; it never raises.
         tasks : iterable of Task
             The tasks, which are taken one by one as workers become free.
 
         Yields
         ------
-        Outcome
+        Result
             One for each task.
         """
         for task in tasks:
-            yield perform(task)
+            yield run_task(task)

@@ -1,4 +1,4 @@
-"""What every engine does in a worker: a task comes in, an outcome goes out as bytes."""
+"""What every engine does in a worker: a task comes in, a result goes out as bytes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pickle
 import sys
 from importlib import import_module
 
-from roughcontact.study.task import Outcome, Perform, Task
+from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled", "require_cluster"]
 
@@ -19,17 +19,17 @@ class WorkersError(RuntimeError):
     """The workers cannot be used: they do not start, cannot load the case, or have gone for good."""
 
 
-def computed(perform: Perform, task: Task) -> bytes:
-    """Return the outcome of `task`, pickled: one that cannot be sent is the failure of its case and of nothing else."""
+def computed(run_task: RunTask, task: Task) -> bytes:
+    """Return the result of `task`, pickled: one that cannot be sent is the failure of its case and of nothing else."""
     try:
-        outcome = perform(task)
+        result = run_task(task)
     except SystemExit as error:  # would end the worker
-        outcome = Outcome(task.key, None, f"the case called for an exit with status {error.code}", 0.0)
+        result = Result(task.key, None, f"the case called for an exit with status {error.code}", 0.0)
     try:
-        return pickle.dumps(outcome, pickle.HIGHEST_PROTOCOL)
+        return pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
     except Exception as error:
         message = f"its record cannot be sent back: {type(error).__name__}: {error}"
-        return pickle.dumps(Outcome(task.key, None, message, outcome.seconds), pickle.HIGHEST_PROTOCOL)
+        return pickle.dumps(Result(task.key, None, message, result.seconds), pickle.HIGHEST_PROTOCOL)
 
 
 def pickled(thing: object, name: str) -> bytes:
@@ -73,6 +73,6 @@ def cannot_load(reason: str) -> WorkersError:
     )
 
 
-def lost(task: Task, reason: str) -> Outcome:
-    """Return the outcome of a task that took its workers down."""
-    return Outcome(task.key, None, reason, 0.0)
+def lost(task: Task, reason: str) -> Result:
+    """Return the result of a task that took its workers down."""
+    return Result(task.key, None, reason, 0.0)

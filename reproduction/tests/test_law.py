@@ -1,0 +1,173 @@
+"""The ensembles of the law: their study files, and what the script makes of them."""
+
+import importlib.util
+import sys
+import tomllib
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+from roughcontact.files.write import write_netcdf
+from roughcontact.study.export import export
+from roughcontact.study.run import run
+from roughcontact.study.store import Store
+from roughcontact.study.study import Study
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted((ROOT / "examples" / "law").glob("*.toml"))
+
+
+def study(name):
+    return Study.read(ROOT / "examples" / "law" / f"{name}.toml")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_study_file_is_one_of_its_name_that_its_case_takes(path):
+    assert Study.read(path).name == path.stem
+    assert Study.read(path).combinations()
+    assert path.read_text(encoding="utf-8").startswith("# E")
+
+
+def test_every_ensemble_is_there():
+    assert {path.name[:2] for path in FILES} == {f"e{number}" for number in range(1, 8)}
+
+
+def test_surfaces_that_are_compared_are_the_same_draw():
+    assert {tomllib.loads(path.read_text(encoding="utf-8"))["seed"] for path in FILES} == {27}
+
+
+@pytest.mark.parametrize("name", ["e2-grids", "e3-modes", "e7-sizes"])
+def test_waves_of_a_nested_ensemble_have_one_amplitude_on_every_grid(name):
+    """The common band of two grids of one surface is the same heights, on the cells that both have in common."""
+    wide = [each for each in study(name).combinations() if each.short_cutoff is None]
+    lowest = min(each.hurst for each in wide)
+    grids = sorted((each for each in wide if each.hurst == lowest), key=lambda each: each.points)
+    for coarse, fine in pairwise(grids):
+        both = [waves(each) for each in (coarse, fine)]
+        # Of the rms height, which is that of about a thousand waves: what rounding leaves of each.
+        np.testing.assert_allclose(*both, atol=1e-12 * coarse.rms)
+
+
+def waves(parameters, highest=20):
+    """Return the complex amplitudes of the longest waves, their phases counted from the outer corner."""
+    heights = parameters.roughness(np.random.default_rng(3)).heights
+    n = parameters.points
+    kept = np.fft.fft2(heights)[: highest + 1, : highest + 1] / n**2
+    turn = np.exp(-1j * np.pi * np.arange(highest + 1) / n)  # half a cell
+    return kept * np.outer(turn, turn)
+
+
+@pytest.fixture(scope="module")
+def script():
+    """Return the script that writes the page, as a module."""
+    folder = ROOT / "reproduction" / "benchmarks"
+    sys.path.insert(0, str(folder))  # it takes those beside it
+    spec = importlib.util.spec_from_file_location("law", folder / "law.py")
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    yield found
+    for name in [*sys.modules]:
+        if name.startswith("law_") or name in ("certificate", "pages", "page_texts"):
+            del sys.modules[name]
+    sys.path.remove(str(folder))
+
+
+def test_the_page_shows_the_ensembles_that_are_there(script):
+    text = (ROOT / "docs" / "law.md").read_text(encoding="utf-8")
+    found = {"runs": script.runs()} | script.e3() | script.e7()
+    for name, table in found.items():
+        assert (table if name.endswith(" said") else f"<!-- table {name} -->\n{table}\n<!-- end -->") in text
+
+
+def test_a_page_without_ensembles_says_so(script, tmp_path):
+    assert set(script.tables(tmp_path)) == {"runs", "counts", "findings"}
+    assert script.tables(tmp_path)["findings"] == ""
+    page = "a\n<!-- table e3 -->\nold\n<!-- end -->\nb"
+    assert script.filled(page, {}) == "a\n<!-- table e3 -->\nNot computed yet.\n<!-- end -->\nb"
+    assert script.filled(page, {"e3": "new"}) == "a\n<!-- table e3 -->\nnew\n<!-- end -->\nb"
+
+
+@pytest.mark.parametrize("name", ["e4-models", "e5-patches", "e6-spheres"])
+def test_another_solver_finds_the_stiffness_of_a_member(script, name):
+    """The certificate bounds displacements to 1e-8 of the largest, by which depths are off; regions are the same."""
+    ((_, _, one, other, difference),) = script.check([name])
+    assert one == other
+    assert float(difference.removeprefix("below ")) <= 1e-8
+
+
+def test_a_power_law_and_the_limit_of_fine_grids_are_found(script):
+    from law_ensembles import law
+    from law_tables import power_limits
+
+    force = xarray.DataArray(np.geomspace(1e-3, 0.07, 6), dims="load")
+    alpha, zeta = law(force, 1.2 * force**0.6, force > 0)
+    assert float(alpha) == pytest.approx(0.6, rel=1e-12)
+    assert float(zeta) == pytest.approx(1.2, rel=1e-12)
+    n = np.array([128.0, 256.0, 512.0, 1024.0])
+    # w = 1 is not among the powers, which are 0.05 apart: the next one is 0.025 away at most.
+    limit, power = power_limits(n, (0.3 + 5 / n)[np.newaxis])[0]
+    assert power == pytest.approx(1, abs=0.025)
+    assert limit == pytest.approx(0.3, abs=5 / 1024 * np.log(8) * 0.025)
+
+
+def test_samples_drawn_again_scatter_as_the_mean_of_them(script):
+    """The bootstrap's standard error of a mean is s/sqrt(n); that of 400 replicates is off by 1/sqrt(800)."""
+    from law_ensembles import error, resampled
+
+    values = np.random.default_rng(5).normal(size=50)
+    found = resampled(xarray.DataArray(values[:, np.newaxis], dims=("sample", "load")))
+    assert float(found[0, 0]) == pytest.approx(values.mean(), rel=1e-12)
+    expected = values.std(ddof=1) / 50**0.5
+    assert float(error(found, 50)[0]) == pytest.approx(expected, rel=4 / 800**0.5)
+
+
+def test_whole_samples_are_kept_and_grids_of_one_surface_are_found(script, tmp_path):
+    from law_ensembles import grid, kept, read
+
+    fixed = {"points": 16, "size": 1.0, "modulus": 1.0, "rms": 0.01, "hurst": 0.8, "loads": 3}
+    rows = [{}, {"short_cutoff": 0.25}]
+    study = Study(name="few", case="curve", samples=3, parameters=fixed, rows=rows)
+    assert run(study, tmp_path / "few").done == 6
+    with Store.open(tmp_path / "few") as store:
+        exported = export(store, seconds=True)
+    exported["case_status"][1, 1] = "missing"
+    found = kept(exported)
+    assert found["sample"].values.tolist() == [0, 2]
+    assert found.attrs["failed"] == 0
+    write_netcdf(found, tmp_path / "few.nc", {})
+    ensemble = read("few", tmp_path)
+    every, cut = grid(ensemble, 16), grid(ensemble, 16, 0.25)
+    assert grid(ensemble, 32) is None
+    for place, one in enumerate((every, cut)):
+        stiffness = exported["dimensionless_stiffness"].isel(row=place, sample=[0, 2])
+        np.testing.assert_allclose(
+            one["dimensionless_stiffness"], stiffness, rtol=2.0**-23
+        )  # single precision
+        assert float(one["cell_stiffness"]) == float(np.ravel(exported["cell_stiffness"])[0])
+
+
+def test_the_library_has_the_law_of_the_ensembles(script):
+    """Its table is that of the file, to the last digit, and so are exponents, prefactors and their errors."""
+    from law_ensembles import error, read, value
+    from law_formula import table
+    from law_tables import e1_laws
+
+    from roughcontact.theory import rough_square
+
+    ensemble = read("e1-surfaces")
+    laws = e1_laws(ensemble)
+    samples = laws.attrs["samples"]
+    assert [tuple(map(float, row)) for row in table(laws)] == list(rough_square._TABLE)
+    hurst = laws["hurst"].to_numpy()
+    for computed, one, spread in (
+        (laws["alpha_mean"], rough_square.exponent(hurst), rough_square.exponent_error(hurst)),
+        (laws["zeta_mean"], rough_square.prefactor(hurst), rough_square.prefactor_error(hurst)),
+    ):
+        # The digits of the table: a fiftieth of the errors.
+        np.testing.assert_array_less(abs(value(computed) - one), error(computed, samples) / 50)
+        # Linear: an error of 4 % has squares of 0.2 %, and two digits of a correlation are 2 % of an error.
+        np.testing.assert_allclose(spread, error(computed, samples), rtol=0.03)
+    assert f"{rough_square.LEAST_STIFFNESS:g}" == f"{20 * float(ensemble['cell_stiffness'][0]):.2g}"

@@ -1,0 +1,162 @@
+"""Paths of adhesive states: followed with progress on a terminal, then printed, and written into a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from roughcontact.cached import cached_property
+from roughcontact.cli.exits import INTERRUPTED, MISSED
+from roughcontact.cli.messages import note, plain
+from roughcontact.cli.output import all_or_none, command_line
+from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.report import (
+    doing,
+    emit,
+    load_table,
+    note_files,
+    print_facts,
+    print_table,
+    screen,
+    size_of,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+    from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["PathAnswer", "collected"]
+
+State = TypeVar("State")
+Collected = TypeVar("Collected")
+
+
+def collected(
+    states: Iterable[State], collect: Callable[[Iterator[State]], Collected], words: str, total: int | None
+) -> tuple[Collected, bool]:
+    """Return what is collected of the states of a path, and whether it is whole.
+
+    Ctrl-C ends a path with the states that are done. Before the first state it is passed on, because there is nothing
+    to keep.
+    """
+    stopped: list[bool] = []
+
+    def watched() -> Iterator[State]:
+        done = 0
+        try:
+            for state in states:
+                done += 1
+                progress.advance(task)
+                yield state
+        except KeyboardInterrupt:
+            if not done:
+                raise
+            stopped.append(True)
+
+    columns = (TextColumn(words), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=screen()) as progress:
+        task = progress.add_task("", total=total)
+        found = collect(watched())
+    return found, not stopped
+
+
+@dataclass(frozen=True)
+class PathAnswer:
+    """A path that was followed.
+
+    Parameters
+    ----------
+    command : str
+    file : Path
+        Where the surface comes from.
+    surface : Surface
+    found : AdhesiveCurve or DetachmentCurve
+    whole : bool
+        Whether it has all its loads.
+    stem, event : str
+        How its files are called: ``curve`` and ``jump``.
+    converged : bool
+        Whether the tolerance was met.
+    """
+
+    command: str
+    file: Path
+    surface: Surface
+    found: AdhesiveCurve | DetachmentCurve
+    whole: bool
+    stem: str
+    event: str
+    converged: bool
+
+    def record(self) -> dict[str, Any]:
+        """Return the answer as plain values."""
+        return {
+            "command": f"adhesion {self.command}",
+            "file": plain(str(self.file)),
+            "surface": list(self.surface.provenance),
+            "kind": self._pressed.kind.value,
+            **self.found.to_record(),
+            "converged": self.converged,
+            "whole": self.whole,
+        }
+
+    def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure], ending: str) -> None:
+        """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
+        from roughcontact.files.provenance import provenance
+        from roughcontact.files.write import write_csv, write_json, write_netcdf
+        from roughcontact.plot.canvas import save
+
+        scales = {"modulus": self.found.modulus, "tolerance": self.found.tolerance}
+        source = provenance(self.surface, control=control, command=command_line(), **scales)
+        dataset = self.found.to_dataset()
+        with doing("Writing files"), all_or_none(folder) as aside:
+            write_netcdf(dataset, aside / f"{self.stem}.nc", source)
+            write_csv(dataset, aside / f"{self.stem}.csv", source)
+            write_csv(dataset, aside / f"{self.event}s.csv", source, dimension=self.event)
+            save(drawn(self.found), aside / f"{self.stem}.{ending}")
+            write_json(self.record(), aside / f"{self.stem}.json", source)
+
+    def tell(
+        self,
+        columns: Sequence[str],
+        before: Sequence[tuple[str, str]],
+        after: Sequence[tuple[str, str]],
+        *,
+        json: bool,
+    ) -> None:
+        """Print the loads between facts, or one JSON object; note how many loads missed the tolerance."""
+        found = self.found
+        if json:
+            emit(self.record())
+        else:
+            print_facts([("surface", size_of(self.surface.grid)), *self._pressed.facts(), *before])
+            print_table(*load_table(found.to_dataset(), tuple(columns)))
+            print_facts(after)
+        if missed := sum(not status.converged for status in found.status):
+            note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
+
+    def end(self, folder: Path | None, ending: str, total: int | None) -> None:
+        """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
+        names = (f"{self.stem}.csv", f"{self.event}s.csv", f"{self.stem}.json", f"{self.stem}.nc")
+        note_files(folder, (*names, f"{self.stem}.{ending}"))
+        if not self.whole:
+            kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
+            note(
+                f"stopped: {kept}; a path of surfaces that stick cannot be resumed, because its states depend on the "
+                "history"
+            )
+            raise typer.Exit(INTERRUPTED)
+        if not self.converged:
+            raise typer.Exit(MISSED)
+
+    @cached_property
+    def _pressed(self) -> Pressed:
+        return Pressed.of(self.surface, self.found.modulus, None)

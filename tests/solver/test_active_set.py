@@ -1,0 +1,109 @@
+"""What becomes of a first prediction of the free set: three ways, one answer (docs/method.md, A7 to A9)."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.kernels import loader
+from roughcontact.solver import active_set
+from roughcontact.solver.control import Force, Specification
+from roughcontact.solver.optimality import Iterate, Optimality, Quality
+
+GRID = rc.Grid((40, 40), 1.0)
+BODY = rc.half_space(GRID, 1.0)
+GAP = -rc.shapes.paraboloid(GRID, radius=200.0).heights
+GAP -= GAP.min()
+TERMS = Specification(Force(12.0))  # of which some 450 cells come into contact
+LIMIT = 300  # cells up to which any prediction is good, and which are always factorised
+STARTS = {
+    Quality.GOOD: lambda solved: solved**0.95,  # as of a similar load
+    Quality.GUESSED: lambda solved: np.where(GAP == 0, 1.0, 0.0),  # one cell, which goes too deep
+    Quality.BAD: lambda solved: np.ones(GRID.shape),  # all cells, of which many have far too large a gap
+}
+
+
+@pytest.fixture(scope="module")
+def solved():
+    return rc.ActiveSet(dense_limit=0).run(BODY, GAP, TERMS, np.zeros(GRID.shape)).pressure
+
+
+@pytest.fixture
+def followed(monkeypatch):
+    """Return what the outer iteration does: the cells of each direct solve, and of each that is screened."""
+    seen = []
+
+    def noting(name, cells_of):
+        function = getattr(active_set, name)
+
+        def noted(*given, **named):
+            seen.append((name, cells_of(*given)))
+            return function(*given, **named)
+
+        monkeypatch.setattr(active_set, name, noted)
+
+    noting("press_cells", lambda operator, separation, control, cells: len(cells))
+    noting("_screened", lambda operator, iterate, conditions, predicted, limit: predicted.count)
+    return seen
+
+
+def first(quality, solved):
+    p = STARTS[quality](solved)
+    conditions = Optimality.of(BODY, TERMS, GAP)
+    iterate = Iterate(
+        p * (TERMS.control.value / p.sum()), BODY.apply(p * (TERMS.control.value / p.sum())), GAP
+    )
+    found = conditions.evaluate(iterate)
+    allowed = 0.5 * TERMS.tolerance * found.scale
+    return [
+        conditions.predict_free_set(iterate, depth=found.depth, allowed=allowed, first=first)
+        for first in (True, False)
+    ]
+
+
+@pytest.mark.parametrize("quality", Quality)
+def test_the_quality_of_a_first_prediction(quality, solved):
+    predicted, later = first(quality, solved)
+    assert predicted.quality is quality
+    assert later.quality is Quality.GOOD
+    assert predicted.count > LIMIT
+
+
+@pytest.mark.parametrize("quality", Quality)
+@pytest.mark.parametrize("cheap", [True, False], ids=["cheap steps", "dear steps"])
+def test_each_way_leads_to_the_same_answer(quality, cheap, solved, followed, monkeypatch):
+    if cheap and not loader.is_available():
+        pytest.skip("no machine code here")
+    monkeypatch.setattr(active_set.tuning, "DIRECT_BESIDE_TILES", GRID.size)  # beside which tiles cost less
+    if not cheap:
+        monkeypatch.setattr(active_set.tuning, "SCREENING_GRID", 0)
+    state = rc.ActiveSet().run(BODY, GAP, TERMS, STARTS[quality](solved))
+    assert state.status.converged
+    # Both displacements meet the tolerance, so that pressures differ by a few times that, see method.md, section 1.
+    assert np.abs(state.pressure - solved).max() * Optimality.of(BODY, TERMS, GAP).self_influence <= 10 * (
+        TERMS.tolerance * BODY.apply(solved).max()
+    )
+    predicted = first(quality, solved)[0].count
+    direct = [count for name, count in followed if name == "press_cells"]
+    screened = [count for name, count in followed if name == "_screened"]
+    if cheap and quality is not Quality.GOOD:  # solved roughly, and then by a matrix of few cells alone
+        assert not screened
+        assert max(direct, default=0) <= LIMIT
+    elif quality is Quality.BAD:  # made smaller on its matrix
+        assert screened == [predicted]
+        assert direct[0] < predicted
+    else:
+        assert not screened
+        assert direct[0] == predicted
+
+
+def test_a_matrix_that_is_not_definite_is_left_for_steps(solved, monkeypatch):
+    def failing(*given):
+        raise np.linalg.LinAlgError
+
+    monkeypatch.setattr(active_set, "press_cells", failing)
+    state = rc.ActiveSet().run(BODY, GAP, TERMS, solved)
+    assert state.status.converged
+    assert state.tangent is None
+    assert math.isclose(state.pressure.sum(), TERMS.control.value, rel_tol=1e-12)
