@@ -100,7 +100,7 @@ def detachment_state_dataset(state: DetachmentState) -> xarray.Dataset:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> *_, state = rc.detachment(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
+    >>> *_, state = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
     >>> state.to_dataset()["detachment_depth"].attrs["units"]
     'm'
     """
@@ -130,7 +130,7 @@ def detachment_state_record(state: DetachmentState) -> dict[str, Any]:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> *_, state = rc.detachment(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
+    >>> *_, state = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
     >>> state.to_record()["status"]
     'converged'
     """

@@ -60,7 +60,7 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
     >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 2e-8), radius=1e-5)
     >>> state = rc.adhesive_state(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=2e-9)
     >>> f"{float(state.to_dataset()['adhesive_energy']) * 1e15:.1f} fJ of adhesion"
-    '-5.7 fJ of adhesion'
+    '-3.8 fJ of adhesion'
     """
     problem, kind = state.problem, state.geometry
     grid = problem.operator.grid
