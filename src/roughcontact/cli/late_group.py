@@ -86,11 +86,11 @@ def _elsewhere(ctx: Any, option: str) -> str:
         for name, group in root.command.commands.items()
         if isinstance(group, TyperGroup)
     }
-    named = {path: group.get_command(ctx, ctx.info_name) for path, group in groups.items()}
     found = [
         f"'{path} {ctx.info_name}'"
-        for path, command in named.items()
-        if command is not None and any(option in each.opts for each in command.params)
+        for path, group in groups.items()
+        if ctx.info_name in group.commands
+        and any(option in each.opts for each in group.get_command(ctx, ctx.info_name).params)
     ]
     return f"use {' or '.join(found)} for it" if found else ""
 
