@@ -156,7 +156,10 @@ class TestMemory:
         monkeypatch.setattr(memory, "most_memory", lambda: 6e4)
         answer = invoke(*words)
         assert answer.exit_code == 0
-        assert f"Note: a {'load' if verb == 'press' else 'curve'} on 24 x 32 cells needs up to 0.000" in answer.stderr
+        assert (
+            f"Note: a {'load' if verb == 'press' else 'curve'} on 24 x 32 cells needs up to 0.000"
+            in answer.stderr
+        )
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
         read = options.Source.map_or_line
