@@ -12,7 +12,7 @@ import io
 import sys
 import tokenize
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Collection, Container, Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
 
@@ -80,32 +80,44 @@ def options() -> dict[str, int]:
     return dict(sorted(walk("", get_command(app)), key=lambda item: -item[1]))
 
 
-def imports(tree: ast.AST, *, typed: bool) -> Iterator[str]:
-    """Yield the names of what a module imports, in functions too; with `typed` also what is for type checkers alone."""
+def import_graph(source: Path = SOURCE, *, typed: Collection[str] = ()) -> dict[str, set[str]]:
+    """Return the modules of a package that each of them imports, in functions too; those in `typed` for types, too.
+
+    A package is imported where a name is taken of it that is none of its modules.
+    """
+    trees = {}
+    for path in source.rglob("*.py"):
+        parts = path.relative_to(source.parent).with_suffix("").parts
+        trees[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(path.read_text("utf-8"))
+    return {
+        name: set(_imports(tree, trees, typed=name in typed)) & trees.keys() - {name}
+        for name, tree in trees.items()
+    }
+
+
+def _imports(tree: ast.AST, known: Container[str], *, typed: bool) -> Iterator[str]:
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            yield from (node.module or "", *(f"{node.module}.{alias.name}" for alias in node.names))
-        elif typed or not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)):
-            yield from imports(node, typed=typed)
+            whole = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from (name if name in known else node.module or "" for name in whole)
+        elif not typed and isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            yield from _imports(ast.Module(node.orelse, []), known, typed=typed)
+        else:
+            yield from _imports(node, known, typed=typed)
 
 
-def circles(*, typed: bool = False) -> list[list[str]]:
+def circles(graph: Mapping[str, Collection[str]]) -> list[set[str]]:
     """Return the modules that import each other, in a circle each, the largest first."""
-    trees = {
-        ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts): ast.parse(path.read_text("utf-8"))
-        for path in SOURCE.rglob("*.py")
-        if path.name != "__init__.py"
-    }
-    place = {name: number for number, name in enumerate(trees)}
-    arrows = [(place[a], place[b]) for a in trees for b in imports(trees[a], typed=typed) if b in place]
-    rows, columns = np.array(arrows).T
-    graph = scipy.sparse.coo_array((np.ones(len(arrows)), (rows, columns)), shape=(len(trees),) * 2)
-    _, parts = scipy.sparse.csgraph.connected_components(graph, connection="strong")
-    members: dict[int, list[str]] = defaultdict(list)
-    for name, part in zip(trees, parts, strict=True):
-        members[part].append(name)
+    place = {name: number for number, name in enumerate(graph)}
+    arrows = [(place[a], place[b]) for a in graph for b in graph[a]]
+    rows, columns = np.array(arrows, int).reshape(-1, 2).T
+    arrows_of = scipy.sparse.coo_array((np.ones(len(arrows)), (rows, columns)), shape=(len(graph),) * 2)
+    _, parts = scipy.sparse.csgraph.connected_components(arrows_of, connection="strong")
+    members: dict[int, set[str]] = defaultdict(set)
+    for name, part in zip(graph, parts, strict=True):
+        members[part].add(name)
     return sorted((names for names in members.values() if len(names) > 1), key=len, reverse=True)
 
 
@@ -133,8 +145,7 @@ if __name__ == "__main__":
     write(f"files in a folder: {list(files_in_folders().items())[:8]}\n")
     write(f"parameters: {list(widths().items())[:8]}\n")
     write(f"options: {list(options().items())[:12]}\n")
-    write(
-        f"circles: {[len(circle) for circle in circles()]}, with types {[len(c) for c in circles(typed=True)]}\n"
-    )
+    late, every = import_graph(), import_graph(typed=import_graph())
+    write(f"circles: {list(map(len, circles(late)))}, with types {list(map(len, circles(every)))}\n")
     for cells in (64, 256):
         write(f"changes of file and calls, {cells} cells a side: {ways(cells)}\n")

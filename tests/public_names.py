@@ -25,6 +25,7 @@ from numpydoc.validate import Validator, validate
 
 import roughcontact
 from roughcontact.cached import cached_property
+from roughcontact.late import LateMethod
 
 # Of numpydoc's checks those of content: there is a docstring (GL08); it names the parameters of the signature, no
 # other, in their order, with a type (PR01, PR02, PR03, PR04); it says what is returned or yielded (RT01, YD01).
@@ -89,7 +90,8 @@ def _reached(path: str, module: ModuleType) -> Iterator[tuple[str, Any]]:
         elif inspect.isfunction(value) or inspect.isclass(value):
             yield here, value
             for member, what in vars(value).items() if inspect.isclass(value) else ():
-                what = what.__func__ if isinstance(what, staticmethod | classmethod) else what
+                if isinstance(what, staticmethod | classmethod | LateMethod):
+                    what = what.__get__(None, value)
                 if not member.startswith("_") and (
                     inspect.isfunction(what) or isinstance(what, property | cached_property)
                 ):

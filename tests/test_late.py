@@ -1,16 +1,20 @@
 """Names that are imported when they are first asked for."""
 
 import compileall
+import inspect
 import os
+import pydoc
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import xarray
+from matplotlib.axes import Axes
 
 import roughcontact as rc
-from roughcontact.late import late_names
+from roughcontact.late import LateMethod, late_names
 
 SCRIPT = """
 import sys
@@ -52,3 +56,58 @@ def test_without_texts_all_is_imported_at_once(tmp_path):
     found = subprocess.run(script, capture_output=True, text=True, env=environment)
     assert found.returncode == 0, found.stderr
     assert float(found.stdout) == pytest.approx((9 / 16) ** (1 / 3), rel=1e-12)
+
+
+BALL = rc.shapes.paraboloid(rc.Grid((16, 16), 1e-6), radius=1e-4)
+LATE = [
+    (kind, name)
+    for kind in (
+        *(rc.Surface, rc.Solution, rc.Curve, rc.Loop, rc.InterfaceTable, rc.TangentialSolution, rc.SlipCurve),
+        *(rc.AdhesiveState, rc.AdhesiveCurve, rc.DetachmentState, rc.DetachmentCurve),
+    )
+    for name, each in vars(kind).items()
+    if isinstance(each, LateMethod)
+]
+
+
+@pytest.mark.parametrize(("kind", "name"), LATE, ids=lambda each: getattr(each, "__name__", each))
+def test_a_late_method_is_its_function_to_whoever_looks_it_up(kind, name):
+    late, found = vars(kind)[name], getattr(kind, name)
+    assert found is vars(sys.modules[late.module])[late.name]
+    assert inspect.isfunction(found)
+
+
+def test_surfaces_and_answers_have_the_methods_that_users_call():
+    by_kind = {kind.__name__: {name for each, name in LATE if each is kind} for kind, _ in LATE}
+    assert {"plot", "_repr_html_", "to_dataset", "from_dataarray", "filtered"} <= by_kind["Surface"]
+    tables = {"to_dataset", "to_record"}
+    assert by_kind["Curve"] == {"plot", "_repr_html_", "to_dataframe"} | tables
+    assert by_kind["Loop"] == {"plot", "_repr_html_"} | tables
+    histograms = {"pressure_histogram", "gap_histogram"}
+    assert by_kind["Solution"] == {"plot", "_repr_html_"} | tables | histograms
+    assert by_kind["SlipCurve"] == by_kind["TangentialSolution"] == tables
+    assert by_kind["InterfaceTable"] == {"to_dataset"}
+
+
+def test_signature_and_help_of_a_method_are_those_of_the_function():
+    curve = rc.loading_curve(BALL, 1e9, forces=[1e-4, 1e-3])
+    assert str(inspect.signature(curve.plot)) == (
+        "(ax: 'Axes | None' = None, *, quantity: 'str' = 'stiffness', law: 'PowerLaw | None' = None, "
+        "theories: 'Sequence[Law]' = ()) -> 'Axes'"
+    )
+    assert "Draw a quantity against load" in pydoc.plain(pydoc.render_doc(rc.Curve))
+    assert "plot(" in pydoc.plain(pydoc.render_doc(rc.Surface))
+    assert inspect.get_annotations(rc.Curve.plot, eval_str=True)["return"] is Axes
+    assert inspect.signature(rc.Surface.plot).return_annotation == "Axes"
+    for kind in (rc.Surface, rc.Solution, rc.Curve, rc.Loop, rc.SlipCurve):
+        assert inspect.signature(kind.to_dataset).return_annotation == "xarray.Dataset"
+    assert curve.plot.__self__ is curve
+    array = xarray.DataArray(
+        [0.0, 1.0, 0.5], {"x": ("x", [0.0, 1.0, 2.0], {"units": "um"})}, attrs={"units": "nm"}
+    )
+    assert BALL.from_dataarray(array).grid.shape == rc.Surface.from_dataarray(array).grid.shape == (3,)
+
+
+def test_a_late_method_is_called_as_its_function_is():
+    late = LateMethod("roughcontact.surface.orientation", "flipped")
+    assert late(BALL, "x").provenance[-1] == BALL.flipped("x").provenance[-1]

@@ -7,14 +7,17 @@ from collections import Counter
 from functools import cache
 from pathlib import Path
 
+import house_sizes
 import roughcontact
+from roughcontact import methods
+from roughcontact.late import LateMethod
 
 SOURCE = Path(roughcontact.__file__).parent
 FILES = sorted(SOURCE.rglob("*.py"))
 THESIS = sorted((Path(__file__).parents[1] / "reproduction" / "src").rglob("*.py"))  # its figures
 # Each room may look into those before it, and into itself.
 ORDER = [
-    {"cached", "memory", "threads", "units"},
+    {"cached", "memory", "threads", "units", "version"},
     {"validation"},
     {"late"},
     {"kernels"},
@@ -39,9 +42,10 @@ ORDER = [
     {"cli"},
 ]
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
-# `theory` stands beside the house; `datasets`, `pictures` and the two top files open doors and do nothing else.
-DOORS = {"datasets", "pictures", "__init__", "__main__"}
+# `theory` stands beside the house; `methods` and the two top files open doors and do nothing else.
+DOORS = {"methods", "__init__", "__main__"}
 BESIDE = {"theory", *DOORS}
+METHODS = "roughcontact.methods"
 AT_THE_RIM = RANK["files"]
 KEEPS_CODE = SOURCE / "kernels" / "disk.py"  # what is translated once is kept on disk
 ASKS_LINUX = SOURCE / "memory.py"  # which tells the limit of a container in files
@@ -78,11 +82,6 @@ def imported(tree):
     return names
 
 
-def imported_at_once(tree):
-    """Return the names of the modules that importing `tree` loads: not those for the type checker."""
-    return imported(ast.Module([node for node in tree.body if not isinstance(node, ast.If)], []))
-
-
 def wrong_way(room, names):
     """Return the rooms among the imported `names` that `room` must not look into."""
     rooms = {name.split(".")[1] for name in names if name.startswith("roughcontact.")} & RANK.keys()
@@ -101,14 +100,6 @@ def called(tree):
         for f in functions
         if isinstance(f, ast.Name | ast.Attribute)
     }
-
-
-def cycle(graph):
-    """Return the modules on or behind a cycle of `graph`: what is left when the leaves are taken off."""
-    graph = {module: set(names) & graph.keys() - {module} for module, names in graph.items()}
-    while leaves := {module for module, names in graph.items() if not names}:
-        graph = {module: names - leaves for module, names in graph.items() if module not in leaves}
-    return set(graph)
 
 
 @cache
@@ -148,7 +139,7 @@ def test_the_figures_are_there_without_a_circle():
         f"roughcontact_thesis.{path.stem}": ast.parse(path.read_text(encoding="utf-8")) for path in THESIS
     }
     assert len(parsed) > 50
-    assert cycle({name: imported_at_once(tree) for name, tree in parsed.items()}) == set()
+    assert house_sizes.circles(house_sizes.import_graph(THESIS[0].parent)) == []
     assert [name for name, tree in parsed.items() if "print" in called(tree)] == []
 
 
@@ -180,17 +171,15 @@ def test_a_fork_catches_every_property_that_is_kept():
     assert [path for path, tree in trees().items() if "functools.cached_property" in imported(tree)] == []
 
 
-def test_no_module_waits_for_itself():
-    """The functions of a door import when they are called, and the door itself nothing."""
-    doors = {"roughcontact.datasets", "roughcontact.pictures"}
-    for door in doors:
-        at_the_top = [node for node in modules()[door].body if isinstance(node, ast.Import | ast.ImportFrom)]
-        assert {name.split(".")[0] for name in imported(ast.Module(at_the_top, []))} == {
-            "__future__",
-            "typing",
-        }
-    others = {module: imported_at_once(tree) for module, tree in modules().items() if module not in doors}
-    assert cycle(others) == set()
+def test_methods_names_each_function_once_for_types_and_once_at_run_time():
+    block = next(node for node in modules()[METHODS].body if isinstance(node, ast.If))
+    typed = {
+        (node.module, alias.name) for node in block.body for alias in node.names if alias.asname == alias.name
+    }
+    late = {name: each for name, each in vars(methods).items() if isinstance(each, LateMethod)}
+    assert typed == {(each.module, each.name) for each in late.values()}
+    assert all(name == each.name for name, each in late.items())
+    assert len(typed) == sum(len(node.names) for node in block.body)
 
 
 def test_bundlers_of_programs_find_what_is_opened_late():
@@ -214,8 +203,6 @@ def test_the_checks_see_what_they_look_for():
     assert wrong_way("grid", imported(ast.parse("import roughcontact.material"))) == {"material"}
     assert foreign(imported(tree)) == {"matplotlib"}
     assert called(tree) == {"open", "save"}
-    assert cycle({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": set()}) == {"a", "b", "c"}
-    assert cycle({"a": {"b", "numpy"}, "b": {"c"}, "c": set()}) == set()
 
 
 def loaded(script, *arguments):

@@ -65,6 +65,10 @@ def test_the_types_of_all_public_names_are_known(pytestconfig, tmp_path):
     # A whole type that is Any; parts of NumPy's own types are.
     unknown = {path for path, what in revealed.items() if re.search(r"(^|-> |: |\| )Any( \||$|,|\))", what)}
     assert unknown == UNTYPED
+    assert "quantity: str =" in revealed["roughcontact.Curve.plot"]
+    assert revealed["roughcontact.Curve.plot"].endswith("-> matplotlib.axes._axes.Axes")
+    assert revealed["roughcontact.Surface.filtered"].endswith("-> roughcontact.surface.surface.Surface")
+    assert revealed["roughcontact.Loop.to_dataset"].endswith("-> xarray.core.dataset.Dataset")
     refused = re.findall(r":(\d+): error: .*\[attr-defined\]$", answer, re.MULTILINE)
     assert [int(line) - 2 - len(paths) for line in refused] == [*range(len(WRONG))]
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.late import late_names, open_name
-
-__version__ = "0.1.0"
+from roughcontact.version import __version__
 
 # Type checkers and bundlers of programs read the block below; at run time each name is imported when first asked for.
 _LATE = late_names(__spec__)

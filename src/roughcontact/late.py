@@ -1,4 +1,4 @@
-"""Names that a package imports when they are first asked for.
+"""Names that a package, or a class as its methods, imports when they are first asked for.
 
 They stand once, in the block ``if TYPE_CHECKING or LATE is None`` of the package's ``__init__.py``. Type checkers and
 bundlers of programs read that block as it is; at run time its text tells where each name comes from. A bundle holds no
@@ -8,13 +8,18 @@ text: there the block itself is run, and all is imported at once.
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.machinery import ModuleSpec
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from roughcontact.threads import no_fork
 
-__all__ = ["late_names", "open_name"]
+__all__ = ["LateMethod", "late_names", "open_name", "static"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 def late_names(spec: ModuleSpec) -> dict[str, str] | None:
@@ -54,3 +59,42 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
         members = vars(import_module(names[name]))
         package[name] = members[name] if name in members else import_module(f"{names[name]}.{name}")
     return package[name]
+
+
+@dataclass(frozen=True, slots=True)
+class LateMethod:
+    """A function of another module that is a method of a class; the module is imported when the method is looked up.
+
+    A class then has what is below or above it as its method, and imports neither. What is looked up is the function
+    itself, with its signature and docstring, bound to the object where there is one.
+
+    Parameters
+    ----------
+    module, name : str
+        Where the function is, and what it is called there.
+    is_static : bool
+        Whether it is bound to no object.
+    """
+
+    module: str
+    name: str
+    is_static: bool = False
+
+    def __get__(self, value: Any, owner: type | None = None) -> Any:
+        function = self.function
+        return function if self.is_static else function.__get__(value, owner)
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """Call the function."""
+        return self.function(*args, **kwargs)
+
+    @property
+    def function(self) -> Any:
+        """The function itself."""
+        with no_fork:
+            return getattr(import_module(self.module), self.name)
+
+
+def static(method: Callable[P, R]) -> staticmethod[P, R]:
+    """Return a late method as one that is bound to no object."""
+    return replace(method, is_static=True)  # type: ignore[type-var, return-value]

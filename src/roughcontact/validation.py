@@ -21,9 +21,11 @@ __all__ = [
     "exactly_one",
     "finite",
     "fitting",
+    "lengths_method",
     "moderate",
     "number",
     "numeric",
+    "numeric_method",
     "pair",
     "positive",
     "positive_scalar",
@@ -36,6 +38,7 @@ __all__ = [
 
 P = ParamSpec("P")
 R = TypeVar("R")
+F = TypeVar("F", bound=Callable[..., Any])
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 RngLike: TypeAlias = (
@@ -257,6 +260,21 @@ def numeric(function: Any = None, /, **units: Any) -> Any:
     if function is None:
         return partial(_checked, units=units)
     return _checked(function, units)
+
+
+def numeric_method(function: F) -> F:
+    """Check the arguments of a function that is a method, see `numeric`; each ``float`` of it is a number without unit.
+
+    Type checkers know from this signature alone what comes out, which they must where files import each other.
+    """
+    return numeric(function)  # type: ignore[return-value]
+
+
+def lengths_method(function: F) -> F:
+    """Check the arguments of a function that is a method, see `numeric_method`; each ``float`` of it is in metres."""
+    kinds = {name: str(each.annotation) for name, each in inspect.signature(function).parameters.items()}
+    lengths = [name for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) == "float"]
+    return numeric(**dict.fromkeys(lengths, "m"))(function)  # type: ignore[return-value]
 
 
 def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, R]:

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import json
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.curve import CURVE_POINTS
 from roughcontact.contact.dataset import curve_dataset, curve_record, solution_dataset, solution_record
+from roughcontact.labels import labelled
+from roughcontact.labels.column import columns, names_of, shown_in
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.labelled import record_of, variables_of
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.plot.facts import column_facts
 
 MODULUS = 1e11
 GRID = rc.Grid((24, 32), (2e-7, 1e-7))
@@ -193,3 +200,41 @@ def test_rings_lie_along_the_radius():
     assert dataset.pressure.dims == ("r",)
     np.testing.assert_array_equal(dataset.r, rings.radii)
     assert dataset.contact_area.attrs["units"] == "m2"
+
+
+def test_a_column_of_the_table_is_in_every_form(solution, curve, monkeypatch):
+    """In the dataset, its CSV, the record, the lines on a screen and the page, by one line of the table."""
+    [line] = columns("volume | m3 | volume below the surface | patch page facts | volume V")
+    table = {("load",): (line,)}
+    curve = SimpleNamespace(volume=np.array([1e-18, 2e-18]))
+    [(name, (along, values, words))] = variables_of(curve, table, rc.Geometry.SURFACE).items()
+    assert (name, along, words) == ("volume", ("load",), {"long_name": line.long_name, "units": "m3"})
+    np.testing.assert_array_equal(values, curve.volume)
+    monkeypatch.setattr(labelled, "VARIABLES", {"volume": line})
+    record = record_of({"volume": (along, values, words)}, rc.Geometry.LINE)
+    assert record == {"volume": [1e-18, 2e-18], "geometry": "line", "units": {"volume": "m2"}}
+    assert [names_of(shown_in(place, (line,))) for place in ("page", "joint")] == [("volume",), ()]
+    state = SimpleNamespace(volume=2e-18, depth=0.0)
+    assert column_facts(state, (line,), rc.Geometry.SURFACE, {}) == [("volume V", "2 µm³")]
+
+
+def test_what_is_shown_on_a_screen_and_on_the_page_is_marked_in_the_table():
+    columns_of = (*POINTS, *CERTIFICATES)
+    assert names_of(shown_in("patch", columns_of)) == (
+        *("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual"),
+    )
+    assert names_of(shown_in("joint", columns_of)) == (
+        *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
+        *("spots", "mean_gap", "residual"),
+    )
+    assert set(CURVE_POINTS) == {
+        *("force", "depth", "stiffness", "interfacial_stiffness"),
+        *("contact_area", "mean_gap", "elastic_energy"),
+    }
+
+
+def test_a_state_has_the_columns_of_a_curve_under_the_same_names(solution):
+    [curve] = [rc.loading_curve(solution.problem.surface, MODULUS, forces=[1e-3]).to_record()]
+    state = solution.to_record()
+    for column in (*POINTS, *CERTIFICATES[:1]):
+        assert state[column.name] == pytest.approx(curve[column.name][0], rel=1e-6, abs=1e-7), column.name

@@ -7,7 +7,8 @@ import pytest
 import xarray
 
 import roughcontact as rc
-from roughcontact.labels.variables import FLOW_POINTS
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import FLOW
 
 MODULUS, HARDNESS = 2.0, 0.1
 FORCES = np.linspace(0.0, 0.02, 6)[1:]
@@ -127,7 +128,7 @@ def test_it_is_data_with_units_and_text(loop, tmp_path):
     dataset = loop.to_dataset()
     assert dataset.sizes["load"] == 3 * len(FORCES)
     assert list(dataset.branch.values[:: len(FORCES)]) == ["loading", "unloading", "reloading"]
-    for name in (*FLOW_POINTS, "flow_depth", "residual_depth", "work", "force"):
+    for name in (*names_of(FLOW), "flow_depth", "residual_depth", "work", "force"):
         assert {"units", "long_name"} <= dataset[name].attrs.keys(), name
     np.testing.assert_array_equal(
         dataset.heights - dataset.flow_depth + dataset.flow_rise, loop.flattened.heights

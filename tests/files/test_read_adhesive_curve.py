@@ -85,7 +85,7 @@ def test_what_holds_no_such_path_is_refused(tmp_path):
     with pytest.raises(rc.ReadError, match=r"NetCDF files \(\.nc\) only"):
         rc.read_adhesive_curve(tmp_path / "loop.csv")
     rc.write(ball, tmp_path / "ball.nc")
-    with pytest.raises(rc.ReadError, match="holds no loading curve: no force"):
+    with pytest.raises(rc.ReadError, match="holds no loading curve: no depth"):
         rc.read_adhesive_curve(tmp_path / "ball.nc")
 
 

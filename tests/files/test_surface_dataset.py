@@ -125,3 +125,11 @@ def test_units_that_are_no_lengths_are_refused(stated, message, tmp_path):
 def test_a_unit_that_is_no_number_is_refused(unit):
     with pytest.raises(ValueError, match="unit must be one number in SI units"):
         rc.Surface.from_dataarray(array(), unit=np.array(unit))
+
+
+def test_a_warning_names_the_line_that_called():
+    heights = HEIGHTS.copy()
+    heights[1, 2] = 1e9
+    with pytest.warns(rc.SurfaceWarning) as caught:
+        rc.Surface.from_dataarray(array().copy(data=heights))
+    assert {each.filename for each in caught} == {__file__}

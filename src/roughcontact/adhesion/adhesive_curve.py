@@ -5,23 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
+from roughcontact.labels.column import stored_in
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import adhesive_curve_html, plot_adhesive_curve
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["AdhesiveCurve", "collect_states"]
 
@@ -120,6 +120,11 @@ class AdhesiveCurve:
         return len(self.force)
 
     @property
+    def branch(self) -> npt.NDArray[np.str_]:
+        """Of each point ``"approach"`` or ``"retreat"``."""
+        return np.where(self.approach, "approach", "retreat")
+
+    @property
     def pull_off_force(self) -> float:
         """Largest tension of the retreat [N], positive; 0 where nothing pulls back.
 
@@ -166,33 +171,14 @@ class AdhesiveCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the points and the jumps as an `xarray.Dataset`.
+    to_dataset = methods.adhesive_curve_dataset
+    to_record = methods.adhesive_curve_record
+    plot = methods.jump_loop
+    _repr_html_ = methods.adhesive_curve_html
 
-        Returns
-        -------
-        xarray.Dataset
-            Points along ``load``, of which ``branch`` says whether they are of the approach or the retreat; jumps along
-            ``jump``. Each variable has its unit and a long name.
-        """
-        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_dataset
 
-        return adhesive_curve_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.adhesive_curve_dataset import adhesive_curve_record
-
-        return adhesive_curve_record(self)
-
-    plot = plot_adhesive_curve
-    _repr_html_ = adhesive_curve_html
+CURVE_POINTS = stored_in(AdhesiveCurve, ADHESIVE_CURVE[("load",)])
+"""What a path keeps of each state; the other columns follow."""
 
 
 def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCurve:

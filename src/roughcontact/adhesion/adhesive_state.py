@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
@@ -20,14 +20,10 @@ from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
-from roughcontact.pictures import plot_state, state_html
 from roughcontact.solver.control import Status
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["AdhesiveProblem", "AdhesiveState", "state_of"]
 
@@ -164,6 +160,21 @@ class AdhesiveState:
         return geometry_of(self.problem.operator)
 
     @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area [Pa]."""
+        return self.force / self.problem.operator.grid.area
+
+    @property
+    def largest_pressure(self) -> float:
+        """Largest pressure of a cell [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def largest_tension(self) -> float:
+        """Largest tension of a cell [Pa], positive."""
+        return max(0.0, -float(self.pressure.min()))
+
+    @property
     def mean_gap(self) -> float:
         """Gap averaged over the measured cells [m]."""
         there = np.isfinite(self.problem.separation)
@@ -232,32 +243,10 @@ class AdhesiveState:
         scale = self._energy.scale(self._point)
         return np.asarray(self.contact & (self.reaction <= WEAK * scale))
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names; the jumps lie along ``jump``.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.adhesion.state_dataset import state_dataset
-
-        return state_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.state_dataset import state_record
-
-        return state_record(self)
-
-    plot = plot_state
-    _repr_html_ = state_html
+    to_dataset = methods.state_dataset
+    to_record = methods.state_record
+    plot = methods.plot_state
+    _repr_html_ = methods.state_html
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

@@ -5,22 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Literal
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.detachment_path import detachment_path, force_unit_of
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
+from roughcontact.labels.column import stored_in
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import detachment_html, plot_detachment
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, numeric
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["DetachmentCurve", "collect_detachments", "detachment_curve"]
 
@@ -150,32 +149,14 @@ class DetachmentCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the points and the detachments as an `xarray.Dataset`.
+    to_dataset = methods.detachment_curve_dataset
+    to_record = methods.detachment_curve_record
+    plot = methods.detachment_force
+    _repr_html_ = methods.detachment_html
 
-        Returns
-        -------
-        xarray.Dataset
-            Points along ``load``, detachments along ``detachment``. Each variable has its unit and a long name.
-        """
-        from roughcontact.adhesion.detachment_dataset import detachment_curve_dataset
 
-        return detachment_curve_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.detachment_dataset import detachment_curve_record
-
-        return detachment_curve_record(self)
-
-    plot = plot_detachment
-    _repr_html_ = detachment_html
+CURVE_POINTS = stored_in(DetachmentCurve, DETACHMENT_CURVE[("load",)])
+"""What a curve keeps of each state; the other columns follow."""
 
 
 @numeric(work="J/m^2", depths="m", forces=force_unit_of, pressures="Pa")

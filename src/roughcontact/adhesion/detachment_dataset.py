@@ -2,116 +2,151 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.state_dataset import adhesive_variable
-from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import centres, dataset_of, plain_values, sizes, units_of, variable
-from roughcontact.validation import Array
+from roughcontact.adhesion.detachment_curve import DetachmentCurve
+from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.adhesion.state_dataset import events, work_variables
+from roughcontact.labels.adhesive_columns import (
+    DETACHMENT_CURVE,
+    DETACHMENT_MAPS,
+    DETACHMENT_STATE,
+    DETACHMENTS,
+)
+from roughcontact.labels.column import CELLS
+from roughcontact.labels.contact_columns import HEIGHTS, RMS, STATE_NAMES
+from roughcontact.labels.labelled import Variables, centres, dataset_of, record_of, variables_of
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.adhesion.detachment_curve import DetachmentCurve
-    from roughcontact.adhesion.detachment_state import DetachmentState
-
 __all__ = [
-    *("DETACHMENTS", "DETACHMENT_POINTS", "DETACHMENT_SCALES"),
-    *("detachment_curve_dataset", "detachment_curve_record"),
+    *("DETACHMENT_NAMES", "detachment_curve_dataset", "detachment_curve_record"),
     *("detachment_state_dataset", "detachment_state_record"),
 ]
 
-DETACHMENTS = ("depth", "depth_after", "force_before", "force_after", "cells", "lost")
-"""What a file says of detachments, each after ``detachment_``."""
-DETACHMENT_POINTS = (
-    *("force", "depth", "stiffness", "contact_area", "mean_gap"),
-    *("elastic_energy", "adhesive_energy", "residual", "lowest_force"),
-)
-"""What a curve has at each load, and a file holds."""
-DETACHMENT_SCALES = ("modulus", "nominal_area", "rms", "preload_too_small")
-_DERIVED = ("contact_fraction", "energy")
-_STATE = (
-    "lowest_force_area",
-    "pull_off_force",
-    "lost",
-    "preload_too_small",
-    "largest_pressure",
-    "largest_tension",
-)
-_MAPS = ("pressure", "displacement", "gap", "contact")
+DETACHMENT_NAMES = {column: column.name.removeprefix("detachment_") for column in DETACHMENTS}
+"""What a `Detachment` calls the columns of detachments."""
+_NAMES = {**STATE_NAMES, "lost_energy": "lost"}
 
 
 def detachment_curve_dataset(curve: DetachmentCurve) -> xarray.Dataset:
-    """Return the points along ``load``, the detachments along ``detachment``, and the scales."""
-    data = _curve_variables(curve) | sizes(curve)
-    dataset = dataset_of(data, {}, "stuck surfaces that are drawn back", curve.geometry)
+    """Return the points along ``load``, the detachments along ``detachment``, and the scales.
+
+    Parameters
+    ----------
+    curve : DetachmentCurve
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> curve = rc.detachment_curve(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> curve.to_dataset()["detachment_lost"].attrs["units"]
+    'J'
+    """
+    dataset = dataset_of(_of_curve(curve), {}, "stuck surfaces that are drawn back", curve.geometry)
     attributes = {"control": curve.control, "tolerance": curve.tolerance, "notes": "\n".join(curve.notes)}
     return dataset.assign_attrs(attributes)
 
 
 def detachment_curve_record(curve: DetachmentCurve) -> dict[str, Any]:
-    """Return a curve as plain numbers, words and lists that JSON can hold."""
-    record = _record(_curve_variables(curve), curve, curve.geometry)
-    return record | {"control": curve.control, "tolerance": curve.tolerance, "notes": list(curve.notes)}
+    """Return a curve as plain numbers, words and lists that JSON can hold.
+
+    Parameters
+    ----------
+    curve : DetachmentCurve
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> curve = rc.detachment_curve(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> curve.to_record()["control"]
+    'depth'
+    """
+    more = {"control": curve.control, "tolerance": curve.tolerance, "notes": list(curve.notes)}
+    return record_of(_of_curve(curve), curve.geometry, **more)
 
 
 def detachment_state_dataset(state: DetachmentState) -> xarray.Dataset:
     """Return a state as a dataset: maps along the axes of the grid, detachments along ``detachment``.
 
     Row 0 is the top of the picture, so y points down. On a line forces, areas and energies are per unit length.
+
+    Parameters
+    ----------
+    state : DetachmentState
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> *_, state = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
+    >>> state.to_dataset()["detachment_depth"].attrs["units"]
+    'm'
     """
     kind, grid, surface = state.geometry, state.problem.grid, state.problem.surface
-    data = {name: adhesive_variable(name, kind.axes, getattr(state, name), kind) for name in _MAPS}
+    data = variables_of(state, {(CELLS,): DETACHMENT_MAPS}, kind)
     if surface is not None:
-        data["heights"] = variable("heights", kind.axes, surface.heights)
-    data |= _state_variables(state) | sizes(grid)
-    dataset = dataset_of(data, centres(grid, kind), "contact of stuck surfaces that are drawn back", kind)
+        data |= variables_of(surface, {(CELLS,): (HEIGHTS,)}, kind)
+    title = "contact of stuck surfaces that are drawn back"
+    dataset = dataset_of(data | _of_state(state), centres(grid, kind), title, kind)
     return dataset.assign_attrs({"notes": "\n".join(state.notes)})
 
 
 def detachment_state_record(state: DetachmentState) -> dict[str, Any]:
-    """Return the numbers of a state as plain values; units stand once, under ``"units"``."""
-    record = _record(_state_variables(state), state.problem.grid, state.geometry)
-    return record | {"tolerance": state.problem.tolerance, "notes": list(state.notes)}
+    """Return the numbers of a state as plain values; units stand once, under ``"units"``.
+
+    Parameters
+    ----------
+    state : DetachmentState
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> *_, state = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3, depths=[1e-8, 0.0])
+    >>> state.to_record()["status"]
+    'converged'
+    """
+    more = {"tolerance": state.problem.tolerance, "notes": list(state.notes)}
+    return record_of(_of_state(state), state.geometry, **more)
 
 
-def _curve_variables(curve: DetachmentCurve) -> dict[str, Any]:
+def _of_curve(curve: DetachmentCurve) -> Variables:
     kind = curve.geometry
-    points = {name: getattr(curve, name) for name in (*DETACHMENT_POINTS, *_DERIVED)}
-    scales = {name: getattr(curve, name) for name in (*DETACHMENT_SCALES, "pull_off_force", "lost")}
-    data = {name: adhesive_variable(name, ("load",), values, kind) for name, values in points.items()}
-    data["status"] = variable("status", ("load",), [each.value for each in curve.status])
-    data["detached_at"] = variable("detached_at", ("detachment",), np.array(curve.detached_at, np.int64))
-    return data | _numbers(scales, curve.work, curve.detachments, kind)
+    data = variables_of(curve, DETACHMENT_CURVE, kind, {"lost_energy": "lost"})
+    data |= work_variables(curve.work, kind)
+    return data | events("detachment", curve.detachments, DETACHMENT_NAMES, kind)
 
 
-def _state_variables(state: DetachmentState) -> dict[str, Any]:
-    problem = state.problem
-    scales = {name: getattr(state, name) for name in (*DETACHMENT_POINTS, *_DERIVED, *_STATE)}
-    scales |= {"nominal_pressure": state.force / problem.grid.area, "modulus": problem.modulus}
-    scales |= {} if problem.surface is None else {"rms": problem.surface.rms}
-    data = _numbers(scales, state.work, state.detachments, state.geometry)
-    return data | {"status": variable("status", (), state.status.value)}
-
-
-def _numbers(
-    scales: dict[str, Any], work: float | Array, events: Sequence[Detachment], kind: Geometry
-) -> dict[str, Any]:
-    scales["lost_energy"] = scales.pop("lost")
-    data = {name: adhesive_variable(name, (), value, kind) for name, value in scales.items()}
-    axes = kind.axes if np.ndim(work) else ()
-    data["work_of_adhesion"] = variable("work_of_adhesion", axes, work)
-    for name in DETACHMENTS:
-        column = np.array([getattr(each, name) for each in events], np.int64 if name == "cells" else float)
-        data[f"detachment_{name}"] = variable(f"detachment_{name}", ("detachment",), column, kind)
-    return data
-
-
-def _record(data: dict[str, Any], grid: Any, kind: Geometry) -> dict[str, Any]:
-    """Return variables as plain values, without importing xarray."""
-    record = {name: plain_values(values) for name, (_, values, _) in (data | sizes(grid)).items()}
-    return record | {"geometry": kind.value, "units": units_of(record, kind)}
+def _of_state(state: DetachmentState) -> Variables:
+    kind, surface = state.geometry, state.problem.surface
+    data = variables_of(state, DETACHMENT_STATE, kind, _NAMES) | work_variables(state.work, kind)
+    data |= {} if surface is None else variables_of(surface, {(): (RMS,)}, kind)
+    return data | events("detachment", state.detachments, DETACHMENT_NAMES, kind)

@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
 from roughcontact.cached import cached_property
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
-from roughcontact.pictures import plot_state, state_html
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["DetachmentState"]
 
@@ -170,6 +166,11 @@ class DetachmentState:
         return self.contact_area / self.problem.grid.area
 
     @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area [Pa]."""
+        return self.force / self.problem.grid.area
+
+    @property
     def largest_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
         return float(self.pressure.max())
@@ -194,32 +195,10 @@ class DetachmentState:
         """Elastic and adhesive energy [J]."""
         return self.elastic_energy + self.adhesive_energy
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset`; detachments lie along ``detachment``.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.adhesion.detachment_dataset import detachment_state_dataset
-
-        return detachment_state_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
-        """
-        from roughcontact.adhesion.detachment_dataset import detachment_state_record
-
-        return detachment_state_record(self)
-
-    plot = plot_state
-    _repr_html_ = state_html
+    to_dataset = methods.detachment_state_dataset
+    to_record = methods.detachment_state_record
+    plot = methods.plot_state
+    _repr_html_ = methods.state_html
 
     def __repr__(self) -> str:
         """Say what was found, not the field."""

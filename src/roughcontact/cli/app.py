@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from roughcontact import __version__
 from roughcontact.cli.added_commands import added_commands, refuse_missing
 from roughcontact.cli.late_group import late_group
+from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
     from roughcontact.cli import (

@@ -16,7 +16,8 @@ from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_endi
 from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY
 from roughcontact.files.installed import lacking
-from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
+from roughcontact.labels import contact_columns
+from roughcontact.labels.column import names_of
 
 if TYPE_CHECKING:
     import xarray
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from roughcontact.contact.conduction import Conductors
 
 __all__ = ["EXAMPLES", "Materials", "conductance", "conduction_facts", "shown_columns"]
+
+CONDUCTION = names_of(contact_columns.CONDUCTION)
+CONDUCTION_PER_AREA = names_of(contact_columns.CONDUCTION_PER_AREA)
 
 EXAMPLES = {
     "conductance": """

@@ -16,7 +16,8 @@ from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.theory_options import deviations, exponents, parameters
 from roughcontact.files.own_errors import is_ours
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
     import xarray
@@ -155,7 +156,9 @@ class CurveAnswer:
         from roughcontact.labels.labelled import plain_values
 
         conducted = {
-            name: self.dataset[name] for name in CONDUCTION + CONDUCTION_PER_AREA if name in self.dataset
+            name: self.dataset[name]
+            for name in names_of(CONDUCTION + CONDUCTION_PER_AREA)
+            if name in self.dataset
         }
         record = {
             "command": "curve",

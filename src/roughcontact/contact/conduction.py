@@ -12,8 +12,9 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
 from roughcontact.labels.labelled import variable
-from roughcontact.labels.variables import CONDUCTION, CONDUCTION_PER_AREA
 from roughcontact.theory import conductance as theory
 from roughcontact.validation import Array, number, numeric
 
@@ -193,7 +194,7 @@ def with_conductance(
     for name, values in _of_part(found, float(dataset["nominal_area"]), of).items():
         columns[name] = variable(name, ("load",), values)
         columns[name][2]["long_name"] += f", of {words}"
-    return dataset.drop_vars(CONDUCTION + CONDUCTION_PER_AREA, errors="ignore").assign(columns)
+    return dataset.drop_vars(names_of(CONDUCTION + CONDUCTION_PER_AREA), errors="ignore").assign(columns)
 
 
 def part_words(dataset: xarray.Dataset, of: str) -> str:

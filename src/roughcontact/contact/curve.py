@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
-from roughcontact.contact.dataset import curve_dataframe, curve_dataset, curve_record
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import CURVE_POINTS, force_unit, unit_of
-from roughcontact.pictures import curve_html, plot_curve
+from roughcontact.labels.column import names_of, stored_in
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
@@ -30,7 +31,7 @@ from roughcontact.validation import Array, Mask, number, numeric
 if TYPE_CHECKING:
     from roughcontact.theory.law import Basis
 
-__all__ = ["Curve", "collect"]
+__all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
 DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
@@ -341,11 +342,15 @@ class Curve:
         unit = unit_of("force", self.geometry)
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
 
-    to_dataset = curve_dataset
-    to_record = curve_record
-    to_dataframe = curve_dataframe
-    plot = plot_curve
-    _repr_html_ = curve_html
+    to_dataset = methods.curve_dataset
+    to_record = methods.curve_record
+    to_dataframe = methods.curve_dataframe
+    plot = methods.plot_curve
+    _repr_html_ = methods.curve_html
+
+
+CURVE_POINTS = stored_in(Curve, POINTS)
+"""What a curve takes over from each state; the other columns follow."""
 
 
 @one_blas_thread()
@@ -356,13 +361,13 @@ def collect(path: Iterable[Solution]) -> Curve:
     flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
     hardness = 0.0
+    names = (*CURVE_POINTS, *names_of(CERTIFICATES))
     for solution in path:
         problem = problem or solution.problem
         if solution.problem.plastic:  # on unloading nothing limits the pressure
             hardness = max(hardness, solution.problem.spec.largest_hardness)
         flows.append(flow_point(solution))
-        numbers = (getattr(solution, name) for name in CURVE_POINTS)
-        points.append((*numbers, solution.residual, solution.frozen.residual, solution.spot_count))
+        points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)
         del solution  # with its maps, before the next load is solved
     if problem is None:
@@ -370,7 +375,7 @@ def collect(path: Iterable[Solution]) -> Curve:
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
-        **dict(zip((*CURVE_POINTS, "residual", "stiffness_residual"), columns, strict=True)),
+        **dict(zip(names, columns, strict=True)),
         spots=spots.astype(np.intp),
         status=tuple(status),
         modulus=problem.modulus,

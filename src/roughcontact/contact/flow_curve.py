@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.contact.solution import Solution
 from roughcontact.validation import Array
-
-if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
 
 __all__ = ["FlowCurve", "flow_curve", "flow_point"]
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from roughcontact.arrays import on_host
-from roughcontact.validation import Array, Mask, numeric
-
-if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
+from roughcontact.contact.solution import Solution
+from roughcontact.validation import Array, Mask, numeric_method
 
 __all__ = ["gap_histogram", "pressure_histogram"]
 
 
-@numeric
+@numeric_method
 def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     """Return the distribution of the pressure over the contact area.
 
@@ -50,7 +46,7 @@ def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array
     return _density(solution, solution.pressure, solution.contact, bins)
 
 
-@numeric
+@numeric_method
 def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     """Return the distribution of the gap over the cells that are not in contact.
 

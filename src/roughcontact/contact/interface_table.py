@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.contact.conduction import conductance
 from roughcontact.contact.curve import REMEDY, Curve
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import variable
 from roughcontact.validation import Array, numeric, positive
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["InterfaceTable", "interface_table"]
 
@@ -95,32 +91,7 @@ class InterfaceTable:
         ratio = float((self.pressure[1:] / self.pressure[:-1]).max())
         return math.expm1(math.log((ratio - 1) / math.log(ratio)) + math.log(ratio) / (ratio - 1) - 1)
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the table as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            One value of each quantity a load; ``zero_gap`` without a dimension.
-        """
-        import xarray
-
-        columns = {
-            "nominal_pressure": self.pressure,
-            "mean_gap": self.gap,
-            "overclosure": self.overclosure,
-            "interfacial_stiffness_per_area": self.stiffness,
-            "contact_fraction": self.contact_fraction,
-            **self.conductances,
-        }
-        data = {name: variable(name, ("load",), values) for name, values in columns.items()}
-        data["zero_gap"] = variable("zero_gap", (), self.zero_gap)
-        low, high = self.validity
-        words = {
-            "title": "law of a rough interface, per nominal area",
-            "validity": f"nominal pressure from {low:.6g} to {high:.6g} Pa",
-        }
-        return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})
+    to_dataset = methods.interface_dataset
 
 
 @numeric(resistivities="ohm*m", conductivities="W/m/K", area="m^2")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import Flow, FlowModel
 from roughcontact.contact.loading import solutions_along, suitable
@@ -18,13 +18,9 @@ from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.material import Solid
-from roughcontact.pictures import loop_html, plot_loop
 from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["BRANCHES", "Loop", "closed_loop", "loading_loop", "loads_of_loop"]
 
@@ -104,40 +100,10 @@ class Loop:
             f"{self.residual_depth:.4g} m, {self.flow!r})"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the branches as an `xarray.Dataset`, one after the other, with the surface before and after.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names; ``branch`` says to which branch a load belongs.
-        """
-        from roughcontact.contact.loop_dataset import loop_dataset
-
-        return loop_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON: a record of each branch, and what they have in common.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
-        >>> f"{loop.to_record()['residual_depth'] * 1e9:.0f} nm"
-        '78 nm'
-        """
-        from roughcontact.contact.loop_dataset import loop_record
-
-        return loop_record(self)
-
-    plot = plot_loop
-    _repr_html_ = loop_html
+    to_dataset = methods.loop_dataset
+    to_record = methods.loop_record
+    plot = methods.plot_loop
+    _repr_html_ = methods.loop_html
 
 
 @numeric(modulus="Pa", forces=force_unit, pressures="Pa", hardness="Pa")

@@ -6,22 +6,44 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.arrays import on_host
 from roughcontact.contact.dataset import curve_dataset, curve_record
-from roughcontact.labels.labelled import centres, dataset_of, plain_values, units_of, variable
+from roughcontact.contact.loop import Loop
+from roughcontact.labels.contact_columns import FLOW, LOOP
+from roughcontact.labels.labelled import centres, dataset_of, record_of, variable, variables_of
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.contact.loop import Loop
 
 __all__ = ["loop_dataset", "loop_record"]
 
-_SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
+_NAMES = {
+    "heights": "surface.heights",
+    "flattened_heights": "flattened.heights",
+    **{f"flow_{name}": f"flow.{name}" for name in ("depth", "rise", "volume", "energy")},
+}
 
 
 def loop_dataset(loop: Loop) -> xarray.Dataset:
-    """Return the three branches one after the other along ``load``, and the maps of the surface before and after."""
+    """Return the three branches one after the other along ``load``, and the maps of the surface before and after.
+
+    Parameters
+    ----------
+    loop : Loop
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables with units and long names; ``branch`` says to which branch a load belongs.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> loop.to_dataset()["branch"].to_numpy()[[0, 3, 6]].tolist()
+    ['loading', 'unloading', 'reloading']
+    """
     import xarray
 
     kind, grid = loop.loading.geometry, loop.surface.grid
@@ -31,14 +53,7 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
     loads = xarray.concat([each[along] for each in branches], "load")
     others = branches[0].drop_vars(along)
     words = np.repeat(list(loop.curves), [len(curve) for curve in loop.curves.values()])
-    fields = {
-        "heights": loop.surface.heights,
-        "flattened_heights": loop.flattened.heights,
-        "flow_depth": loop.flow.depth,
-    }
-    data: dict[str, Any] = {name: variable(name, kind.axes, on_host(field)) for name, field in fields.items()}
-    data |= {name: variable(name, (), getattr(loop, name), kind) for name in _SCALARS}
-    data["flow_rise"] = variable("flow_rise", (), loop.flow.rise)
+    data = variables_of(loop, LOOP, kind, _NAMES)
     whole = dataset_of(
         data, centres(grid, kind), "first loading, unloading and reloading of a rough surface", kind
     )
@@ -47,13 +62,25 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
 
 
 def loop_record(loop: Loop) -> dict[str, Any]:
-    """Return a loop as plain numbers, words and lists that JSON can hold."""
+    """Return the numbers as plain values, for JSON: a record of each branch, and what they have in common.
+
+    Parameters
+    ----------
+    loop : Loop
+
+    Returns
+    -------
+    dict
+        Numbers, texts and lists of them, as JSON takes them.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> loop = rc.loading_loop(ball, 1e11, hardness=2e9, forces=[0.05, 0.1, 0.2])
+    >>> f"{loop.to_record()['residual_depth'] * 1e9:.0f} nm"
+    '78 nm'
+    """
     kind = loop.loading.geometry
-    record = {name: plain_values(getattr(loop, name)) for name in _SCALARS}
-    record |= {
-        "flow_volume": loop.flow.volume,
-        "flow_energy": plain_values(loop.flow.energy),
-        "flow_rise": loop.flow.rise,
-    }
-    record |= {"units": units_of(record, kind)}
-    return record | {name: curve_record(curve) for name, curve in loop.curves.items()}
+    data = variables_of(loop, {(): (*LOOP[()], *FLOW[1:3])}, kind, _NAMES)
+    return record_of(data, kind) | {name: curve_record(curve) for name, curve in loop.curves.items()}

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
+from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
-
-if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
 
 __all__ = ["notes_on"]
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.arrays import is_numpy, max_abs, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.flow import Flow, flow_of
-from roughcontact.contact.histograms import gap_histogram, pressure_histogram
-from roughcontact.contact.notes import notes_on
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.spots import Spots, are_labelled, count_spots, find_spots
@@ -26,7 +25,6 @@ from roughcontact.contact.stiffness import (
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
-from roughcontact.pictures import plot_solution, solution_html
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
@@ -35,9 +33,6 @@ from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["Solution"]
 
@@ -118,6 +113,16 @@ class Solution:
         """Real contact area over the nominal area of all cells, missing ones included."""
         return self.contact_area / self.problem.grid.area
 
+    @property
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area of all cells [Pa]."""
+        return self.force / self.problem.grid.area
+
+    @property
+    def largest_pressure(self) -> float:
+        """Largest pressure of a cell [Pa]."""
+        return max_abs(self.pressure)
+
     @cached_property
     def mean_gap(self) -> float:
         """Mean of the deformed gap over the measured cells [m], at this depth; plastic cells count below zero."""
@@ -183,6 +188,11 @@ class Solution:
         """
         return self.frozen.stiffness
 
+    @property
+    def stiffness_residual(self) -> float:
+        """Residual of the linear problem of the stiffness, relative: its certificate."""
+        return self.frozen.residual
+
     @cached_property
     def touching(self) -> npt.NDArray[np.bool_]:
         """Mask of the cells without pressure whose gap is zero, as far as rounding and the residual tell.
@@ -221,6 +231,11 @@ class Solution:
         if not self.frozen.residual + ROUNDING <= ACCURACY * closing:
             closing = self._mean_opening(1 - exact_of(self.problem.operator).apply(self.frozen.tangent))
         return k / closing if closing else np.inf  # in full contact the gap cannot close
+
+    @property
+    def interfacial_stiffness_per_area(self) -> float:
+        """Interfacial stiffness over the nominal area of all cells, K/A0 [Pa/m]."""
+        return self.interfacial_stiffness / self.problem.grid.area
 
     @cached_property
     def spots(self) -> Spots:
@@ -284,7 +299,7 @@ class Solution:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of these numbers should know, in sentences."""
-        return notes_on(self)
+        return methods.notes_on(self)
 
     @property
     def resolved_from_below(self) -> bool:
@@ -307,35 +322,12 @@ class Solution:
             f"{int(xp.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
 
-    pressure_histogram = pressure_histogram
-    gap_histogram = gap_histogram
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.contact.dataset import solution_dataset
-
-        return solution_dataset(self.on_host())
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-        """
-        from roughcontact.contact.dataset import solution_record
-
-        return solution_record(self if are_labelled(self.pressure) else self.on_host())
-
-    plot = plot_solution
-    _repr_html_ = solution_html
+    pressure_histogram = methods.pressure_histogram
+    gap_histogram = methods.gap_histogram
+    to_dataset = methods.solution_dataset
+    to_record = methods.solution_record
+    plot = methods.plot_solution
+    _repr_html_ = methods.solution_html
 
     @cached_property
     def _cells(self) -> npt.NDArray[np.intp]:

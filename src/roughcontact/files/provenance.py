@@ -50,7 +50,7 @@ def provenance(
     """
     import scipy
 
-    from roughcontact import __version__
+    from roughcontact.version import __version__
 
     now = datetime.now(UTC).isoformat(timespec="seconds")
     lines: dict[str, str | float | None] = {

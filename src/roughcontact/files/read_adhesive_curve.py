@@ -9,11 +9,10 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
-from roughcontact.adhesion.adhesive_curve_dataset import LOOP_POINTS, LOOP_SCALES
+from roughcontact.adhesion.adhesive_curve import CURVE_POINTS, AdhesiveCurve
 from roughcontact.adhesion.attraction import Adhesion, Law
 from roughcontact.adhesion.quasi_static import Jump
-from roughcontact.adhesion.state_dataset import JUMPS
+from roughcontact.adhesion.state_dataset import jump_columns
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
@@ -29,7 +28,8 @@ from roughcontact.validation import Array
 
 __all__ = ["read_adhesive_curve"]
 
-_SCALARS = (*LOOP_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
+_SCALES = ("modulus", "nominal_area", "rms")
+_SCALARS = (*_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
 
 
 def read_adhesive_curve(path: str | os.PathLike[str]) -> AdhesiveCurve:
@@ -71,18 +71,14 @@ def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]
     if "interfacial_stiffness" in variables:
         raise ContentError("it holds a curve of surfaces that do not stick", "read it with read_curve")
     control: Literal["depth", "force"] = "force" if "jump_force_bracket" in variables else "depth"
-    bracket = f"jump_{control}_bracket"
-    jumps = (*JUMPS, bracket, "jumped")
-    needed = (*LOOP_POINTS, *_SCALARS, *jumps, "work_of_adhesion", "branch", "status", "spacing")
+    names = {column.name: name for column, name in jump_columns(control).items()}
+    needed = (*CURVE_POINTS, *_SCALARS, *names, "jumped", "work_of_adhesion", "branch", "status", "spacing")
     require_columns(variables, needed)
     geometry, sizes = sizes_of(variables, attributes)
-    shape, count = variables["force"].shape, variables[bracket].shape
-    points: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in LOOP_POINTS}
+    shape, count = variables["force"].shape, variables[f"jump_{control}_bracket"].shape
+    points: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in CURVE_POINTS}
     scalars: dict[str, Any] = {name: float(numbers_of(variables, name, ())) for name in _SCALARS}
-    columns = {
-        "bracket" if name == bracket else JUMPS[name]: numbers_of(variables, name, count).tolist()
-        for name in (*JUMPS, bracket)
-    }
+    columns = {each: numbers_of(variables, name, count).tolist() for name, each in names.items()}
     branches = [word_of(value) for value in variables["branch"].load().reshape(-1).tolist()]
     if len(branches) != shape[0] or not set(branches) <= {"approach", "retreat"}:
         raise ContentError(f"its branches are {', '.join(sorted(set(branches)))}", REMEDY)
@@ -99,7 +95,7 @@ def _loop(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]
         control=control,
         adhesion=_adhesion(variables, attributes, scalars),
         tolerance=float(np.ravel(attributes.get("tolerance", np.nan))[0]),
-        **{name: scalars[name] for name in LOOP_SCALES},
+        **{name: scalars[name] for name in _SCALES},
         **sizes,
         geometry=geometry,
     )

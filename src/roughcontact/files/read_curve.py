@@ -10,17 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.contact.curve import Curve
+from roughcontact.contact.curve import CURVE_POINTS, Curve
 from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.files.stored_columns import REMEDY, numbers_of, require_columns, sizes_of, statuses_of
-from roughcontact.labels.variables import CURVE_POINTS, CURVE_SCALES, FLOW_POINTS
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CERTIFICATES, FLOW, SCALES
 
 __all__ = ["read_curve"]
 
-_ARRAYS = (*CURVE_POINTS, "residual", "stiffness_residual")
+_ARRAYS = (*CURVE_POINTS, *names_of(CERTIFICATES))
+_SCALES, _FLOW = names_of(SCALES), names_of(FLOW)
 
 
 def read_curve(path: str | os.PathLike[str]) -> Curve:
@@ -61,16 +63,16 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
 def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> Curve:
     if "jump_lost" in variables:
         raise ContentError("it holds a path of surfaces that stick", "read it with read_adhesive_curve")
-    require_columns(variables, (*_ARRAYS, *CURVE_SCALES, "spots", "status"))
+    require_columns(variables, (*_ARRAYS, *_SCALES, "spots", "status"))
     geometry, sizes = sizes_of(variables, attributes)
     shape = variables["force"].shape
     values: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in _ARRAYS}
-    values |= {name: float(numbers_of(variables, name, ())) for name in CURVE_SCALES}
+    values |= {name: float(numbers_of(variables, name, ())) for name in _SCALES}
     hardness = float(numbers_of(variables, "hardness", ())) if "hardness" in variables else math.inf
     flow = None
-    if FLOW_POINTS[0] in variables:
-        require_columns(variables, FLOW_POINTS)
-        flow = FlowCurve(*(numbers_of(variables, name, shape) for name in FLOW_POINTS))
+    if _FLOW[0] in variables:
+        require_columns(variables, _FLOW)
+        flow = FlowCurve(*(numbers_of(variables, name, shape) for name in _FLOW))
     return Curve(
         **values,
         spots=numbers_of(variables, "spots", shape).astype(np.intp),

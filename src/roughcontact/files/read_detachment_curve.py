@@ -10,8 +10,8 @@ from typing import Any, Literal
 import numpy as np
 
 from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.detachment_curve import DetachmentCurve
-from roughcontact.adhesion.detachment_dataset import DETACHMENT_POINTS, DETACHMENT_SCALES, DETACHMENTS
+from roughcontact.adhesion.detachment_curve import CURVE_POINTS, DetachmentCurve
+from roughcontact.adhesion.detachment_dataset import DETACHMENT_NAMES
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable, opened
@@ -25,6 +25,8 @@ from roughcontact.files.stored_columns import (
 )
 
 __all__ = ["read_detachment_curve"]
+
+_SCALES = ("modulus", "nominal_area", "rms", "preload_too_small")
 
 
 def read_detachment_curve(path: str | os.PathLike[str]) -> DetachmentCurve:
@@ -63,18 +65,18 @@ def read_detachment_curve(path: str | os.PathLike[str]) -> DetachmentCurve:
 
 
 def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]) -> DetachmentCurve:
-    columns = [f"detachment_{name}" for name in DETACHMENTS]
-    needed = (*DETACHMENT_POINTS, *DETACHMENT_SCALES, *columns, "detached_at", "work_of_adhesion", "status")
+    names = {column.name: name for column, name in DETACHMENT_NAMES.items()}
+    needed = (*CURVE_POINTS, *_SCALES, *names, "detached_at", "work_of_adhesion", "status")
     require_columns(variables, needed)
     geometry, sizes = sizes_of(variables, attributes)
     shape, count = variables["force"].shape, variables["detached_at"].shape
     control: Literal["depth", "force"] = "force" if word_of(attributes.get("control")) == "force" else "depth"
-    events = [numbers_of(variables, name, count).tolist() for name in columns]
-    rows = [dict(zip(DETACHMENTS, row, strict=True)) for row in zip(*events, strict=True)]
-    scales: dict[str, Any] = {name: float(numbers_of(variables, name, ())) for name in DETACHMENT_SCALES}
+    events = [numbers_of(variables, name, count).tolist() for name in names]
+    rows = [dict(zip(names.values(), row, strict=True)) for row in zip(*events, strict=True)]
+    scales: dict[str, Any] = {name: float(numbers_of(variables, name, ())) for name in _SCALES}
     work = numbers_of(variables, "work_of_adhesion", variables["work_of_adhesion"].shape)
     notes = word_of(attributes.get("notes", ""))
-    points: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in DETACHMENT_POINTS}
+    points: dict[str, Any] = {name: numbers_of(variables, name, shape) for name in CURVE_POINTS}
     return DetachmentCurve(
         **points,
         status=statuses_of(variables["status"], shape),

@@ -15,6 +15,7 @@ from roughcontact.files.netcdf import StoredVariable, height_map_of
 from roughcontact.files.provenance import provenance
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
+from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
 
@@ -24,8 +25,26 @@ if TYPE_CHECKING:
 __all__ = ["dataset_without_heights", "surface_dataset", "surface_of"]
 
 
+@on_host_only
 def surface_dataset(surface: Surface) -> xarray.Dataset:
-    """Return heights, cells and provenance, as `roughcontact.write` stores them in NetCDF."""
+    """Return the heights as a dataset of xarray, with units, places of the cells, and provenance.
+
+    Parameters
+    ----------
+    surface : Surface
+
+    Returns
+    -------
+    Dataset
+        ``heights`` [m] along ``y`` and ``x``, or ``x``; the coordinates state whether the surface is periodic.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> dataset = rc.examples.surface("ground").to_dataset()
+    >>> dict(dataset["heights"].sizes), dataset["heights"].attrs["units"]
+    ({'y': 192, 'x': 256}, 'm')
+    """
     heights = variable("heights", Geometry.of(surface.grid).axes, surface.heights)
     return dataset_without_heights(surface, {"heights": heights})
 
@@ -42,11 +61,52 @@ def dataset_without_heights(surface: Surface, maps: dict[str, Any]) -> xarray.Da
 
 def surface_of(
     array: xarray.DataArray,
-    unit: Length | None,
-    size: Size | None,
-    periodic: bool | tuple[bool, ...] | None,
+    *,
+    unit: Length | None = None,
+    size: Size | None = None,
+    periodic: bool | tuple[bool, ...] | None = None,
 ) -> Surface:
-    """Return the surface of an array with named dimensions; see ``Surface.from_dataarray``."""
+    """Return the surface in an array of xarray: heights with their unit, cells from the coordinates.
+
+    Parameters
+    ----------
+    array : DataArray
+        Heights along ``y`` and ``x``, or along one dimension, with their unit in ``attrs["units"]`` or as quantities.
+        Coordinates of even steps with a unit state the size of the cells; their ``attrs["periodic"]`` states whether
+        the surface repeats itself.
+    unit : str or float, optional
+        Unit of the heights, as for `roughcontact.read`: it goes before what the array states.
+    size : length or pair of lengths, optional
+        Width Lx, or ``(Ly, Lx)``, as for `roughcontact.read`: it goes before what the coordinates state.
+    periodic : bool or pair of bool, optional
+        Whether the surface repeats itself (along y and x). Without it the coordinates state it, or the surface is free.
+
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    ReadError
+        If the array is silent about a unit or size that is not given here, or its coordinates are not even.
+    ValueError
+        If it is not an array of xarray, or `unit` or `size` is not a length.
+
+    Warns
+    -----
+    SurfaceWarning
+        As for `roughcontact.read`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray
+    >>> import roughcontact as rc
+    >>> x = ("x", np.arange(64) * 0.5, {"units": "um"})
+    >>> wave = xarray.DataArray(100 * np.cos(np.arange(64) / 5), {"x": x}, "x", attrs={"units": "nm"})
+    >>> rc.Surface.from_dataarray(wave).grid
+    Grid(shape=(64,), spacing=(5e-07,), periodic=(False,))
+    """
     if not hasattr(array, "coords"):
         raise ValueError(
             f"an xarray.DataArray is wanted, not a {type(array).__name__}: give Surface(heights, grid)"
@@ -59,7 +119,7 @@ def surface_of(
         digest = hashlib.sha256(np.ascontiguousarray(found.heights).tobytes()).hexdigest()[:16]
         surface, doubts = assemble(found, label, digest, unit=unit, size=size, periodic=periodic)
     for doubt in doubts:
-        warnings.warn(f"{label}: {doubt}", SurfaceWarning, stacklevel=4)
+        warnings.warn(f"{label}: {doubt}", SurfaceWarning, stacklevel=2)
     return surface
 
 

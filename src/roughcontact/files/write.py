@@ -18,6 +18,7 @@ import numpy.typing as npt
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.files.installed import lacking
 from roughcontact.labels.labelled import attributes_of
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.slabs.agreement import by_first, entered_by_first
 from roughcontact.slabs.by_rows import gather_to_first
 from roughcontact.slabs.one_process import OneProcess
@@ -94,7 +95,7 @@ def _new_map(file: Any, name: str, field: SlabArray) -> Any:
         compression_opts=4,
         shuffle=True,
     )
-    stored.attrs.update(attributes_of(name) | ({"dtype": "bool"} if truth else {}))
+    stored.attrs.update(attributes_of(VARIABLES[name]) | ({"dtype": "bool"} if truth else {}))
     return stored
 
 

@@ -283,7 +283,7 @@ def x3p_bytes(surface: Surface) -> bytes:
 
 
 def _written(surface: Surface, digest: str) -> str:
-    from roughcontact import __version__
+    from roughcontact.version import __version__
 
     grid = surface.grid
     ny, nx = (1, *grid.shape)[-2:]

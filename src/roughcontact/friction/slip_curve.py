@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide import Loads, slide_path
 from roughcontact.friction.slip_solution import TangentialSolution
@@ -15,9 +15,6 @@ from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, numeric
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["SlipCurve", "slide_curve"]
 
@@ -83,29 +80,8 @@ class SlipCurve:
             f"{self.capacity:.4g} N, {self.dissipated.sum():.4g} J dissipated)"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.friction.slip_dataset import slip_curve_dataset
-
-        return slip_curve_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the curve as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-        """
-        from roughcontact.friction.slip_dataset import slip_curve_record
-
-        return slip_curve_record(self)
+    to_dataset = methods.slip_curve_dataset
+    to_record = methods.slip_curve_record
 
 
 @numeric(forces="N", displacements="m")

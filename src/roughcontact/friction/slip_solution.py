@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
 
+from roughcontact import methods
 from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers, on_host
 from roughcontact.cached import cached_property
 from roughcontact.friction.contact_cells import ContactCells
@@ -16,9 +16,6 @@ from roughcontact.material import Solid
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, Mask
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["TangentialSolution"]
 
@@ -184,29 +181,8 @@ class TangentialSolution:
             f"{slips} of {cells} cells slip, residual {self.residual:.1e})"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return fields and numbers as an `xarray.Dataset` with units and long names.
-
-        Returns
-        -------
-        xarray.Dataset
-            Variables with units and long names.
-        """
-        from roughcontact.friction.slip_dataset import tangential_dataset
-
-        return tangential_dataset(self)
-
-    def to_record(self) -> dict[str, Any]:
-        """Return the numbers as plain values, for JSON.
-
-        Returns
-        -------
-        dict
-            Numbers, texts and lists of them, as JSON takes them.
-        """
-        from roughcontact.friction.slip_dataset import tangential_record
-
-        return tangential_record(self)
+    to_dataset = methods.tangential_dataset
+    to_record = methods.tangential_record
 
     def _on_cells(self, field: Array) -> Array:
         return self.problem.interface.chosen.take(field)

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import ctypes
 import struct
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
     from roughcontact.kernels.signature import Parameter
-    from roughcontact.kernels.team import Team
 
 __all__ = ["Function", "Operand", "address"]
+
+
+class Threads(Protocol):
+    """What runs kernels, by several threads or one."""
+
+    def gather(self, workers: int) -> None:
+        """Call so many threads, this one among them."""
+
+    def running(self, kernel: int) -> Callable[[bytes, int], None]:
+        """Return what runs a kernel at an address."""
 
 
 class Operand:
@@ -44,7 +53,7 @@ class Function:
     parameters : sequence of Parameter
     place : int
         Its address.
-    team : Team
+    team : Threads
         The threads that run it.
 
     Raises
@@ -56,7 +65,7 @@ class Function:
 
     __slots__ = ("_arrays", "_pack", "_run", "_team", "name")
 
-    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, team: Team) -> None:
+    def __init__(self, name: str, parameters: Sequence[Parameter], place: int, team: Threads) -> None:
         self.name, self._team, self._run = name, team, team.running(place)
         self._arrays = [np.dtype(p.dtype) if p.array else None for p in parameters]
         self._pack = struct.Struct("=" + "".join(p.slot for p in parameters)).pack

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping
+from enum import Enum
+from operator import attrgetter
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from roughcontact.arrays import on_host
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.labels.column import CELLS, Column, Table
+from roughcontact.labels.variables import VARIABLES
 
 if TYPE_CHECKING:
     import xarray
@@ -21,23 +27,70 @@ __all__ = [
     "dataset_of",
     "described",
     "plain_values",
+    "record_of",
     "sizes",
     "units_of",
+    "values_of",
     "variable",
+    "variables_of",
 ]
+
+Variables: TypeAlias = dict[str, tuple[Any, Any, dict[str, str]]]
+"""Dimensions, values and attributes of each variable, as xarray takes them."""
+Names: TypeAlias = Mapping[str, str]
+"""Attributes of an answer, dotted where they are those of a part, that have not the name of their column."""
+_SAME: Names = MappingProxyType({})
+
+
+def values_of(answer: Any, columns: Iterable[Column], names: Names = _SAME) -> dict[Column, Any]:
+    """Return what an answer holds of columns."""
+    return {column: attrgetter(names.get(column.name, column.name))(answer) for column in columns}
+
+
+def variables_of(answer: Any, table: Table, geometry: Geometry, names: Names = _SAME) -> Variables:
+    """Return what an answer holds of a table as variables with units and long names."""
+    return {
+        column.name: (
+            tuple(axis for each in along for axis in (geometry.axes if each == CELLS else (each,))),
+            _array(value),
+            attributes_of(column, geometry),
+        )
+        for along, columns in table.items()
+        for column, value in values_of(answer, columns, names).items()
+    }
+
+
+def record_of(variables: Variables, geometry: Geometry, **more: Any) -> dict[str, Any]:
+    """Return variables as plain values that JSON can hold, with `more` of them; units stand once, under ``"units"``.
+
+    JSON knows neither NaN nor infinity: both become None.
+    """
+    record = {name: plain_values(values) for name, (_, values, _) in variables.items()} | more
+    return record | {"geometry": geometry.value, "units": units_of(record, geometry)}
+
+
+def _array(value: Any) -> Any:
+    """Return an array in NumPy's memory, truths as truths, and words for what is one of several."""
+    if isinstance(value, tuple) and value and isinstance(value[0], Enum):
+        return np.array([each.value for each in value])
+    if isinstance(value, Enum):
+        return np.asarray(value.value)
+    if not hasattr(value, "dtype") or isinstance(value, np.generic):
+        return np.asarray(value)
+    return on_host(value).astype(bool) if "bool" in str(value.dtype) else on_host(value)
 
 
 def variable(
     name: str, dimensions: tuple[str, ...], values: Any, geometry: Geometry = Geometry.SURFACE
 ) -> tuple[Any, Any, dict[str, str]]:
     """Return the triple (dimensions, values, attributes) that xarray takes as a variable."""
-    return dimensions, np.asarray(values), attributes_of(name, geometry)
+    return dimensions, np.asarray(values), attributes_of(VARIABLES[name], geometry)
 
 
-def attributes_of(name: str, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
+def attributes_of(column: Column, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
     """Return what a variable says of itself: its name in words, and its unit if it has one."""
-    unit = unit_of(name, geometry)
-    return {"long_name": VARIABLES[name].long_name} | ({"units": unit} if unit else {})
+    unit = column.unit_on(geometry)
+    return {"long_name": column.long_name} | ({"units": unit} if unit else {})
 
 
 def described(
@@ -61,7 +114,7 @@ def centres(grid: AnyGrid, geometry: Geometry) -> dict[str, Any]:
 
 
 def dataset_of(
-    data: dict[str, Any], coordinates: dict[str, Any], title: str, geometry: Geometry
+    data: Mapping[str, Any], coordinates: dict[str, Any], title: str, geometry: Geometry
 ) -> xarray.Dataset:
     """Return the variables and coordinates as a dataset, with the names of the grid's axes."""
     import xarray
@@ -69,12 +122,12 @@ def dataset_of(
     words = "axis of the map: rows run along x, down the picture is y" if len(geometry.axes) == 2 else "axis"
     axis = (("axis",), list(geometry.axes), {"long_name": words})
     attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
-    return xarray.Dataset(data, coordinates | {"axis": axis}, attributes)
+    return xarray.Dataset(dict(data), coordinates | {"axis": axis}, attributes)
 
 
 def units_of(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
     """Return the units of those names in a record that have one."""
-    units = {name: unit_of(name, geometry) for name in record if name in VARIABLES}
+    units = {name: VARIABLES[name].unit_on(geometry) for name in record if name in VARIABLES}
     return {name: unit for name, unit in units.items() if unit}
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.labels.labelled import plain_values
-from roughcontact.labels.variables import CURVE_POINTS, VARIABLES
+from roughcontact.labels.column import Column, shown_in
+from roughcontact.labels.contact_columns import CERTIFICATES, CONDUCTION_PER_AREA, POINTS, STATE_NAMES
+from roughcontact.labels.labelled import plain_values, values_of
 
 if TYPE_CHECKING:
     from roughcontact.contact.conduction import Conductors
@@ -13,46 +14,28 @@ if TYPE_CHECKING:
 
 __all__ = ["columns", "point_of"]
 
-_SHOWN = (
-    *("force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness"),
-    *("interfacial_stiffness_per_area", "contact_area", "contact_fraction", "mean_gap", "spots"),
-    *("elastic_energy", "residual"),
-)
-_CONDUCTED = ("thermal_conductance_per_area", "electrical_conductance_per_area")
+_SHOWN = shown_in("page", (*POINTS, *CERTIFICATES))
+_CONDUCTED = shown_in("page", CONDUCTION_PER_AREA)
 
 
 def columns(conductors: Conductors | None) -> list[dict[str, str]]:
     """Return the quantities of a point, with the words and units of pictures."""
     from roughcontact.plot.engineering_units import pretty
 
-    return [
-        {
-            "name": name,
-            "label": "certificate" if name == "residual" else VARIABLES[name].label,
-            "unit": pretty(VARIABLES[name].unit),
-        }
-        for name in (_SHOWN if conductors is None else (*_SHOWN, *_CONDUCTED))
-    ]
+    shown = _SHOWN if conductors is None else (*_SHOWN, *_CONDUCTED)
+    return [{"name": each.name, "label": each.label, "unit": pretty(each.unit)} for each in shown]
 
 
 def point_of(solution: Solution, conductors: Conductors | None) -> dict[str, Any]:
     """Return the quantities of a loaded state in SI units; None where one is infinite."""
     from roughcontact.contact.conduction import conductance
 
-    area = solution.problem.grid.area
-    point: dict[str, Any] = {name: getattr(solution, name) for name in CURVE_POINTS}
-    point |= {
-        "nominal_pressure": solution.force / area,
-        "contact_fraction": solution.contact_fraction,
-        "interfacial_stiffness_per_area": solution.interfacial_stiffness / area,
-        "spots": solution.spot_count,
-        "residual": solution.residual,
-    }
+    point: dict[Column, Any] = values_of(solution, _SHOWN, STATE_NAMES)
     if conductors is not None:
         conducted = conductance(
             solution,
             resistivities=conductors.resistivities,
             conductivities=conductors.conductivities,
         )
-        point |= {name: float(conducted[name]) for name in _CONDUCTED}
-    return {name: plain_values(value) for name, value in point.items()}
+        point |= {each: float(conducted[each.name]) for each in _CONDUCTED}
+    return {each.name: plain_values(value) for each, value in point.items()}

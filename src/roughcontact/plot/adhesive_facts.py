@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
+from roughcontact.labels.column import names_of, shown_in
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 
 if TYPE_CHECKING:
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
 
-ADHESIVE_COLUMNS = (*("branch", "depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual"),)
+ADHESIVE_COLUMNS = names_of(shown_in("path", ADHESIVE_CURVE[("load",)]))
 _JUMPS = 12  # that are told one by one: those that lost most
 
 

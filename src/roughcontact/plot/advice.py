@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughcontact.plot.doubt import Doubt
 from roughcontact.plot.facts import quantity
 from roughcontact.surface.polynomial import polynomial_trend
 from roughcontact.surface.spikes import find_spikes, tail_of
@@ -18,11 +18,36 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 
-__all__ = ["advice"]
+__all__ = ["Doubt", "advice"]
 
 _FEW = 32  # cells along a side: fewer hold no decade of waves between a third of the side and two cells
 _LINES = 8  # fewer rows or columns have no statistics of the steps between them
 _WHOLE = 0.5  # share of a row that must be measured
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """What looks wrong, and the step of ``surface prepare`` that mends it.
+
+    Parameters
+    ----------
+    kind : str
+        What it is, in a word or two.
+    words : str
+        What was found.
+    remedy : str
+        What to do about it, in the options of the command line.
+    step : tuple of str, optional
+        The option to begin with and its value; None where no option mends it.
+    """
+
+    kind: str
+    words: str
+    remedy: str
+    step: tuple[str, str] | None = None
+
+    def __str__(self) -> str:
+        return f"{self.kind}: {self.words}: {self.remedy}"
 
 
 def advice(surface: Surface) -> tuple[Spikes, list[Doubt]]:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
+from roughcontact.labels.column import names_of, shown_in
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.axes_for import axes_for
 from roughcontact.plot.engineering_units import scale, written
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["DETACHMENT_COLUMNS", "detachment_facts", "detachment_force", "detachment_state_facts"]
 
-DETACHMENT_COLUMNS = ("depth", "force", "contact_fraction", "stiffness", "mean_gap", "residual")
+DETACHMENT_COLUMNS = names_of(shown_in("path", DETACHMENT_CURVE[("load",)]))
 _COLOUR = "#d55e00"
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.arrays import max_abs
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.column import Column, names_of, shown_in
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES
+from roughcontact.labels.labelled import values_of
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
@@ -25,16 +27,13 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "curve_facts"),
+    *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "column_facts", "curve_facts"),
     *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
-CURVE_COLUMNS = ("force", "depth", "stiffness", "contact_area", "spots", "mean_gap", "residual")
-AREAL_COLUMNS = (
-    *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area"),
-    *("mean_gap", "spots", "residual"),
-)
+CURVE_COLUMNS = names_of(shown_in("patch", (*POINTS, *CERTIFICATES)))
+AREAL_COLUMNS = names_of(shown_in("joint", (*POINTS, *CERTIFICATES)))
 
 
 def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
@@ -49,27 +48,33 @@ def size_of(grid: AnyGrid) -> str:
     return f"{cells} cells, {lengths}, {'periodic' if all(grid.periodic) else 'free'}"
 
 
+def column_facts(
+    answer: Any, columns: Sequence[Column], geometry: Geometry, names: Mapping[str, str]
+) -> list[tuple[str, str]]:
+    """Return what an answer holds of columns, line by line: the label and the value in a unit that suits it."""
+    return [
+        (column.label, _fact(column, value, answer.depth, geometry))
+        for column, value in values_of(answer, columns, names).items()
+    ]
+
+
+def _fact(column: Column, value: float, depth: float, geometry: Geometry) -> str:
+    if column.digits == "d":
+        return str(int(value))
+    if column.name == "mean_gap":
+        value = float(closed_gap(value, depth))
+    return written(value, column.unit_on(geometry), digits=4)
+
+
 def solution_facts(solution: Solution) -> list[tuple[str, str]]:
     """Return what one loaded state is worth telling, line by line."""
-    problem, kind = solution.problem, solution.problem.geometry
-    pressure = solution.force / problem.grid.area
+    problem = solution.problem
     met = "met" if solution.status.converged else "MISSED"
     flowed = solution.flow is not None and solution.flow.volume > 0
     return [
         ("surface", size_of(problem.grid)),
-        ("reduced modulus E*", quantity("modulus", problem.modulus)),
-        ("force", quantity("force", solution.force, kind)),
-        ("nominal pressure", quantity("pressure", pressure, kind)),
-        ("largest pressure", quantity("pressure", max_abs(solution.pressure), kind)),
-        ("depth", quantity("depth", solution.depth, kind)),
-        ("stiffness", quantity("stiffness", solution.stiffness, kind)),
-        ("interfacial stiffness", quantity("interfacial_stiffness", solution.interfacial_stiffness, kind)),
+        *column_facts(solution, shown_in("facts", STATE[()]), problem.geometry, STATE_NAMES),
         *(_flow_facts(solution) if flowed else ()),
-        ("contact area", quantity("contact_area", solution.contact_area, kind)),
-        ("relative contact area A/A0", f"{solution.contact_fraction:.4g}"),
-        ("contact spots", str(solution.spots.count)),
-        ("mean gap", quantity("mean_gap", float(closed_gap(solution.mean_gap, solution.depth)), kind)),
-        ("elastic energy", quantity("elastic_energy", solution.elastic_energy, kind)),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
 
@@ -160,10 +165,9 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
             continue
         plain = known in ("", "1")
         chosen = _scale(values, dataset[name].attrs.get("units", ""), known)
-        label = VARIABLES[name].label if name in CURVE_COLUMNS + AREAL_COLUMNS else name.replace("_", " ")
-        header.append(label if plain else f"{label} [{chosen.unit or pretty(known)}]")
-        digits = ".1e" if name == "residual" else "d" if name == "spots" else ".4g"
-        columns.append([format(value if plain else value * chosen.factor, digits) for value in values])
+        column = VARIABLES[name]
+        header.append(column.label if plain else f"{column.label} [{chosen.unit or pretty(known)}]")
+        columns.append([format(value if plain else value * chosen.factor, column.digits) for value in values])
     if {"resolved", "status"} <= dataset.keys():
         header.append("")
         points = zip(dataset["resolved"].to_numpy(), dataset["status"].to_numpy(), strict=True)

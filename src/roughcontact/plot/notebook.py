@@ -19,24 +19,17 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import curve_dataset
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
-from roughcontact.pictures import (
-    plot_adhesive_curve,
-    plot_curve,
-    plot_detachment,
-    plot_loop,
-    plot_solution,
-    plot_state,
-    plot_surface,
-)
 from roughcontact.plot.adhesive_facts import (
     ADHESIVE_COLUMNS,
     adhesive_curve_facts,
     adhesive_facts,
     law_facts,
 )
+from roughcontact.plot.answers import plot_curve, plot_loop, plot_solution, plot_state, plot_surface
 from roughcontact.plot.detachment_plot import (
     DETACHMENT_COLUMNS,
     detachment_facts,
+    detachment_force,
     detachment_state_facts,
 )
 from roughcontact.plot.facts import (
@@ -49,10 +42,12 @@ from roughcontact.plot.facts import (
     surface_facts,
     surface_record,
 )
+from roughcontact.plot.jumps import jump_loop
 from roughcontact.surface.surface import Surface
 
 __all__ = [
-    *("of_adhesive_curve", "of_curve", "of_detachment", "of_loop", "of_solution", "of_state", "of_surface")
+    *("adhesive_curve_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
+    "surface_html",
 ]
 
 _SHOWN = 30  # loads of a longer curve: the first and the last half of these
@@ -60,7 +55,7 @@ _SIZE, _DPI = (4.6, 3.4), 96
 _LEFT = "text-align:left"
 
 
-def of_surface(surface: Surface) -> str | None:
+def surface_html(surface: Surface) -> str | None:
     """Return size, missing points, heights and history of a surface beside its picture.
 
     None of heights on another device, so that they stay there: the notebook takes ``repr`` then.
@@ -72,7 +67,7 @@ def of_surface(surface: Surface) -> str | None:
     return _page("Surface", surface_facts(surface, surface_record(surface)), figure)
 
 
-def of_solution(solution: Solution) -> str:
+def solution_html(solution: Solution) -> str:
     """Return the numbers of one loaded state beside the pressure."""
     solution = solution.on_host()
     figure, axes = _figure()
@@ -81,7 +76,7 @@ def of_solution(solution: Solution) -> str:
     return _page("Solution", facts, figure)
 
 
-def of_curve(curve: Curve) -> str:
+def curve_html(curve: Curve) -> str:
     """Return a table of the loads beside the stiffness; per area against pressure where the map is periodic."""
     joint = all(curve.periodic)
     figure, axes = _figure()
@@ -94,14 +89,14 @@ def of_curve(curve: Curve) -> str:
     return _page("Curve", facts, figure) + table
 
 
-def of_loop(loop: Loop) -> str:
+def loop_html(loop: Loop) -> str:
     """Return the numbers of a loop of loads beside force against depth."""
     figure, axes = _figure()
     plot_loop(loop, axes)
     return _page("Loop", loop_facts(loop), figure)
 
 
-def of_state(state: AdhesiveState | DetachmentState) -> str:
+def state_html(state: AdhesiveState | DetachmentState) -> str:
     """Return the numbers of a state of surfaces that stick beside pressure and tension."""
     figure, axes = _figure()
     plot_state(state, axes)
@@ -109,18 +104,18 @@ def of_state(state: AdhesiveState | DetachmentState) -> str:
     return _page("State", facts, figure)
 
 
-def of_detachment(curve: DetachmentCurve) -> str:
+def detachment_html(curve: DetachmentCurve) -> str:
     """Return a table of the loads of stuck surfaces, and the pull-off force beside force against depth."""
     figure, axes = _figure()
-    plot_detachment(curve, axes)
+    detachment_force(curve, axes)
     table = _table(*load_table(curve.to_dataset(), DETACHMENT_COLUMNS))
     return _page("Detachment", detachment_facts(curve), figure) + table
 
 
-def of_adhesive_curve(loop: AdhesiveCurve) -> str:
+def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
-    plot_adhesive_curve(loop, axes)
+    jump_loop(loop, axes)
     facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table

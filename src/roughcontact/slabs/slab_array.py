@@ -6,15 +6,12 @@ import math
 import operator
 from collections.abc import Callable
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact.slabs.rows import Edges
-
-if TYPE_CHECKING:
-    from roughcontact.slabs.array_functions import SlabFunctions
 
 __all__ = ["SlabArray"]
 
@@ -67,7 +64,7 @@ class SlabArray:
     __hash__: ClassVar[None] = None  # type: ignore[assignment]
     device: ClassVar[str] = "slabs"
 
-    def __init__(self, local: Local, edges: Edges, functions: SlabFunctions) -> None:
+    def __init__(self, local: Local, edges: Edges, functions: Any) -> None:
         self.local, self.edges, self.functions = local, edges, functions
         self.shape = (edges[-1], *local.shape[1:])
 
@@ -130,7 +127,7 @@ class SlabArray:
         """Return it, or on the device "host" the whole as an array of NumPy."""
         return self.gathered() if device == "host" else self
 
-    def __array_namespace__(self, api_version: str | None = None) -> SlabFunctions:
+    def __array_namespace__(self, api_version: str | None = None) -> Any:
         return self.functions
 
     def __array__(self, *_: Any, **__: Any) -> Local:

@@ -65,7 +65,7 @@ def added_stiffness(operator: Operator, pressed: Any, weak: Any) -> float:
         rows, begin = functions.with_rows_beside(pressed, NEAR)
         places = np.argwhere(weak.local)
         places[:, 0] += edges[functions.rank]
-        return functions.combined([_added_at(operator, places, rows, begin, pressed.shape)], 0)[0]
+        return float(functions.combined([_added_at(operator, places, rows, begin, pressed.shape)], 0)[0])
     here = on_host(pressed) > 0
     return _added_at(operator, np.argwhere(on_host(weak) > 0), here, 0, here.shape)
 

@@ -23,7 +23,7 @@ _NOTHING: dict[str, Any] = {"f": math.nan, "b": False, "U": "", "i": 0, "u": 0}
 
 
 @dataclass(slots=True, eq=False)
-class Column:
+class GatheredColumn:
     """A variable as the records bring it along, one after the other.
 
     Parameters
@@ -123,7 +123,7 @@ class Collector:
     taken: frozenset[str]
     attributes: dict[str, Any] = field(default_factory=dict)
     _count: int = 0
-    _columns: dict[str, Column] = field(default_factory=dict)
+    _columns: dict[str, GatheredColumn] = field(default_factory=dict)
     _lengths: dict[str, int] = field(default_factory=dict)
     _coordinates: set[str] = field(default_factory=set)
 
@@ -147,7 +147,7 @@ class Collector:
             column = self._columns.get(str(name))
             if column is None:
                 dims = tuple(map(str, variable.dims))
-                column = self._columns[str(name)] = Column(str(name), dims, dict(variable.attrs))
+                column = self._columns[str(name)] = GatheredColumn(str(name), dims, dict(variable.attrs))
             column.add(place, variable)
         for dimension, size in record.sizes.items():
             self._lengths[str(dimension)] = max(size, self._lengths.get(str(dimension), 0))
@@ -176,7 +176,7 @@ class Collector:
                 (coordinates if name in self._coordinates else data)[name] = found
         return data, coordinates
 
-    def _kept_once(self, column: Column, sizes: tuple[int, ...], coordinate: bool) -> Any:
+    def _kept_once(self, column: GatheredColumn, sizes: tuple[int, ...], coordinate: bool) -> Any:
         """Return the values that all records agree on; None where they do not."""
         if column.dims == (column.name,):
             longest = column.longest()

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from roughcontact import __version__
 from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
 from roughcontact.study.collect import Collector
 from roughcontact.study.study_errors import StudyError
+from roughcontact.version import __version__
 
 if TYPE_CHECKING:
     import xarray

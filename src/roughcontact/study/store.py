@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from filelock import FileLock, Timeout
 
-from roughcontact import __version__
 from roughcontact.study.cases import find_case
 from roughcontact.study.field_files import cleaned, read_fields, split, write_fields
 from roughcontact.study.record import COLUMNS, Row, checksum, encode, residual_of
@@ -20,6 +19,7 @@ from roughcontact.study.schema import DATABASE, connected, guarded, made, patien
 from roughcontact.study.study import Study
 from roughcontact.study.study_errors import StoreError, StudyError, computed_again, disk_trouble, on_disk
 from roughcontact.study.task import Summary, canonical
+from roughcontact.version import __version__
 
 if TYPE_CHECKING:
     import xarray

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughcontact.validation import Array, numeric, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, lengths_method, require
 
 __all__ = ["ALPHA", "filtered", "gaussian_mean", "require_cells"]
 
@@ -23,7 +21,8 @@ _REACH = math.sqrt(53 * math.log(2) / math.pi)
 _CELLS = 4
 
 
-@numeric(short_cutoff="m", long_cutoff="m")
+@on_host_only
+@lengths_method
 def filtered(
     surface: Surface, *, short_cutoff: float | None = None, long_cutoff: float | None = None
 ) -> Surface:

@@ -10,28 +10,37 @@ from typing import Any, ParamSpec, TypeVar
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.slabs.exchange import is_in_slabs
 
-__all__ = ["analysed_on_host", "on_host_only"]
+__all__ = ["analysed_on_host", "on_host_only", "on_host_or_in_slabs"]
 
 
 P = ParamSpec("P")
 R = TypeVar("R")
+F = TypeVar("F", bound=Callable[..., Any])
 
 
-def on_host_only(function: Callable[P, R], *, or_in_slabs: bool = False) -> Callable[P, R]:
-    """Return a function of surfaces that refuses heights which NumPy could not work on where they live."""
+def on_host_only(function: F) -> F:
+    """Return a function of surfaces that refuses heights which are not in NumPy's memory."""
+    return _refusing(function, lambda heights: True)
 
+
+def on_host_or_in_slabs(function: F) -> F:
+    """Return a function of surfaces that refuses heights which are neither in NumPy's memory nor in slabs."""
+    return _refusing(function, lambda heights: not is_in_slabs(heights))
+
+
+def _refusing(function: F, refused: Callable[[Any], bool]) -> F:
     @wraps(function)
-    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+    def checked(*args: Any, **kwargs: Any) -> Any:
         surfaces: tuple[Any, ...] = (*args, *kwargs.values())
         for given in surfaces:
-            if _is_elsewhere(given) and not (or_in_slabs and is_in_slabs(given.heights)):
+            if _is_elsewhere(given) and refused(given.heights):
                 raise ValueError(
                     f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}: "
                     "prepare the surface first, then put its heights on the device"
                 )
         return function(*args, **kwargs)
 
-    return checked
+    return checked  # type: ignore[return-value]
 
 
 def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from roughcontact.surface.form import round_form
+from roughcontact.surface.in_memory import on_host_only, on_host_or_in_slabs
 from roughcontact.surface.polynomial import polynomial_trend
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["levelled", "without_form"]
 
@@ -21,6 +20,7 @@ _TRENDS = {
 }
 
 
+@on_host_or_in_slabs
 def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "plane") -> Surface:
     """Return the surface without its mean height, its tilt or its curvature, by least squares.
 
@@ -58,6 +58,7 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     return surface.with_heights(surface.heights - polynomial_trend(surface.heights, degree), line)
 
 
+@on_host_only
 def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) -> Surface:
     """Return the surface without the form that fits it best, by least squares of the heights.
 

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.sampling import cell_ranges, range_words
-from roughcontact.validation import Mask, numeric
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Mask, lengths_method
 
 __all__ = ["masked"]
 
 
-@numeric(below="m", above="m")
+@on_host_only
+@lengths_method
 def masked(
     surface: Surface,
     *,

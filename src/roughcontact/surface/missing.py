@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["filled"]
 
 
+@on_host_only
 def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
     """Return the surface with heights at the points that were not measured.
 

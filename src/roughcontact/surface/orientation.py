@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.validation import numeric, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import numeric_method, require
 
 __all__ = ["flipped", "rotated", "transposed"]
 
 
+@on_host_only
 def transposed(surface: Surface) -> Surface:
     """Return the surface with rows and columns exchanged: mirrored about the diagonal of the picture.
 
@@ -37,6 +37,7 @@ def transposed(surface: Surface) -> Surface:
     return surface.with_heights(surface.heights.T, "transposed", _exchanged(surface.grid))
 
 
+@on_host_only
 def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
     """Return the surface mirrored along one axis.
 
@@ -69,7 +70,8 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
     return surface.with_heights(np.flip(surface.heights, axes[axis]), f"flipped along {axis}")
 
 
-@numeric
+@on_host_only
+@numeric_method
 def rotated(surface: Surface, quarters: int = 1) -> Surface:
     """Return the surface turned counter-clockwise, as the picture shows it.
 

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.grid import Grid
 from roughcontact.surface.filters import gaussian_mean
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import number
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["averaged", "cell_ranges", "cropped", "downsampled", "range_words"]
 
 
+@on_host_only
 def cropped(surface: Surface, *parts: slice) -> Surface:
     """Return the part of the surface in `parts`.
 
@@ -57,6 +56,7 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
     return surface.with_heights(surface.heights[parts], line, small)
 
 
+@on_host_only
 def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: bool = True) -> Surface:
     """Return a subsample of the surface: every `factor`-th point along each axis.
 
@@ -111,6 +111,7 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
     return surface.with_heights(chosen, line, _coarse(grid, factors))
 
 
+@on_host_only
 def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
     """Return the surface as pixels of `factor` cells a side record it: the mean over each block.
 

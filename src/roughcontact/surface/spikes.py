@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.surface.in_memory import analysed_on_host
+from roughcontact.surface.in_memory import analysed_on_host, on_host_only
 from roughcontact.surface.missing import filled
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, numeric, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
 
 __all__ = ["Spikes", "despiked", "find_spikes", "spikes_in", "tail_of"]
 
@@ -117,6 +115,7 @@ def find_spikes(surface: Surface) -> Spikes:
     return spikes_in(surface.heights, surface.grid.periodic)
 
 
+@on_host_only
 def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> Surface:
     """Return the surface without its spikes, see `find_spikes`.
 

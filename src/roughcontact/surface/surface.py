@@ -9,21 +9,11 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact import methods
 from roughcontact.arrays import is_numpy, namespace
-from roughcontact.datasets import surface_from_dataarray, surface_to_dataset
 from roughcontact.grid import Grid
-from roughcontact.pictures import plot_surface, surface_html
-from roughcontact.surface.filters import filtered
+from roughcontact.late import static
 from roughcontact.surface.height_range import own_heights
-from roughcontact.surface.in_memory import on_host_only
-from roughcontact.surface.levelling import levelled, without_form
-from roughcontact.surface.mask import masked
-from roughcontact.surface.missing import filled
-from roughcontact.surface.orientation import flipped, rotated, transposed
-from roughcontact.surface.sampling import averaged, cropped, downsampled
-from roughcontact.surface.spikes import despiked
-from roughcontact.surface.tip import scanned
-from roughcontact.surface.windows import tapered
 from roughcontact.units import in_si
 from roughcontact.validation import Array, require, shown
 
@@ -163,23 +153,24 @@ class Surface:
         deviation = xp.where(there, heights - xp.sum(xp.where(there, heights, 0.0)) / count, 0.0)
         return math.sqrt(float(xp.sum(deviation**2)) / count)
 
-    # What prepares a surface has its own files; each returns a new surface and adds a line to the provenance.
-    despiked = on_host_only(despiked)
-    masked = on_host_only(masked)
-    levelled = on_host_only(levelled, or_in_slabs=True)
-    without_form = on_host_only(without_form)
-    filtered = on_host_only(filtered)
-    cropped = on_host_only(cropped)
-    downsampled = on_host_only(downsampled)
-    averaged = on_host_only(averaged)
-    filled = on_host_only(filled)
-    tapered = on_host_only(tapered)
-    scanned = on_host_only(scanned)
-    transposed = on_host_only(transposed)
-    flipped = on_host_only(flipped)
-    rotated = on_host_only(rotated)
+    # What is done with a surface has its own files; each way of preparing it returns a new one, with a line more in
+    # the provenance.
+    despiked = methods.despiked
+    masked = methods.masked
+    levelled = methods.levelled
+    without_form = methods.without_form
+    filtered = methods.filtered
+    cropped = methods.cropped
+    downsampled = methods.downsampled
+    averaged = methods.averaged
+    filled = methods.filled
+    tapered = methods.tapered
+    scanned = methods.scanned
+    transposed = methods.transposed
+    flipped = methods.flipped
+    rotated = methods.rotated
 
-    plot = on_host_only(plot_surface)
-    to_dataset = on_host_only(surface_to_dataset)
-    from_dataarray = staticmethod(surface_from_dataarray)
-    _repr_html_ = surface_html
+    plot = methods.plot_surface
+    to_dataset = methods.surface_dataset
+    from_dataarray = static(methods.surface_of)
+    _repr_html_ = methods.surface_html

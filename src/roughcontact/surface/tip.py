@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.validation import Array, moderate, numeric, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, lengths_method, moderate, require
 
 __all__ = ["scanned"]
 
 
-@numeric(tip_radius="m")
+@on_host_only
+@lengths_method
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
     """Return the surface as a tip records it that follows without force: the heights of its lowest point.
 

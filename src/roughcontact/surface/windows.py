@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
-from roughcontact.validation import Array, numeric, require
-
-if TYPE_CHECKING:
-    from roughcontact.surface.surface import Surface
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, numeric_method, require
 
 __all__ = ["WINDOWS", "Window", "tapered", "window_values"]
 
@@ -44,7 +43,8 @@ def window_values(name: str, count: int, share: float = 0.25) -> Array:
     return _SHAPES["hann"](np.minimum(bent, math.pi * share) / share) if share else np.ones(count)
 
 
-@numeric
+@on_host_only
+@numeric_method
 def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> Surface:
     """Return the heights above their mean times a window along every free axis.
 

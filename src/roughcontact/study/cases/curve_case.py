@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
-from roughcontact.contact.curve import collect
+from roughcontact.contact.curve import CURVE_POINTS, collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
-from roughcontact.labels.variables import CURVE_POINTS
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
 from roughcontact.surface.moments import Moments, surface_moments

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from roughcontact.contact.curve import CURVE_POINTS
 from roughcontact.contact.loop import loading_loop
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import FLOW
 from roughcontact.labels.labelled import variable
-from roughcontact.labels.variables import CURVE_POINTS, FLOW_POINTS, VARIABLES
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
 from roughcontact.surface.moments import surface_moments
@@ -76,7 +79,7 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> xarray.Dataset:
         tolerance=parameters.tolerance,
     )
     whole = loop.loading.to_dataset()
-    record = whole[[*_ARRAYS, *FLOW_POINTS, "hardness"]].drop_vars("axis", errors="ignore")
+    record = whole[[*_ARRAYS, *names_of(FLOW), "hardness"]].drop_vars("axis", errors="ignore")
     # The rms height of the parameters, without the body under the roughness.
     record["dimensionless_force"] = "load", parameters.forces, whole["dimensionless_force"].attrs
     for name in _ON_UNLOADING:

@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
-from roughcontact import __version__
 from roughcontact.study.executors.worker import WorkersError, cannot_load, lost, pickled
+from roughcontact.version import __version__
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -183,11 +183,11 @@ def _by_value() -> Compute:
 
         sys.path.extend(place for place in path if place not in sys.path)  # modules on a disk that both see
         try:
-            import roughcontact
-
-            if roughcontact.__version__ != version:
-                return f"it has roughcontact {roughcontact.__version__}, and here is {version}"
             from roughcontact.study.executors.worker import computed
+            from roughcontact.version import __version__
+
+            if __version__ != version:
+                return f"it has roughcontact {__version__}, and here is {version}"
 
             run_task, task = pickle.loads(message)
         except Exception as error:

@@ -1,37 +1,29 @@
-"""How values are drawn: the door from what is computed to the room that draws.
-
-`Surface`, `Solution`, `Curve`, `Loop`, `AdhesiveState`, `AdhesiveCurve`, `DetachmentState` and `DetachmentCurve` have
-these functions as their methods. What draws is imported when they are called.
-"""
+"""Surfaces and answers drawn as their methods draw them: each by the picture that suits it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Sequence
+from typing import Literal
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+from matplotlib.axes import Axes
 
-    from matplotlib.axes import Axes
+from roughcontact.adhesion.adhesive_state import AdhesiveState
+from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.contact.compare import Law
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.loop import Loop
+from roughcontact.contact.solution import Solution
+from roughcontact.plot import curves, loops, maps, profile_plot
+from roughcontact.plot.tension import tension_map, tension_profile
+from roughcontact.statistics.power_law import PowerLaw
+from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.spikes import Spikes
+from roughcontact.surface.surface import Surface
 
-    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
-    from roughcontact.adhesion.adhesive_state import AdhesiveState
-    from roughcontact.adhesion.detachment_curve import DetachmentCurve
-    from roughcontact.adhesion.detachment_state import DetachmentState
-    from roughcontact.contact.compare import Law
-    from roughcontact.contact.curve import Curve
-    from roughcontact.contact.loop import Loop
-    from roughcontact.contact.solution import Solution
-    from roughcontact.statistics.power_law import PowerLaw
-    from roughcontact.surface.spikes import Spikes
-    from roughcontact.surface.surface import Surface
-
-__all__ = [
-    *("adhesive_curve_html", "curve_html", "detachment_html", "loop_html", "solution_html", "state_html"),
-    *("plot_adhesive_curve", "plot_curve", "plot_detachment", "plot_loop", "plot_solution", "plot_state"),
-    *("plot_surface", "surface_html"),
-]
+__all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
+@on_host_only
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights: a map in colour, of a profile a curve.
 
@@ -55,10 +47,7 @@ def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | N
     >>> surface.plot(spikes=rc.find_spikes(surface)).get_xlabel()
     'x [µm]'
     """
-    from roughcontact.plot.maps import height_map
-    from roughcontact.plot.profile_plot import profile_curve
-
-    draw = height_map if surface.grid.ndim == 2 else profile_curve
+    draw = maps.height_map if surface.grid.ndim == 2 else profile_plot.profile_curve
     return draw(surface, ax, spikes=spikes)
 
 
@@ -90,8 +79,6 @@ def plot_solution(
     >>> solution.plot(field="contact").get_xlabel()
     'x [µm]'
     """
-    from roughcontact.plot import maps, profile_plot
-
     if field not in ("pressure", "contact"):
         raise ValueError(f"field must be 'pressure' or 'contact', not {field!r}")
     if solution.problem.grid.ndim == 1:
@@ -142,8 +129,6 @@ def plot_curve(
     >>> axes.get_xscale(), axes.get_ylabel()
     ('log', 'contact area [µm²]')
     """
-    from roughcontact.plot import curves
-
     if law is not None and "stiffness" not in quantity:
         raise ValueError(f"law is about the stiffness: leave it out with {quantity!r}")
     if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
@@ -183,8 +168,6 @@ def plot_loop(
     >>> [loop.plot(quantity=each).get_xlabel() for each in ("depth", "stiffness", "bearing")]
     ['depth [nm]', 'nominal pressure [MPa]', 'area above the height [%]']
     """
-    from roughcontact.plot import loops
-
     if quantity == "bearing":
         return loops.bearing_curves(loop.surface, loop.flow, ax)
     draw = {"depth": loops.depth_loop, "stiffness": loops.stiffness_loop}
@@ -214,109 +197,4 @@ def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -
     >>> state.plot().get_xlabel()
     'x [nm]'
     """
-    from roughcontact.plot.tension import tension_map, tension_profile
-
     return tension_map(state, ax) if state.contact.ndim == 2 else tension_profile(state, ax)
-
-
-def plot_adhesive_curve(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
-    """Draw force against depth on approach and retreat; jumps are dashed, with the energy that each lost.
-
-    Parameters
-    ----------
-    loop : AdhesiveCurve
-    ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
-    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
-    >>> loop.plot().get_ylabel()
-    'force [nN]'
-    """
-    from roughcontact.plot.jumps import jump_loop
-
-    return jump_loop(loop, ax)
-
-
-def plot_detachment(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
-    """Draw force against depth: a line through all detachments, and a mark at each load.
-
-    Parameters
-    ----------
-    curve : DetachmentCurve
-    ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
-    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> curve = rc.detachment_curve(rc.press(ball, 1e8, depth=2e-8), 10e-3)
-    >>> curve.plot().get_ylabel()
-    'force [nN]'
-    """
-    from roughcontact.plot.detachment_plot import detachment_force
-
-    return detachment_force(curve, ax)
-
-
-def surface_html(surface: Surface) -> str | None:
-    """Return a surface as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_surface(surface)
-
-
-def solution_html(solution: Solution) -> str:
-    """Return a solution as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_solution(solution)
-
-
-def curve_html(curve: Curve) -> str:
-    """Return a curve as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_curve(curve)
-
-
-def loop_html(loop: Loop) -> str:
-    """Return a loop as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_loop(loop)
-
-
-def state_html(state: AdhesiveState | DetachmentState) -> str:
-    """Return a state of surfaces that stick as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_state(state)
-
-
-def detachment_html(curve: DetachmentCurve) -> str:
-    """Return a curve of stuck surfaces that are drawn back as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_detachment(curve)
-
-
-def adhesive_curve_html(loop: AdhesiveCurve) -> str:
-    """Return a path of surfaces that stick as a notebook shows it."""
-    from roughcontact.plot import notebook
-
-    return notebook.of_adhesive_curve(loop)

@@ -1,0 +1,121 @@
+"""Methods that stand in files of their own: how surfaces and answers are prepared, drawn, tabulated and written.
+
+A class takes them from here, ``plot = methods.plot_curve``, and imports none of their files: these import the class.
+Type checkers, editors and bundlers of programs read the imports below. At run time each name is a `LateMethod`, which
+imports its file when the method is looked up. Imports that would close a circle stand here and nowhere else.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from roughcontact.late import LateMethod
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.adhesive_curve_dataset import (
+        adhesive_curve_dataset as adhesive_curve_dataset,
+        adhesive_curve_record as adhesive_curve_record,
+    )
+    from roughcontact.adhesion.detachment_dataset import (
+        detachment_curve_dataset as detachment_curve_dataset,
+        detachment_curve_record as detachment_curve_record,
+        detachment_state_dataset as detachment_state_dataset,
+        detachment_state_record as detachment_state_record,
+    )
+    from roughcontact.adhesion.state_dataset import (
+        state_dataset as state_dataset,
+        state_record as state_record,
+    )
+    from roughcontact.contact.dataset import (
+        curve_dataframe as curve_dataframe,
+        curve_dataset as curve_dataset,
+        curve_record as curve_record,
+        interface_dataset as interface_dataset,
+        solution_dataset as solution_dataset,
+        solution_record as solution_record,
+    )
+    from roughcontact.contact.histograms import (
+        gap_histogram as gap_histogram,
+        pressure_histogram as pressure_histogram,
+    )
+    from roughcontact.contact.loop_dataset import loop_dataset as loop_dataset, loop_record as loop_record
+    from roughcontact.contact.notes import notes_on as notes_on
+    from roughcontact.files.surface_dataset import (
+        surface_dataset as surface_dataset,
+        surface_of as surface_of,
+    )
+    from roughcontact.friction.slip_dataset import (
+        slip_curve_dataset as slip_curve_dataset,
+        slip_curve_record as slip_curve_record,
+        tangential_dataset as tangential_dataset,
+        tangential_record as tangential_record,
+    )
+    from roughcontact.plot.answers import (
+        plot_curve as plot_curve,
+        plot_loop as plot_loop,
+        plot_solution as plot_solution,
+        plot_state as plot_state,
+        plot_surface as plot_surface,
+    )
+    from roughcontact.plot.detachment_plot import detachment_force as detachment_force
+    from roughcontact.plot.jumps import jump_loop as jump_loop
+    from roughcontact.plot.notebook import (
+        adhesive_curve_html as adhesive_curve_html,
+        curve_html as curve_html,
+        detachment_html as detachment_html,
+        loop_html as loop_html,
+        solution_html as solution_html,
+        state_html as state_html,
+        surface_html as surface_html,
+    )
+    from roughcontact.surface.filters import filtered as filtered
+    from roughcontact.surface.levelling import levelled as levelled, without_form as without_form
+    from roughcontact.surface.mask import masked as masked
+    from roughcontact.surface.missing import filled as filled
+    from roughcontact.surface.orientation import (
+        flipped as flipped,
+        rotated as rotated,
+        transposed as transposed,
+    )
+    from roughcontact.surface.sampling import (
+        averaged as averaged,
+        cropped as cropped,
+        downsampled as downsampled,
+    )
+    from roughcontact.surface.spikes import despiked as despiked
+    from roughcontact.surface.tip import scanned as scanned
+    from roughcontact.surface.windows import tapered as tapered
+else:
+    _HOMES = {
+        "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
+        "adhesion.detachment_dataset": (
+            "detachment_curve_dataset detachment_curve_record "
+            "detachment_state_dataset detachment_state_record"
+        ),
+        "adhesion.state_dataset": "state_dataset state_record",
+        "contact.dataset": (
+            "curve_dataframe curve_dataset curve_record interface_dataset solution_dataset solution_record"
+        ),
+        "contact.histograms": "gap_histogram pressure_histogram",
+        "contact.loop_dataset": "loop_dataset loop_record",
+        "contact.notes": "notes_on",
+        "files.surface_dataset": "surface_dataset surface_of",
+        "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
+        "plot.answers": "plot_curve plot_loop plot_solution plot_state plot_surface",
+        "plot.detachment_plot": "detachment_force",
+        "plot.jumps": "jump_loop",
+        "plot.notebook": (
+            "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
+        ),
+        "surface.filters": "filtered",
+        "surface.levelling": "levelled without_form",
+        "surface.mask": "masked",
+        "surface.missing": "filled",
+        "surface.orientation": "flipped rotated transposed",
+        "surface.sampling": "averaged cropped downsampled",
+        "surface.spikes": "despiked",
+        "surface.tip": "scanned",
+        "surface.windows": "tapered",
+    }
+    for _home, _names in _HOMES.items():
+        globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})
