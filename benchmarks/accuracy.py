@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 import roughcontact as rc
-from roughcontact.theory import hertz, power_law_indenter, punch
+from roughcontact.theory.spheres_and_punches import hertz, power_law_indenter, punch
 
 Array = npt.NDArray[np.float64]
 Shape = Callable[[Array], Array]

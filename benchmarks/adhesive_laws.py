@@ -26,7 +26,7 @@ import time
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 
 POINTS = 24
 PRESSED = (

@@ -13,8 +13,8 @@ import numpy as np
 from joint import ALUMINIUM, CELL, CELLS, STEEL, joint
 
 import roughcontact as rc
-from roughcontact.contact.perimeter import OVERHANG, corrected_area, edge_count
-from roughcontact.plot.engineering_units import scale
+from roughcontact.evaluation.perimeter import OVERHANG, corrected_area, edge_count
+from roughcontact.plot.drawing.engineering_units import scale
 
 MODULUS = rc.reduced_modulus(STEEL, ALUMINIUM)
 NAMES = {

@@ -12,9 +12,9 @@ import numpy as np
 from quiet import waited
 
 import roughcontact as rc
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.random_lines import line_heights, random_waves, rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.random_lines import line_heights, random_waves, rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 
 ROUNDS = 9
 BATCH = 500  # lines at a time: results that fit into memory that is there already

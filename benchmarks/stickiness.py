@@ -17,8 +17,9 @@ import math
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.theory import pastewka_robbins, persson_separation
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.adhesive import pastewka_robbins
+from roughcontact.theory.persson_theory import persson_separation
+from roughcontact.theory.random_surfaces.waves import Waves
 
 RANGES = (0.01, 0.03, 0.1)  # over h' d_rep
 

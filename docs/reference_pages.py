@@ -23,6 +23,7 @@ TITLES = {  # in this order
     "material": "Solids",
     "materials": "Metals by name",
     "contact": "Contact",
+    "evaluation": "Readers of a contact",
     "friction": "Friction",
     "adhesion": "Adhesion",
     "halfspace": "Operators",

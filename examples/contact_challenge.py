@@ -16,8 +16,7 @@ import math
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.theory import pastewka_robbins, persson_tosatti
-from roughcontact.theory.waves import Waves
+from roughcontact.theory import pastewka_robbins, persson_tosatti, waves
 
 MODULUS, WORK, RANGE, PRESSURE = 25e6, 0.05, 2.07e-9, 250e3  # Pa, J/m^2, m, Pa
 RESOLVED = 1.501  # cells in Irwin's length, of the 1.5 that are asked for
@@ -47,16 +46,16 @@ def main():
     grid = surface.grid
     shortest = math.sqrt(RESOLVED * max(grid.spacing) * math.pi * WORK / MODULUS)
     adhesion = rc.Adhesion(work=WORK, range=max(given.range, shortest))
-    waves = Waves.of_heights(surface.heights, grid.spacing)
-    summit = 2 / math.sqrt(8 / 3 * waves.m4)  # radius, from the rms Laplacian
+    roughness = waves.Waves.of_heights(surface.heights, grid.spacing)
+    summit = 2 / math.sqrt(8 / 3 * roughness.m4)  # radius, from the rms Laplacian
     sides = " x ".join(f"{length * 1e6:.3g}" for length in grid.lengths)
-    print(f"{' x '.join(map(str, grid.shape))} cells, {sides} um, rms slope {waves.rms_slope:.3f}")
+    print(f"{' x '.join(map(str, grid.shape))} cells, {sides} um, rms slope {roughness.rms_slope:.3f}")
     print(
         f"range {adhesion.range * 1e9:.2f} nm, {adhesion.range / RANGE:.2f} of the challenge's: Tabor's number of a "
         f"summit {adhesion.tabor(summit, MODULUS):.3f}, not {rc.Adhesion(WORK, RANGE).tabor(summit, MODULUS):.3f}"
     )
-    left = persson_tosatti.effective_work(waves, MODULUS, WORK)
-    sticky = pastewka_robbins.stickiness(waves, MODULUS, WORK, adhesion.range)
+    left = persson_tosatti.effective_work(roughness, MODULUS, WORK)
+    sticky = pastewka_robbins.stickiness(roughness, MODULUS, WORK, adhesion.range)
     print(
         f"stickiness by Pastewka and Robbins {sticky:.2f}, by Persson and Tosatti {1e3 * left:.1f} mJ/m^2 left"
     )

@@ -39,7 +39,7 @@ def test_each_name_is_there_once(package):
 def test_another_name_is_refused_with_those_that_there_are():
     with pytest.raises(
         AttributeError,
-        match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; it has adhesive_asperities",
+        match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; it has law, laws, adhesive_asperities",
     ):
         _ = rc.theory.hurtz
 
@@ -109,5 +109,5 @@ def test_signature_and_help_of_a_method_are_those_of_the_function():
 
 
 def test_a_late_method_is_called_as_its_function_is():
-    late = LateMethod("roughcontact.surface.orientation", "flipped")
+    late = LateMethod("roughcontact.surface.preparation.orientation", "flipped")
     assert late(BALL, "x").provenance[-1] == BALL.flipped("x").provenance[-1]

@@ -32,6 +32,7 @@ ORDER = [
     {"solver"},
     {"statistics"},
     {"contact"},
+    {"evaluation"},
     {"adhesion"},
     {"friction"},
     {"mdr"},

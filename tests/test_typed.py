@@ -26,7 +26,7 @@ UNTYPED = {
 WRONG = (
     "roughcontact.Curv",
     "roughcontact.theory.hurtz",
-    "roughcontact.theory.hertz.pint",
+    "roughcontact.theory.spheres_and_punches.hertz.pint",
     "roughcontact.mdr.x",
 )
 

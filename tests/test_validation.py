@@ -11,7 +11,10 @@ import numpy.typing as npt
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import hertz, mindlin, persson, pohrt_popov, punch, rough_sphere
+from roughcontact.theory.joints import mindlin
+from roughcontact.theory.persson_theory import persson
+from roughcontact.theory.spheres_and_punches import hertz, punch, rough_sphere
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact.validation import (
     Array,
     exactly_one,

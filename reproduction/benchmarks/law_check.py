@@ -19,13 +19,13 @@ sys.path.append(str(ROOT / "benchmarks"))  # of roughcontact
 from certificate import Judge
 
 from roughcontact.grid import Grid
-from roughcontact.mdr.random_lines import rough_lines
+from roughcontact.mdr.lines.random_lines import rough_lines
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.curve_case import CurveParameters
 from roughcontact.study.cases.patch_case import PatchParameters
 from roughcontact.study.study import Study
 from roughcontact.study.task import generator
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 

@@ -16,7 +16,7 @@ from law_tables import MIDDLE, curves, e1_laws, load_at, markdown, percent, reso
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
-from roughcontact.theory import pohrt_popov, rough_square
+from roughcontact.theory.stiffness_laws import pohrt_popov, rough_square
 from roughcontact.validation import Array
 
 NAMES = ("a", "b", "c", "p", "q", "r")

@@ -21,7 +21,7 @@ from law_tables import (
     resolved,
 )
 
-from roughcontact.theory import rough_sphere
+from roughcontact.theory.spheres_and_punches import rough_sphere
 
 PRESSURES = (1e-3, 1e-2, 1e-1)  # p l/(E* h), l the roll-off
 SPHERE = {"radius": 0.5, "hurst": 0.7, "rms": 9e-3, "length": 1.0, "modulus": 1.0}

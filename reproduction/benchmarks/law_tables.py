@@ -23,7 +23,7 @@ from law_ensembles import (
 )
 from numpy.typing import NDArray
 
-from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
 from roughcontact_thesis.line_match import Ensemble, match
 
 HIGHEST = 0.07  # F/(E* h L), where the fits of the thesis end

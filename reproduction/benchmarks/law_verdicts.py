@@ -12,7 +12,7 @@ from law_ensembles import CELLS, FOLDER, Values, error, interpolated, read, resa
 from law_others import SPHERE
 from law_tables import curves, e1_laws
 
-from roughcontact.theory import rough_sphere
+from roughcontact.theory.spheres_and_punches import rough_sphere
 from roughcontact_thesis import fig27_exponent, fig28_prefactor, fig37_stiffness_of_sphere
 from roughcontact_thesis.ruling import VICINITY, Ruling, middle, ranged, ruled
 from roughcontact_thesis.verdict import Verdict, spanned

@@ -155,7 +155,7 @@ def test_the_library_has_the_law_of_the_ensembles(script):
     from law_formula import table
     from law_tables import e1_laws
 
-    from roughcontact.theory import rough_square
+    from roughcontact.theory.stiffness_laws import rough_square
 
     ensemble = read("e1-surfaces")
     laws = e1_laws(ensemble)

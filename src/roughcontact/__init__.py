@@ -34,25 +34,13 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.adhesion.detachment_path import detachment_path as detachment_path
     from roughcontact.adhesion.detachment_state import DetachmentState as DetachmentState
     from roughcontact.adhesion.quasi_static import Jump as Jump
-    from roughcontact.contact.below import (
-        StressPeak as StressPeak,
-        below as below,
-        displacement_below as displacement_below,
-        largest_von_mises as largest_von_mises,
-    )
     from roughcontact.contact.compare import Comparison as Comparison
-    from roughcontact.contact.conduction import conductance as conductance
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
-    from roughcontact.contact.error_sources import error_budget as error_budget
     from roughcontact.contact.flow import Flow as Flow
     from roughcontact.contact.flow_curve import FlowCurve as FlowCurve
-    from roughcontact.contact.interface_table import (
-        InterfaceTable as InterfaceTable,
-        interface_table as interface_table,
-    )
-    from roughcontact.contact.load_range import load_range as load_range
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
+    from roughcontact.contact.loads.load_range import load_range as load_range
     from roughcontact.contact.loop import Loop as Loop, loading_loop as loading_loop
     from roughcontact.contact.memory_needed import memory_needed as memory_needed
     from roughcontact.contact.press import press as press
@@ -60,7 +48,19 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
-    from roughcontact.contact.theories import loading_laws as loading_laws
+    from roughcontact.evaluation.below import (
+        StressPeak as StressPeak,
+        below as below,
+        displacement_below as displacement_below,
+        largest_von_mises as largest_von_mises,
+    )
+    from roughcontact.evaluation.conduction import conductance as conductance
+    from roughcontact.evaluation.error_sources import error_budget as error_budget
+    from roughcontact.evaluation.interface_table import (
+        InterfaceTable as InterfaceTable,
+        interface_table as interface_table,
+    )
+    from roughcontact.evaluation.theories import loading_laws as loading_laws
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read, read_line as read_line
@@ -104,7 +104,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
     from roughcontact.statistics.power_law import PowerLaw as PowerLaw
-    from roughcontact.surface import examples as examples, shapes as shapes
     from roughcontact.surface.analysis.correlation import (
         autocorrelation as autocorrelation,
         structure_function as structure_function,
@@ -131,16 +130,21 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.analysis.spectrum_moments import spectrum_moments as spectrum_moments
     from roughcontact.surface.analysis.structure_fit import fit_structure as fit_structure
     from roughcontact.surface.analysis.summits import find_summits as find_summits
-    from roughcontact.surface.combine import combined as combined, resampled as resampled
-    from roughcontact.surface.fourier import self_affine as self_affine, synthesise as synthesise
     from roughcontact.surface.fractal import (
         box_counting_dimension as box_counting_dimension,
         fractal_dimension as fractal_dimension,
         magnify as magnify,
     )
-    from roughcontact.surface.midpoint import (
+    from roughcontact.surface.generation import examples as examples, shapes as shapes
+    from roughcontact.surface.generation.fourier import self_affine as self_affine, synthesise as synthesise
+    from roughcontact.surface.generation.midpoint import (
         midpoint_line as midpoint_line,
         midpoint_surface as midpoint_surface,
+    )
+    from roughcontact.surface.generation.spectrum import (
+        DirectionalSpectrum as DirectionalSpectrum,
+        SelfAffineSpectrum as SelfAffineSpectrum,
+        StretchedSpectrum as StretchedSpectrum,
     )
     from roughcontact.surface.moments import (
         Moments as Moments,
@@ -153,13 +157,9 @@ if TYPE_CHECKING or _LATE is None:
         stratified_parameters as stratified_parameters,
     )
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
+    from roughcontact.surface.preparation.combine import combined as combined, resampled as resampled
+    from roughcontact.surface.preparation.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.radial import RadialProfile as RadialProfile
-    from roughcontact.surface.spectrum import (
-        DirectionalSpectrum as DirectionalSpectrum,
-        SelfAffineSpectrum as SelfAffineSpectrum,
-        StretchedSpectrum as StretchedSpectrum,
-    )
-    from roughcontact.surface.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.surface import Surface as Surface
 
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
         curve_dataframe as curve_dataframe,
         curve_dataset as curve_dataset,
         curve_record as curve_record,
-        interface_dataset as interface_dataset,
         solution_dataset as solution_dataset,
         solution_record as solution_record,
     )
@@ -40,6 +39,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.contact.loop_dataset import loop_dataset as loop_dataset, loop_record as loop_record
     from roughcontact.contact.notes import notes_on as notes_on
+    from roughcontact.evaluation.interface_dataset import interface_dataset as interface_dataset
     from roughcontact.files.surface_dataset import (
         surface_dataset as surface_dataset,
         surface_of as surface_of,
@@ -68,23 +68,23 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
-    from roughcontact.surface.filters import filtered as filtered
-    from roughcontact.surface.levelling import levelled as levelled, without_form as without_form
-    from roughcontact.surface.mask import masked as masked
-    from roughcontact.surface.missing import filled as filled
-    from roughcontact.surface.orientation import (
+    from roughcontact.surface.preparation.filters import filtered as filtered
+    from roughcontact.surface.preparation.levelling import levelled as levelled, without_form as without_form
+    from roughcontact.surface.preparation.mask import masked as masked
+    from roughcontact.surface.preparation.missing import filled as filled
+    from roughcontact.surface.preparation.orientation import (
         flipped as flipped,
         rotated as rotated,
         transposed as transposed,
     )
-    from roughcontact.surface.sampling import (
+    from roughcontact.surface.preparation.sampling import (
         averaged as averaged,
         cropped as cropped,
         downsampled as downsampled,
     )
-    from roughcontact.surface.spikes import despiked as despiked
-    from roughcontact.surface.tip import scanned as scanned
-    from roughcontact.surface.windows import tapered as tapered
+    from roughcontact.surface.preparation.spikes import despiked as despiked
+    from roughcontact.surface.preparation.tip import scanned as scanned
+    from roughcontact.surface.preparation.windows import tapered as tapered
 else:
     _HOMES = {
         "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
@@ -93,12 +93,11 @@ else:
             "detachment_state_dataset detachment_state_record"
         ),
         "adhesion.state_dataset": "state_dataset state_record",
-        "contact.dataset": (
-            "curve_dataframe curve_dataset curve_record interface_dataset solution_dataset solution_record"
-        ),
+        "contact.dataset": ("curve_dataframe curve_dataset curve_record solution_dataset solution_record"),
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",
         "contact.notes": "notes_on",
+        "evaluation.interface_dataset": "interface_dataset",
         "files.surface_dataset": "surface_dataset surface_of",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_loop plot_solution plot_state plot_surface",
@@ -107,15 +106,15 @@ else:
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
         ),
-        "surface.filters": "filtered",
-        "surface.levelling": "levelled without_form",
-        "surface.mask": "masked",
-        "surface.missing": "filled",
-        "surface.orientation": "flipped rotated transposed",
-        "surface.sampling": "averaged cropped downsampled",
-        "surface.spikes": "despiked",
-        "surface.tip": "scanned",
-        "surface.windows": "tapered",
+        "surface.preparation.filters": "filtered",
+        "surface.preparation.levelling": "levelled without_form",
+        "surface.preparation.mask": "masked",
+        "surface.preparation.missing": "filled",
+        "surface.preparation.orientation": "flipped rotated transposed",
+        "surface.preparation.sampling": "averaged cropped downsampled",
+        "surface.preparation.spikes": "despiked",
+        "surface.preparation.tip": "scanned",
+        "surface.preparation.windows": "tapered",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 from sticking import rough, sticky
 
 LAW = DugdaleLaw(0.05, 2e-9, np.array([1e-9]))

@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 from sticking import rough, sticky
 
 RINGS = rc.RadialGrid.uniform(45, radius=6e-7)

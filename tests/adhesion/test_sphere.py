@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 
 WORK, RADIUS, MODULUS = 1e-4, 1.0, 1.0
 

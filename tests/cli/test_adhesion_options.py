@@ -11,7 +11,7 @@ import roughcontact as rc
 from roughcontact.adhesion import adhesive_loading
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.attraction import Law
-from roughcontact.cli.adhesion_options import LawChoice
+from roughcontact.cli.adhesion.adhesion_options import LawChoice
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")

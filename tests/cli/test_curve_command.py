@@ -10,7 +10,7 @@ import roughcontact as rc
 from roughcontact.cli.report import quantity
 from roughcontact.contact import loading
 from roughcontact.plot import canvas
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.random_surfaces.waves import Waves
 
 MODULUS = ("--modulus", "110GPa")
 FORCES = ("--forces", "1mN:1N:12")

@@ -8,7 +8,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact import loading
-from roughcontact.theory import plasticity
+from roughcontact.theory.plastic_asperities import plasticity
 
 FORCE = ("--force", "10mN")
 

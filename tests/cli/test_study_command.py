@@ -12,7 +12,7 @@ import pytest
 import xarray
 from rich.console import Console
 
-from roughcontact.cli.study_progress import Pace, duration, progress
+from roughcontact.cli.study.study_progress import Pace, duration, progress
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
 from roughcontact.study.task import Summary
@@ -280,7 +280,7 @@ def test_killed_with_its_workers_at_work_it_can_go_on(started, invoke, monkeypat
 
 def test_a_terminal_shows_a_bar_the_rate_and_the_time_left(monkeypatch):
     screen = Console(file=io.StringIO(), force_terminal=True, width=100)
-    monkeypatch.setattr("roughcontact.cli.study_progress.screen", lambda: screen)
+    monkeypatch.setattr("roughcontact.cli.study.study_progress.screen", lambda: screen)
     with progress("tried") as show:
         show(Summary(0, 0, 4))
         show(Summary(1, 0, 3, 10.0))
@@ -291,7 +291,7 @@ def test_a_terminal_shows_a_bar_the_rate_and_the_time_left(monkeypatch):
 
 def test_a_log_has_a_line_a_minute(monkeypatch, capsys):
     now = 0.0
-    monkeypatch.setattr("roughcontact.cli.study_progress.time.monotonic", lambda: now)
+    monkeypatch.setattr("roughcontact.cli.study.study_progress.time.monotonic", lambda: now)
     with progress("tried") as show:
         for done in range(5):
             show(Summary(done, 0, 4 - done, now))

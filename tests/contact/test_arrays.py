@@ -177,7 +177,7 @@ def test_a_mask_is_pressed_where_it_lives(library, rough):
 
 
 def test_pictures_and_theories_fetch_what_they_need(library, rough):
-    from roughcontact.contact.theories import persson_pressures
+    from roughcontact.evaluation.theories import persson_pressures
     from roughcontact.plot.canvas import pressure_distribution_figure, solution_figure
 
     there = rc.press(elsewhere(rough, library), 1.0, force=2e-3)

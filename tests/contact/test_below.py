@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import roughcontact as rc
-from roughcontact.contact.below import below, displacement_below, largest_von_mises
+from roughcontact.evaluation.below import below, displacement_below, largest_von_mises
 from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
 

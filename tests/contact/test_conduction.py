@@ -62,7 +62,7 @@ def test_of_the_interface_also_per_area():
 
 
 def test_columns_say_what_they_are_of_and_take_the_place_of_others():
-    from roughcontact.contact.conduction import Conductors, with_conductance
+    from roughcontact.evaluation.conduction import Conductors, with_conductance
 
     copper = Conductors((1.7e-8, 1.7e-8))
     words = {}
@@ -138,7 +138,7 @@ def test_what_gives_way_conducts_too():
 
 
 def test_a_curve_under_a_hardness_conducts_as_its_solutions_do():
-    from roughcontact.contact.conduction import Conductors, with_conductance
+    from roughcontact.evaluation.conduction import Conductors, with_conductance
 
     grid = rc.Grid((32, 32), 1e-6)
     rough = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(0))
@@ -159,7 +159,7 @@ def test_a_curve_that_leaves_out_its_plastic_cells_does_not_know():
     """As one that was written before curves held the stiffness of unloading."""
     from dataclasses import replace
 
-    from roughcontact.contact.conduction import Conductors, with_conductance
+    from roughcontact.evaluation.conduction import Conductors, with_conductance
 
     grid = rc.Grid((8, 8), 1e-6)
     curve = rc.loading_curve(rc.Surface(np.eye(8) * 1e-7, grid), MODULUS, forces=[1e-3, 1e-2], hardness=1e10)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.error_budget import ErrorBudget, ErrorSource, QuotedNumber
-from roughcontact.contact.error_notes import REMEDIES, notes_on_sources
-from roughcontact.contact.error_sources import NUMBERS
-from roughcontact.contact.perimeter import corrected_area
+from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.evaluation.error_notes import REMEDIES, notes_on_sources
+from roughcontact.evaluation.error_sources import NUMBERS
+from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.surface.finest_waves import is_rough_to_cells
 
 MODULUS, PRESSURE = 1e9, 1e6

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.interface_text import abaqus_text, lammps_text
+from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 
 P0, U0 = 2e8, 3e-7  # an exponential law p = P0 exp(-g/U0), whose stiffness is p/U0
 GAPS = np.array([1.9e-6, 1.6e-6, 1.2e-6, 9e-7, 8e-7, 5e-7])

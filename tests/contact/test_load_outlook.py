@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.load_outlook import load_outlook
+from roughcontact.contact.loads.load_outlook import load_outlook
 from roughcontact.solver.loads import Loads
 from roughcontact.statistics.fit_window import CELLS
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.load_ends import NEAR
-from roughcontact.contact.load_range import FORCES_BELOW
-from roughcontact.contact.load_search import SurfaceKind
+from roughcontact.contact.loads.load_ends import NEAR
+from roughcontact.contact.loads.load_range import FORCES_BELOW
+from roughcontact.contact.loads.load_search import SurfaceKind
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.kernels import loader
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.perimeter import OVERHANG, corrected_area, edge_count
+from roughcontact.evaluation.perimeter import OVERHANG, corrected_area, edge_count
 
 
 def island(cells, *, periodic=False, missing=()):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.theories import persson_pressures
+from roughcontact.evaluation.theories import persson_pressures
 
 MODULUS = 1e11
 

@@ -5,7 +5,8 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import pohrt_popov, rough_sphere
+from roughcontact.theory.spheres_and_punches import rough_sphere
+from roughcontact.theory.stiffness_laws import pohrt_popov
 
 RADIUS, HURST, RMS, LENGTH = 0.5, 0.7, 9e-3, 1.0
 SOLID = rc.Solid(2.0, 0.3)

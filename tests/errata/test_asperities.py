@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import greenwood_williamson as gw
+from roughcontact.theory.asperity_models import greenwood_williamson as gw
 
 COUNT, COEFFICIENT, RATE = 1e4, 3.0, 1.7  # N0, c, lambda: any, but lambda not 1
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve
-from roughcontact.theory.power_law_indenter import kappa
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent, indentation_curve
+from roughcontact.theory.spheres_and_punches.power_law_indenter import kappa
 
 
 def sneddon(slope, a, modulus):

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from roughcontact.halfspace.influence.love import love
-from roughcontact.theory import conductance, pohrt_popov
+from roughcontact.theory.joints import conductance
+from roughcontact.theory.stiffness_laws import pohrt_popov
 
 PAIR = (1.0, 1 / 9)
 EQUAL = (0.3, 0.3)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import persson_separation
+from roughcontact.theory.persson_theory import persson_separation
 
 
 def printed_stiffness(pressure, gap, area):

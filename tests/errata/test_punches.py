@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import punch
-from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.theory.spheres_and_punches import punch
+from roughcontact.theory.springs.stepped import SteppedIndenter
 from roughcontact_thesis import bounds
 
 

@@ -7,10 +7,10 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact_thesis.calibration import calibrated_lambda
 
 MODES, LENGTH = 6, 3.0

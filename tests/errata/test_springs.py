@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory import cosine, height_distribution, two_cosines
-from roughcontact.theory.beat_wave import beat_wave
+from roughcontact.theory.springs import cosine, height_distribution, two_cosines
+from roughcontact.theory.springs.beat_wave import beat_wave
 
 
 def printed_4_33(depth, amplitude, length, modulus):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.wave_grid import wave_powers
+from roughcontact.surface.generation.wave_grid import wave_powers
 
 
 def test_2_12_the_exponent_lacks_the_place():

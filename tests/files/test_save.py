@@ -15,7 +15,7 @@ from hypothesis import given, settings, strategies as st
 from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
-from roughcontact.contact.interface_text import abaqus_text, lammps_text
+from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.adhesion import jkr
-from roughcontact.theory.power_law_indenter import kappa
+from roughcontact.mdr.adhesive_bodies.adhesion import jkr
+from roughcontact.mdr.bodies import indenter
+from roughcontact.theory.spheres_and_punches.power_law_indenter import kappa
 
 R, E, W = 0.5, 3.0, 0.2
 SPHERE = jkr(indenter.paraboloid(R), E, W)

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.adhesion import jkr
-from roughcontact.mdr.adhesive_path import adhesive_path
+from roughcontact.mdr.adhesive_bodies.adhesion import jkr
+from roughcontact.mdr.adhesive_bodies.adhesive_path import adhesive_path
+from roughcontact.mdr.bodies import indenter
 
 R, E, W = 0.5, 3.0, 0.2
 PULL = 1.5 * math.pi * W * R

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent, indentation_curve
 
 RIPPLED = indenter.paraboloid(1.0) + indenter.ripples(6e-3, 0.25, 1.0)
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 
 POINTS = 2**13
 FORCES = np.geomspace(1e-4, 0.07, 10)  # over E* h L

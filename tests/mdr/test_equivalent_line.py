@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import LineSpectrum, TabulatedSpectrum, line_spectrum
+from roughcontact.mdr.lines.equivalent_line import LineSpectrum, TabulatedSpectrum, line_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
 
 SURFACE = rc.SelfAffineSpectrum(0.8, rolloff=2e-4, long_cutoff=1e-3, short_cutoff=1e-6)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent, indentation_curve
 
 # Force of f = r^n at depth 1, E* = 1 (Galin, Sneddon): to twelve digits.
 GALIN = {

@@ -9,7 +9,7 @@ import pytest
 from scipy import special
 from scipy.integrate import quad
 
-from roughcontact.mdr import indenter
+from roughcontact.mdr.bodies import indenter
 
 # A body and the slope f'(r) of its height, by hand.
 CASES = {

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.mdr.lattice_sums import lambda_rms, line_sum, square_sum
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.lattice_sums import lambda_rms, line_sum, square_sum
 
 # Sums of up to 1e5 terms of one sign, pairwise: a few units in the last place.
 ROUNDING = 2e-15

@@ -7,10 +7,16 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve
-from roughcontact.mdr.lee_radok import transfer
-from roughcontact.mdr.viscoelastic import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent, indentation_curve
+from roughcontact.mdr.viscoelasticity.lee_radok import transfer
+from roughcontact.mdr.viscoelasticity.viscoelastic import (
+    kelvin_voigt,
+    maxwell,
+    prony,
+    standard_solid,
+    viscous,
+)
 
 R, E = 0.5, 3.0
 BODY = indenter.paraboloid(R)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact.statistics.ensemble_fit import fit_ensemble
 from roughcontact.statistics.power_law import fit_power_law
 

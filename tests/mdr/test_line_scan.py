@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.line_scan import scan_curves, scan_spectrum
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.line_scan import scan_curves, scan_spectrum
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 
 HURST, N, SPACING = 0.8, 1024, 1e-6
 SURFACE = rc.SelfAffineSpectrum(HURST, long_cutoff=N * SPACING, scale=1.0)

@@ -5,8 +5,8 @@ import pytest
 import scipy.fft
 
 import roughcontact as rc
-import roughcontact.mdr.random_lines as random_lines
-from roughcontact.mdr.random_lines import line_heights, random_waves, rough_lines
+import roughcontact.mdr.lines.random_lines as random_lines
+from roughcontact.mdr.lines.random_lines import line_heights, random_waves, rough_lines
 
 GRID = rc.Grid(200, 1e-6)
 

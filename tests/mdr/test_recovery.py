@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent
-from roughcontact.theory.power_law_indenter import kappa
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent
+from roughcontact.theory.spheres_and_punches.power_law_indenter import kappa
 
 R = np.array([0.0, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999])
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-import roughcontact.mdr.rough_line as rough_line
+import roughcontact.mdr.lines.rough_line as rough_line
 from roughcontact.mdr.foundation import foundation
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.rough_line import loading_curves
 
 MODULUS, SPACING = 3e9, 2e-6
 FORCES = np.geomspace(1e-7, 1e1, 60)  # over E* h L: from a single spring to all

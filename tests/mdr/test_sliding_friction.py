@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-import roughcontact.mdr.rough_line as rough_line
-import roughcontact.mdr.sliding_friction as module
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.sliding_friction import sliding_friction
-from roughcontact.mdr.sliding_state import sliding_state
+import roughcontact.mdr.lines.rough_line as rough_line
+import roughcontact.mdr.viscoelasticity.sliding_friction as module
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.viscoelasticity.sliding_friction import sliding_friction
+from roughcontact.mdr.viscoelasticity.sliding_state import sliding_state
 
 N, SPACING, MODULUS, TIME = 256, 1e-5, 4e6, 1e-3
 SPEEDS = np.geomspace(1e-4, 1e6, 11) * SPACING / TIME

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.mdr.sliding_state import sliding_state
+from roughcontact.mdr.viscoelasticity.sliding_state import sliding_state
 
 SUB = 3000  # steps of time a stretch
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent
-from roughcontact.mdr.slip_history import slip_history
-from roughcontact.mdr.tangential import partial_slip
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent
+from roughcontact.mdr.tangential_loading.slip_history import slip_history
+from roughcontact.mdr.tangential_loading.tangential import partial_slip
 
 R, E, G, MU, F = 0.5, 3.0, 2.2, 0.3, 0.4
 BODY = indenter.paraboloid(R)

@@ -5,9 +5,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import gamma, struve
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.chebyshev import Panels, fit, interpolate
-from roughcontact.mdr.transform import abel, height_of, transform_of
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.chebyshev import Panels, fit, interpolate
+from roughcontact.mdr.bodies.transform import abel, height_of, transform_of
 
 
 def kappa(n):

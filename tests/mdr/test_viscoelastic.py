@@ -5,7 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.mdr.viscoelastic import Viscoelastic, kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.mdr.viscoelasticity.viscoelastic import (
+    Viscoelastic,
+    kelvin_voigt,
+    maxwell,
+    prony,
+    standard_solid,
+    viscous,
+)
 
 MATERIALS = {
     "viscous": viscous(2.0),

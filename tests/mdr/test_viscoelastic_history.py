@@ -7,11 +7,18 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.indentation import indent, indentation_curve, indented
-from roughcontact.mdr.lee_radok import transfer
-from roughcontact.mdr.viscoelastic import Viscoelastic, kelvin_voigt, maxwell, prony, standard_solid, viscous
-from roughcontact.mdr.viscoelastic_history import depth_history, force_history
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.indentation import indent, indentation_curve, indented
+from roughcontact.mdr.viscoelasticity.lee_radok import transfer
+from roughcontact.mdr.viscoelasticity.viscoelastic import (
+    Viscoelastic,
+    kelvin_voigt,
+    maxwell,
+    prony,
+    standard_solid,
+    viscous,
+)
+from roughcontact.mdr.viscoelasticity.viscoelastic_history import depth_history, force_history
 
 R = 0.5
 BODY = indenter.paraboloid(R)

@@ -11,12 +11,12 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
-from roughcontact.page.curve_jobs import curve, theories
-from roughcontact.page.export_job import export
-from roughcontact.page.order import Order
-from roughcontact.page.press_jobs import cut, press
+from roughcontact.page.jobs.curve_jobs import curve, theories
+from roughcontact.page.jobs.export_job import export
+from roughcontact.page.jobs.press_jobs import cut, press
+from roughcontact.page.jobs.workbench import UploadedFile, Workbench
 from roughcontact.page.recipe import as_recipe
-from roughcontact.page.workbench import UploadedFile, Workbench
+from roughcontact.page.server.order import Order
 
 LOADS = {"control": "force", "start": "50 mN", "end": "2 N", "count": 7}
 BODIES = {"materials": ["steel", "aluminium"]}

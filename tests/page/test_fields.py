@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.page.bodies_job import bodies
-from roughcontact.page.order import Order
+from roughcontact.page.jobs.bodies_job import bodies
+from roughcontact.page.jobs.surface_jobs import look, study
+from roughcontact.page.jobs.workbench import UploadedFile, Workbench
 from roughcontact.page.recipe import FileSource, as_recipe
 from roughcontact.page.refusal import refusal
-from roughcontact.page.surface_jobs import look, study
-from roughcontact.page.workbench import UploadedFile, Workbench
+from roughcontact.page.server.order import Order
 
 WRONG = [
     ("short_cutoff", {"preparation": {"short_cutoff": "10"}}),

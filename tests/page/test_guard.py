@@ -2,7 +2,7 @@
 
 import pytest
 
-from roughcontact.page.guard import Guard
+from roughcontact.page.server.guard import Guard
 
 GUARD = Guard(8765, "key")
 HOST, COOKIE = (b"host", b"127.0.0.1:8765"), (b"cookie", b"roughcontact-8765=key")

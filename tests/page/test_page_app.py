@@ -10,11 +10,11 @@ import pytest
 pytest.importorskip("starlette", reason="the page needs the extra 'page'")
 
 from asgi import answer
-from roughcontact.page import uploads
-from roughcontact.page.guard import HEADERS, Guard
-from roughcontact.page.page_app import PageServer, application
-from roughcontact.page.sessions import MOST_SESSIONS
-from roughcontact.page.workbench import UploadedFile
+from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.server import uploads
+from roughcontact.page.server.guard import HEADERS, Guard
+from roughcontact.page.server.page_app import PageServer, application
+from roughcontact.page.server.sessions import MOST_SESSIONS
 
 HOST = ("host", "127.0.0.1:8765")
 KNOWN = (HOST, ("cookie", "roughcontact-8765=key"))

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from roughcontact.page import page_worker
+from roughcontact.page.jobs.workbench import Workbench
 from roughcontact.page.stopping import Stopping
-from roughcontact.page.workbench import Workbench
 
 MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}
 GREEDY = """

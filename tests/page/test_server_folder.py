@@ -7,7 +7,7 @@ import tempfile
 
 import pytest
 
-from roughcontact.page.server_folder import SCRATCH, server_folder
+from roughcontact.page.server.server_folder import SCRATCH, server_folder
 
 RUNNING = f"""
 from roughcontact.page.server_folder import server_folder

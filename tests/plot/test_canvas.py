@@ -15,7 +15,7 @@ from matplotlib.text import Text
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
 from roughcontact.plot.canvas import areal_figure, curve_figure, save, solution_figure, surface_figure
-from roughcontact.plot.engineering_units import written
+from roughcontact.plot.drawing.engineering_units import written
 
 MODULUS = 1e11
 

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.plot.canvas import curve_figure
 from roughcontact.plot.curves import areal_curve, force_curve
-from roughcontact.plot.engineering_units import Scale
-from roughcontact.plot.ticks import readable_ticks
+from roughcontact.plot.drawing.engineering_units import Scale
+from roughcontact.plot.drawing.ticks import readable_ticks
 
 MODULUS = 1e11
 

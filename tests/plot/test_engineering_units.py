@@ -7,7 +7,7 @@ import math
 import pytest
 
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.engineering_units import Scale, pretty, scale, written
+from roughcontact.plot.drawing.engineering_units import Scale, pretty, scale, written
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.contact.below import below, largest_von_mises
+from roughcontact.evaluation.below import below, largest_von_mises
 from roughcontact.plot.stress_map import von_mises_section
 
 

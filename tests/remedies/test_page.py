@@ -5,9 +5,9 @@ import pytest
 
 import roughcontact as rc
 from followed import heights, row
+from roughcontact.page.jobs.workbench import Workbench
 from roughcontact.page.page_worker import perform
 from roughcontact.page.stopping import Stopping
-from roughcontact.page.workbench import Workbench
 
 MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}
 

@@ -16,7 +16,7 @@ from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver import complementarity
 from roughcontact.solver.complementarity import added_stiffness
 from roughcontact.solver.inner_product import Measure
-from roughcontact.surface import random_heights
+from roughcontact.surface.generation import random_heights
 from slabs.together import together
 
 SIZES = [1, 2, 3, 4]

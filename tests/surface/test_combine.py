@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface import shapes
-from roughcontact.surface.combine import combined, resampled
+from roughcontact.surface.generation import shapes
+from roughcontact.surface.preparation.combine import combined, resampled
 
 GRID = rc.Grid((40, 48), (0.1, 0.2))
 

@@ -2,9 +2,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.fourier import synthesise, wavenumbers
+from roughcontact.surface.generation.fourier import synthesise, wavenumbers
+from roughcontact.surface.generation.spectrum import (
+    DirectionalSpectrum,
+    SelfAffineSpectrum,
+    StretchedSpectrum,
+)
 from roughcontact.surface.moments import surface_moments
-from roughcontact.surface.spectrum import DirectionalSpectrum, SelfAffineSpectrum, StretchedSpectrum
 
 SQUARE = rc.Grid((64, 64), (0.1, 0.1))
 

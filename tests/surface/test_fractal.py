@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.fourier import synthesise
 from roughcontact.surface.fractal import box_counting_dimension, fractal_dimension, magnify
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.surface.generation.fourier import synthesise
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 
 
 @pytest.mark.parametrize("factor", [0.3, 2.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.halving import halved
+from roughcontact.surface.preparation.halving import halved
 
 
 def rough(shape, *, periodic=False):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.midpoint import midpoint_line, midpoint_surface
+from roughcontact.surface.generation.midpoint import midpoint_line, midpoint_surface
 
 
 def line(n=9, hurst=0.7, seed=0, **more):

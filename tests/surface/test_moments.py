@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.fourier import synthesise
+from roughcontact.surface.generation.fourier import synthesise
+from roughcontact.surface.generation.spectrum import DirectionalSpectrum, SelfAffineSpectrum
 from roughcontact.surface.moments import Moments, grid_moments, surface_moments
-from roughcontact.surface.spectrum import DirectionalSpectrum, SelfAffineSpectrum
 
 SQUARE = rc.Grid((64, 64), 1e-6 / 64, True)
 

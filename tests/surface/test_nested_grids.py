@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.random_lines import line_heights, random_waves, rough_lines
-from roughcontact.surface.fourier import synthesise
-from roughcontact.surface.wave_grid import multiplicity, wave_amplitudes, wave_powers
+from roughcontact.mdr.lines.random_lines import line_heights, random_waves, rough_lines
+from roughcontact.surface.generation.fourier import synthesise
+from roughcontact.surface.generation.wave_grid import multiplicity, wave_amplitudes, wave_powers
 
 SIDES = (2.0, 3.0)  # of cells that are not square
 PAIRS = [

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from roughcontact.surface.random_phases import draw_keys, unit_waves
+from roughcontact.surface.generation.random_phases import draw_keys, unit_waves
 
 WORD = 2**64
 KEYS = draw_keys(np.random.default_rng(20))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.windows import window_values
+from roughcontact.surface.preparation.windows import window_values
 
 GRID = rc.Grid((12, 18), (1e-6, 2e-6), (True, False))
 HEIGHTS = np.random.default_rng(0).standard_normal(GRID.shape)

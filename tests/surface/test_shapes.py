@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface import shapes
+from roughcontact.surface.generation import shapes
 
 GRID = rc.Grid((21, 31), (0.1, 0.2))  # the middle is the centre of cell (10, 15)
 Y, X = np.mgrid[-10:11, -15:16] * np.array([0.1, 0.2])[:, None, None]

@@ -6,8 +6,8 @@ from scipy.integrate import quad
 from scipy.special import zeta
 
 import roughcontact as rc
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 from roughcontact.surface.moments import grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
 
 TAU = 2 * np.pi
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.surface.spikes import _gaps, _limits, _padded, _screened, spikes_in
+from roughcontact.surface.preparation.spikes import _gaps, _limits, _padded, _screened, spikes_in
 
 GRID = rc.Grid((64, 80), 1e-6)
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import greenwood_williamson
-from roughcontact.theory.adhesive_asperities import AdhesiveAsperities
-from roughcontact.theory.adhesive_sphere import JKRSphere
+from roughcontact.theory.adhesive.adhesive_asperities import AdhesiveAsperities
+from roughcontact.theory.adhesive.adhesive_sphere import JKRSphere
+from roughcontact.theory.asperity_models import greenwood_williamson
 
 SPHERE = JKRSphere(1.0, 1.0, 1e-3)
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.theory.adhesive_sphere import DMTSphere, JKRSphere
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.adhesive_sphere import DMTSphere, JKRSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 
 JKR = JKRSphere(2e-5, 3e7, 0.02)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory.adhesive_wave import AdhesiveWave
+from roughcontact.theory.adhesive.adhesive_wave import AdhesiveWave
 
 AMPLITUDE = 0.01
 ALPHA = 0.3

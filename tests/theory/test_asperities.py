@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import asperities as theory, greenwood_williamson as gw
+from roughcontact.theory.asperity_models import asperities as theory, greenwood_williamson as gw
 
 MODULUS, RADIUS = 2e11, 1e-3
 

@@ -8,41 +8,31 @@ import pint
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import (
+from roughcontact.theory.asperity_models import (
     asperities,
-    beat_wave,
     bush_gibson_thomas,
-    cattaneo,
-    chang_etsion_bogy,
-    conductance,
-    cosine,
-    finite_size,
-    gaussian_heights,
     greenwood_williamson,
-    height_distribution,
-    hertz,
-    holm,
     interaction,
-    jaeger,
-    kogut_etsion,
-    mindlin,
-    nayak,
-    partial_moments,
-    persson,
-    persson_plastic,
-    persson_separation,
-    plasticity,
-    pohrt_popov,
-    power_law_indenter,
-    pullen_williamson,
-    punch,
-    rough_sphere,
-    rough_square,
-    stepped,
-    thermal,
-    two_cosines,
-    waves,
 )
+from roughcontact.theory.joints import cattaneo, conductance, holm, jaeger, mindlin, thermal
+from roughcontact.theory.persson_theory import persson, persson_plastic, persson_separation
+from roughcontact.theory.plastic_asperities import (
+    chang_etsion_bogy,
+    kogut_etsion,
+    plasticity,
+    pullen_williamson,
+)
+from roughcontact.theory.random_surfaces import nayak, partial_moments, waves
+from roughcontact.theory.spheres_and_punches import hertz, power_law_indenter, punch, rough_sphere
+from roughcontact.theory.springs import (
+    beat_wave,
+    cosine,
+    gaussian_heights,
+    height_distribution,
+    stepped,
+    two_cosines,
+)
+from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_square
 
 ROUGH = rc.Moments(1e-14, 1e-2, 1e12)
 SPHERE = hertz.law(1e-2, 1e9)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.theory.bearing_area_model import BearingAreaModel
+from roughcontact.theory.adhesive.bearing_area_model import BearingAreaModel
 
 
 def pad(rms, *, gap=1e-12, gamma=0.5):

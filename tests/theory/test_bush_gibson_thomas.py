@@ -8,7 +8,8 @@ from scipy.integrate import quad
 from scipy.special import ellipe, ellipkm1, erfc
 
 import roughcontact as rc
-from roughcontact.theory import bush_gibson_thomas as bgt, greenwood_williamson as gw, nayak
+from roughcontact.theory.asperity_models import bush_gibson_thomas as bgt, greenwood_williamson as gw
+from roughcontact.theory.random_surfaces import nayak
 
 MODULUS, RMS, M2, AREA = 2e11, 1e-6, 0.01, 1e-6
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(80)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import mindlin
-from roughcontact.theory.cattaneo import SlippingSphere
+from roughcontact.theory.joints import mindlin
+from roughcontact.theory.joints.cattaneo import SlippingSphere
 
 SPHERE = SlippingSphere(50.0, 0.02, 1.1e11, 0.3, 1.2)
 LIMIT = 0.3 * 50.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import conductance
+from roughcontact.theory.joints import conductance
 from roughcontact.theory.law import LoadingLaw
 
 MODULUS = 1.1e11

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import cosine, two_cosines
+from roughcontact.theory.springs import cosine, two_cosines
 
 
 class TestOneWave:

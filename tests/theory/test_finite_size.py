@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import finite_size, persson, persson_separation
-from roughcontact.theory.finite_size import Cell
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.persson_theory import persson, persson_separation
+from roughcontact.theory.random_surfaces.waves import Waves
+from roughcontact.theory.stiffness_laws import finite_size
+from roughcontact.theory.stiffness_laws.finite_size import Cell
 
 MODULUS = 1e11
 SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, rolloff=1e-4, short_cutoff=1e-6).scaled(1e-6)

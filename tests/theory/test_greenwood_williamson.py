@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import greenwood_williamson as gw, interface, nayak
+from roughcontact.theory.asperity_models import greenwood_williamson as gw, interface
+from roughcontact.theory.random_surfaces import nayak
 
 MODULUS, DENSITY, RADIUS, STD, MEAN = 2e11, 3e9, 2e-5, 4e-7, 6e-7
 AREA = 1e-6

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.special import ellipkm1, gamma
 
-from roughcontact.theory import cosine, gaussian_heights, height_distribution as heights
-from roughcontact.theory.beat_wave import beat_wave
+from roughcontact.theory.springs import cosine, gaussian_heights, height_distribution as heights
+from roughcontact.theory.springs.beat_wave import beat_wave
 
 
 def arcsine(z):

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.special import ellipkm1
 
 import roughcontact as rc
-from roughcontact.theory import hertz
+from roughcontact.theory.spheres_and_punches import hertz
 
 POINT = {
     "modulus": 110e9,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import holm
+from roughcontact.theory.joints import holm
 
 
 def test_one_spot():

@@ -7,7 +7,11 @@ import pytest
 from scipy.integrate import dblquad
 
 import roughcontact as rc
-from roughcontact.theory import bush_gibson_thomas as bgt, greenwood_williamson as gw, interaction
+from roughcontact.theory.asperity_models import (
+    bush_gibson_thomas as bgt,
+    greenwood_williamson as gw,
+    interaction,
+)
 
 MODULUS, AREA = 2e11, 1e-6
 MOMENTS = rc.Moments(1e-12, 0.01, 1e9)

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from roughcontact.theory import jaeger, mindlin
-from roughcontact.theory.cattaneo import SlippingSphere
+from roughcontact.theory.joints import jaeger, mindlin
+from roughcontact.theory.joints.cattaneo import SlippingSphere
 from roughcontact.theory.law import LoadingLaw
 
 RADIUS, MODULUS, FORCE = 0.02, 1.1e11, 50.0

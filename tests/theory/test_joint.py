@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import conductance, joint, thermal
+from roughcontact.theory.joints import conductance, joint, thermal
 
 MOMENTS = rc.Moments(1e-12, 0.005, 1e9)
 MODULUS, HARDNESS, AREA, PAIR = 1e11, 1e9, 1e-4, (16.2, 167.0)

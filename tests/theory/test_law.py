@@ -7,27 +7,19 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.theories import persson_pressures
-from roughcontact.theory import (
+from roughcontact.evaluation.theories import persson_pressures
+from roughcontact.theory.asperity_models import (
     asperities,
     bush_gibson_thomas,
-    conductance,
-    cosine,
-    finite_size,
-    gaussian_heights,
     greenwood_williamson,
-    height_distribution,
-    hertz,
     interaction,
-    mindlin,
-    persson,
-    pohrt_popov,
-    power_law_indenter,
-    rough_sphere,
-    rough_square,
-    thermal,
 )
-from roughcontact.theory.beat_wave import beat_wave
+from roughcontact.theory.joints import conductance, mindlin, thermal
+from roughcontact.theory.persson_theory import persson
+from roughcontact.theory.spheres_and_punches import hertz, power_law_indenter, rough_sphere
+from roughcontact.theory.springs import cosine, gaussian_heights, height_distribution
+from roughcontact.theory.springs.beat_wave import beat_wave
+from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_square
 from roughcontact.theory.tools.computed import as_law
 
 SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, rolloff=5e-4, short_cutoff=1e-5).scaled(1e-6)

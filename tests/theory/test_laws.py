@@ -6,23 +6,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import (
-    bush_gibson_thomas,
-    chang_etsion_bogy,
-    finite_size,
-    greenwood_williamson,
-    hertz,
-    interaction,
-    joint,
-    kogut_etsion,
-    laws,
-    persson,
-    persson_plastic,
-    pohrt_popov,
-    pullen_williamson,
-    rough_sphere,
-    rough_square,
-)
+from roughcontact.theory import laws
+from roughcontact.theory.asperity_models import bush_gibson_thomas, greenwood_williamson, interaction
+from roughcontact.theory.joints import joint
+from roughcontact.theory.persson_theory import persson, persson_plastic
+from roughcontact.theory.plastic_asperities import chang_etsion_bogy, kogut_etsion, pullen_williamson
+from roughcontact.theory.spheres_and_punches import hertz, rough_sphere
+from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_square
 
 MODULUS, AREA, LENGTH = 1e11, 4e-6, 2e-3
 SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=LENGTH, rolloff=5e-4, short_cutoff=1e-5).scaled(1e-6)

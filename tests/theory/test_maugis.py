@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory.adhesive.maugis import DugdaleSphere
 
 # Maugis' equations as he prints them, in his units, solved by another program to six digits.
 PULL_OFF = {0.01: 1.998288, 0.1: 1.950595, 0.5: 1.718245, 1.0: 1.600735, 2.0: 1.534603, 5.0: 1.506350}

@@ -7,8 +7,9 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import mindlin, pohrt_popov
+from roughcontact.theory.joints import mindlin
 from roughcontact.theory.law import LoadingLaw
+from roughcontact.theory.stiffness_laws import pohrt_popov
 
 
 class TestRatio:

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import nayak
+from roughcontact.theory.random_surfaces import nayak
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(160)
 ALPHAS = [1.6, 2.0, 10.0, 100.0, 1e4]

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import log_ndtr
 
-from roughcontact.theory.partial_moments import LOW, log_exponential, log_gaussian
+from roughcontact.theory.random_surfaces.partial_moments import LOW, log_exponential, log_gaussian
 
 ORDERS = [-0.5, 0.5, 1.5, 2.5, 11 / 3]
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import brentq
 
 import roughcontact as rc
-from roughcontact.theory import pastewka_robbins
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.adhesive import pastewka_robbins
+from roughcontact.theory.random_surfaces.waves import Waves
 
 SPECTRUM = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-4, short_cutoff=1e-6).scaled(1e-7)
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import persson
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.persson_theory import persson
+from roughcontact.theory.random_surfaces.waves import Waves
 
 MODULUS = 2e11
 SURFACE = rc.Moments(1e-12, 5e-3, 1e9)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import persson, persson_plastic
+from roughcontact.theory.persson_theory import persson, persson_plastic
 
 MODULUS = 1e11
 SURFACE = rc.Moments(1e-12, 0.005, 1e9)  # rms slope 0.1: a spread of 5 GPa

@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import persson_separation as separation
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.persson_theory import persson_separation as separation
+from roughcontact.theory.random_surfaces.waves import Waves
 
 MODULUS = 1e11
 RMS = 1e-6

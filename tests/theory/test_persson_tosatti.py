@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import persson_tosatti
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.adhesive import persson_tosatti
+from roughcontact.theory.random_surfaces.waves import Waves
 
 
 def test_the_energy_of_full_contact_is_that_of_the_half_space():

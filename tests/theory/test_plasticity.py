@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory import plasticity
+from roughcontact.theory.plastic_asperities import plasticity
 
 MODULUS, HARDNESS = 1.1e11, 2e9
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import pohrt_popov, punch
+from roughcontact.theory.spheres_and_punches import punch
+from roughcontact.theory.stiffness_laws import pohrt_popov
 
 STEEL = {"rms": 2e-6, "length": 1e-3, "modulus": 110e9}
 

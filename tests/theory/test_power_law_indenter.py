@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import hertz, power_law_indenter as indenter
+from roughcontact.theory.spheres_and_punches import hertz, power_law_indenter as indenter
 
 KAPPA = {
     0: 1.0,

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from roughcontact.theory import pullen_williamson as pw
+from roughcontact.theory.plastic_asperities import pullen_williamson as pw
 
 HARDNESS, RMS = 2e9, 3e-7
 PRESSURES = [2e4, 1e8, 2e9, 3e10]

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import punch
+from roughcontact.theory.spheres_and_punches import punch
 
 
 class TestClosedForms:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import hertz, pohrt_popov, power_law_indenter as indenter, rough_sphere
+from roughcontact.theory.spheres_and_punches import hertz, power_law_indenter as indenter, rough_sphere
+from roughcontact.theory.stiffness_laws import pohrt_popov
 
 FIGURE_37 = {"radius": 0.5, "hurst": 0.7, "rms": 9e-3, "length": 1.0, "modulus": 1.0}
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory import pohrt_popov, rough_square
+from roughcontact.theory.stiffness_laws import pohrt_popov, rough_square
 
 STEEL = {"rms": 2e-6, "length": 1e-3, "modulus": 110e9}
 HURST = np.array([0.1, 0.25, 0.7, 1.0, 1.6, 2.95])

@@ -3,7 +3,7 @@
 import pytest
 from scipy.integrate import quad
 
-from roughcontact.theory import mindlin
+from roughcontact.theory.joints import mindlin
 
 MODULUS, FORCE, FRICTION, POISSON = 1e11, 20.0, 0.3, 0.3
 

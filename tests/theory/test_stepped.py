@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory import punch
-from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.theory.spheres_and_punches import punch
+from roughcontact.theory.springs.stepped import SteppedIndenter
 
 
 def test_geometry():

@@ -7,7 +7,8 @@ import pytest
 from scipy.special import erfcinv, j0, jn_zeros
 
 import roughcontact as rc
-from roughcontact.theory import bush_gibson_thomas, conductance, holm, thermal
+from roughcontact.theory.asperity_models import bush_gibson_thomas
+from roughcontact.theory.joints import conductance, holm, thermal
 
 MOMENTS = rc.Moments(4e-12, 0.02, 1e9)
 PAIR = (400.0, 16.0)

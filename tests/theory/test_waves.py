@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.random_surfaces.waves import Waves
 
 SELF_AFFINE = {"long_cutoff": 1e-3, "short_cutoff": 1e-6}
 

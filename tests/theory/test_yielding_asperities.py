@@ -8,14 +8,14 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from roughcontact.theory import (
+from roughcontact.theory.asperity_models import greenwood_williamson as gw
+from roughcontact.theory.plastic_asperities import (
     chang_etsion_bogy as ceb,
-    greenwood_williamson as gw,
-    hertz,
     kogut_etsion as ke,
     yielding_asperities as ya,
 )
-from roughcontact.theory.partial_moments import log_gaussian
+from roughcontact.theory.random_surfaces.partial_moments import log_gaussian
+from roughcontact.theory.spheres_and_punches import hertz
 
 MODULUS, AREA = 2e11, 1e-6
 MOMENTS = rc.Moments(1e-12, 0.01, 1e9)  # Nayak's parameter 10

@@ -11,10 +11,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.theory.maugis import DugdaleSphere
+from roughcontact.theory import maugis
 
 shown = np.geomspace(0.03, 10, 60)
-theory = [DugdaleSphere.of_number(number).pull_off_force / np.pi for number in shown]  # w = R = E* = 1
+theory = [maugis.DugdaleSphere.of_number(number).pull_off_force / np.pi for number in shown]  # w = R = E* = 1
 axes = plt.subplots()[1]
 axes.semilogx(shown, theory, "k", label="Maugis")
 axes.axhline(2, color="0.6", linestyle=":", label="DMT")
@@ -24,7 +24,7 @@ numbers, cells, errors = (0.1, 0.5, 2.0), 60, []
 for law, mark in ("dugdale", "o"), ("exponential", "s"):
     pulled = []
     for number in numbers:
-        ball = DugdaleSphere.of_number(number)
+        ball = maugis.DugdaleSphere.of_number(number)
         attraction = rc.Adhesion(work=1.0, range=1 / ball.strength, law=law)
         # As far as the ball is some ranges above the plane of the contact, whose radius without load is below 1.7.
         reach = np.sqrt(1.7**2 + 2 * (10 if law == "exponential" else 2) * attraction.range)
@@ -34,7 +34,7 @@ for law, mark in ("dugdale", "o"), ("exponential", "s"):
         pulled.append(-off.jumps[-1].force_before / np.pi)
     axes.plot(numbers, pulled, mark, label=f"rings, {law}")
     if law == "dugdale":
-        exact = [DugdaleSphere.of_number(number).pull_off_force / np.pi for number in numbers]
+        exact = [maugis.DugdaleSphere.of_number(number).pull_off_force / np.pi for number in numbers]
         errors = np.abs(np.divide(pulled, exact) - 1)
 axes.set(xlabel="Maugis' lambda, 1.127 times Tabor's number", ylabel="pull-off force over π w R")
 axes.legend()

@@ -9,11 +9,11 @@ from step to step it grows as F^(1/(H+1)). So much of the law of a fractal is ge
 import matplotlib.pyplot as plt
 import numpy as np
 
-from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.theory import stepped
 
 modulus, axes, slopes = 1e9, plt.subplots()[1], []
 for hurst in 0.2, 0.8:
-    pile = SteppedIndenter(radius=1e-7, height=1e-9, ratio=1.5, hurst=hurst)
+    pile = stepped.SteppedIndenter(radius=1e-7, height=1e-9, ratio=1.5, hurst=hurst)
     force, stiffness = pile.corners(16, modulus)
     axes.loglog(force, stiffness, drawstyle="steps", label=f"H = {hurst}")
     slopes.append(float(np.log(1.5) / np.log(force[-1] / force[-2])))

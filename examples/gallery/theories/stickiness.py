@@ -10,8 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.theory import pastewka_robbins
-from roughcontact.theory.bearing_area_model import BearingAreaModel
+from roughcontact.theory import bearing_area_model, pastewka_robbins
 
 modulus, work, reach, rms, longest = 1e7, 0.05, 2e-9, 1e-7, 1e-5  # Pa, J/m^2, m, m, m
 shortest = np.geomspace(1e-8, 1e-6, 15)
@@ -20,7 +19,7 @@ for hurst in 0.4, 0.6, 0.8:
     surfaces = [rc.SelfAffineSpectrum(hurst, long_cutoff=longest, short_cutoff=each) for each in shortest]
     ratio = [pastewka_robbins.stickiness(each.scaled(rms), modulus, work, reach) for each in surfaces]
     axes.loglog(shortest * 1e9, ratio, label=f"Pastewka and Robbins, H = {hurst}")
-limit = BearingAreaModel(rms, 2 * np.pi / longest, modulus, work, reach).sticking_rms
+limit = bearing_area_model.BearingAreaModel(rms, 2 * np.pi / longest, modulus, work, reach).sticking_rms
 axes.axhline((limit / rms) ** 2, color="k", linestyle="--", label="bearing area")
 axes.axhline(1, color="0.7")
 axes.set(xlabel="shortest wave [nm]", ylabel="sticks above 1")

@@ -17,7 +17,7 @@ from roughcontact import statistics
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
-from roughcontact.theory import greenwood_williamson
+from roughcontact.theory.asperity_models import greenwood_williamson
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.figures import Scale, Studies

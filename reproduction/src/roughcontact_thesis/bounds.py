@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughcontact.theory.punch.polygon import square
+from roughcontact.theory.spheres_and_punches.punch.polygon import square
 from roughcontact.validation import Array, Mask, numeric, positive, require
 
 __all__ = [

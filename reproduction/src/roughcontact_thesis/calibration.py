@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
 from roughcontact.validation import Array, moderate, number, positive_scalar, scalar
 
 __all__ = ["calibrated_lambda", "force_ratio", "matched_lambda"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.theory import pohrt_popov
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact.validation import Array
 
 __all__ = ["cells_stiffness", "exponential_rate", "single_cell_stiffness"]

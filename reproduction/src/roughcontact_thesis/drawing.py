@@ -16,7 +16,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from roughcontact.plot.ticks import readable_ticks
+from roughcontact.plot.drawing.ticks import readable_ticks
 
 __all__ = [
     "COLOURS",

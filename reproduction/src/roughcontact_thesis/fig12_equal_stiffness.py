@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 import roughcontact as rc
 from roughcontact.halfspace.influence.love import love
-from roughcontact.theory import punch
+from roughcontact.theory.spheres_and_punches import punch
 from roughcontact.validation import Array, Mask
 from roughcontact_thesis import bounds, drawing
 from roughcontact_thesis.ruling import exactly, in_part

@@ -9,7 +9,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.theory import punch
+from roughcontact.theory.spheres_and_punches import punch
 from roughcontact.validation import Mask
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.theory.springs.stepped import SteppedIndenter
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly

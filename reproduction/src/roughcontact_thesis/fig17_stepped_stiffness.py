@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.theory.power_law_indenter import contact
+from roughcontact.theory.spheres_and_punches.power_law_indenter import contact
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing, fig15_stepped_shape
 from roughcontact_thesis.ruling import exactly

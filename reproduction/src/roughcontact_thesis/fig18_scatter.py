@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.plot.level import level
+from roughcontact.plot.drawing.level import level
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact_thesis import drawing
 from roughcontact_thesis.averaging import without_parameters

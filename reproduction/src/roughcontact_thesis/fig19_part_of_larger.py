@@ -13,7 +13,7 @@ from matplotlib.image import AxesImage
 from scipy.ndimage import uniform_filter
 
 import roughcontact as rc
-from roughcontact.plot.raster import box
+from roughcontact.plot.drawing.raster import box
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.rough_line import loading_curves
-from roughcontact.plot.raster import box
-from roughcontact.theory.two_cosines import FLAT_STIFFNESS, Hierarchy
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.rough_line import loading_curves
+from roughcontact.plot.drawing.raster import box
+from roughcontact.theory.springs.two_cosines import FLAT_STIFFNESS, Hierarchy
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly

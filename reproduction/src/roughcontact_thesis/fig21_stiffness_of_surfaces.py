@@ -6,9 +6,9 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.plot.level import level
+from roughcontact.plot.drawing.level import level
 from roughcontact.statistics.fit_window import CELLS
-from roughcontact.theory.punch.polygon import SQUARE
+from roughcontact.theory.spheres_and_punches.punch.polygon import SQUARE
 from roughcontact_thesis import bounds, drawing
 from roughcontact_thesis.ensembles import curve_averages, curve_fits, full_contact_study
 from roughcontact_thesis.figures import Scale, Studies

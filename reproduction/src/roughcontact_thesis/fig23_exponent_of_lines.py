@@ -7,7 +7,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from roughcontact.statistics.fit_window import force_window
-from roughcontact.theory import gaussian_heights
+from roughcontact.theory.springs import gaussian_heights
 from roughcontact_thesis import drawing, line_ensembles
 from roughcontact_thesis.figures import Scale, Studies
 from roughcontact_thesis.ruling import VICINITY, Ruling, exactly, middle, ranged, ruled

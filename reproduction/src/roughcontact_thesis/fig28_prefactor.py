@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.statistics.common_forces import on_common
-from roughcontact.theory import pohrt_popov
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import drawing
 from roughcontact_thesis.averaging import converged, means, without_parameters
 from roughcontact_thesis.ensembles import coarse_square_study, curve_averages, laws, square_study

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.mdr.lattice_sums import lambda_rms
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ensembles import square_study
 from roughcontact_thesis.figures import Scale, Studies

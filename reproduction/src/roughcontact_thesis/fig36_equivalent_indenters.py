@@ -7,12 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughcontact.mdr import indenter
-from roughcontact.mdr.axisymmetric_profile import Profile
-from roughcontact.mdr.indentation import indentation_curve
-from roughcontact.mdr.rough_line import loading_curves
-from roughcontact.theory import pohrt_popov, rough_sphere
-from roughcontact.theory.hertz import point
+from roughcontact.mdr.bodies import indenter
+from roughcontact.mdr.bodies.axisymmetric_profile import Profile
+from roughcontact.mdr.bodies.indentation import indentation_curve
+from roughcontact.mdr.lines.rough_line import loading_curves
+from roughcontact.theory.spheres_and_punches import rough_sphere
+from roughcontact.theory.spheres_and_punches.hertz import point
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly
 from roughcontact_thesis.verdict import Verdict, Verdicts

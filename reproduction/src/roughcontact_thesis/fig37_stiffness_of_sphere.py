@@ -8,8 +8,9 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from roughcontact.theory import pohrt_popov, rough_sphere
-from roughcontact.theory.hertz import point
+from roughcontact.theory.spheres_and_punches import rough_sphere
+from roughcontact.theory.spheres_and_punches.hertz import point
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ensembles import RADIUS, SPHERE_HURST, SPHERE_RMS, curve_averages, sphere_study
 from roughcontact_thesis.figures import Scale, Studies

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.plot.level import level
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
+from roughcontact.plot.drawing.level import level
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly

@@ -13,7 +13,7 @@ from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import Window, resolved_window
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.theory import gaussian_heights
+from roughcontact.theory.springs import gaussian_heights
 from roughcontact_thesis.averaging import curve_statistics
 from roughcontact_thesis.figures import Scale, Studies
 

@@ -10,10 +10,10 @@ import xarray
 from matplotlib.figure import Figure
 from scipy.special import erf
 
-from roughcontact.plot.level import level
+from roughcontact.plot.drawing.level import level
 from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit_window import CELLS
-from roughcontact.theory import persson
+from roughcontact.theory.persson_theory import persson
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.figures import Scale, Studies
 from roughcontact_thesis.ruling import middle, ranged, ruled, undecided

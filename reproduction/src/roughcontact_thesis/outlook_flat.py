@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.theory import pohrt_popov
-from roughcontact.theory.interaction import SQUARE
+from roughcontact.theory.asperity_models.interaction import SQUARE
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact.validation import Array
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.averaging import RMS, exponential, logarithm

@@ -9,7 +9,8 @@ import xarray
 from matplotlib.figure import Figure
 from scipy.interpolate import CubicHermiteSpline
 
-from roughcontact.theory import mindlin, pohrt_popov
+from roughcontact.theory.joints import mindlin
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact.validation import Array
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.averaging import RMS

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import roughcontact as rc
-from roughcontact.theory.stepped import SteppedIndenter
+from roughcontact.theory.springs.stepped import SteppedIndenter
 
 __all__ = ["INDENTER", "MODULUS", "RINGS", "full_steps", "stepped_body"]
 

@@ -134,7 +134,7 @@ def _ensemble(
 
 def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> None:
     """Run studies and show how far they are."""
-    from roughcontact.cli.study_progress import progress
+    from roughcontact.cli.study.study_progress import progress
     from roughcontact.study import Processes, Serial
     from roughcontact_thesis.reproduce import run_study, store_of
 

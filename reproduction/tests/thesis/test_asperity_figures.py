@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.study.study import Study
-from roughcontact.theory import greenwood_williamson
+from roughcontact.theory.asperity_models import greenwood_williamson
 from roughcontact_thesis import (
     fig31_asperities_smooth as fig31,
     fig32_asperities_rough as fig32,

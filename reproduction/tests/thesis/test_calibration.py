@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
-from roughcontact.mdr.lattice_sums import lambda_rms
-from roughcontact.mdr.random_lines import line_heights, random_waves
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.lattice_sums import lambda_rms
+from roughcontact.mdr.lines.random_lines import line_heights, random_waves
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact_thesis.calibration import calibrated_lambda, force_ratio, matched_lambda
 
 # Stiffness of one wave at low load, k/(E* L) = zeta (F/(E* h L))^(1/3): a cosine line, two crossed cosines.

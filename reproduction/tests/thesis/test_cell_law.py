@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.theory import pohrt_popov
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis.cell_law import cells_stiffness, exponential_rate, single_cell_stiffness
 
 FORCE = np.geomspace(1e-4, 1e-2, 7)

@@ -8,7 +8,7 @@ import xarray
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from roughcontact.plot.level import level
+from roughcontact.plot.drawing.level import level
 from roughcontact_thesis import drawing
 from roughcontact_thesis.figures import FIGURES, drawn, module
 

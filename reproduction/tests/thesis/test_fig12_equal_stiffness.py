@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.theory import punch
+from roughcontact.theory.spheres_and_punches import punch
 from roughcontact_thesis import fig12_equal_stiffness as fig12
 from roughcontact_thesis.figures import drawn, verdicts
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
-from roughcontact.theory import punch
+from roughcontact.theory.spheres_and_punches import punch
 from roughcontact_thesis import fig16_stepped_contact as fig16
 from roughcontact_thesis.figures import drawn, verdicts
 from roughcontact_thesis.stepped_body import INDENTER, MODULUS, RINGS, full_steps, stepped_body

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.theory import cosine
+from roughcontact.theory.springs import cosine
 from roughcontact_thesis import fig24_beats as fig24
 from roughcontact_thesis.figures import drawn, verdicts
 

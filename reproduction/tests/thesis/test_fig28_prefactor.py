@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.theory import pohrt_popov
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import fig28_prefactor as fig28
 from roughcontact_thesis.figures import drawn, verdicts
 from thesis.synthetic import curves, lines

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from roughcontact.mdr.indentation import indent
+from roughcontact.mdr.bodies.indentation import indent
 from roughcontact_thesis import fig36_equivalent_indenters as fig36
 from roughcontact_thesis.figures import drawn, verdicts
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
-from roughcontact.theory import rough_sphere
+from roughcontact.theory.spheres_and_punches import rough_sphere
 from roughcontact_thesis import fig37_stiffness_of_sphere as fig37
 from roughcontact_thesis.ensembles import sphere_study
 from roughcontact_thesis.figures import drawn, verdicts

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
-from roughcontact.mdr.equivalent_line import line_spectrum
+from roughcontact.mdr.lines.equivalent_line import line_spectrum
 from roughcontact_thesis import fig46_rms_factor as fig46
 from roughcontact_thesis.figures import drawn, verdicts
 

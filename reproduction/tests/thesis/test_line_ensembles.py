@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.line_curves import LineCurves
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.line_curves import LineCurves
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study.study import Study
-from roughcontact.theory import gaussian_heights
+from roughcontact.theory.springs import gaussian_heights
 from roughcontact_thesis.ensembles import HURST as SQUARES
 from roughcontact_thesis.line_ensembles import (
     HURST,

@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.study.study import Study
-from roughcontact.theory import persson
+from roughcontact.theory.persson_theory import persson
 from roughcontact_thesis import outlook_cutoff
 from roughcontact_thesis.averaging import rms_heights
 from roughcontact_thesis.figures import drawn, verdicts

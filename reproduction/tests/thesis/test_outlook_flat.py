@@ -7,8 +7,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import roughcontact as rc
 from roughcontact.study.study import Study
-from roughcontact.theory import greenwood_williamson, persson, persson_separation
-from roughcontact.theory.waves import Waves
+from roughcontact.theory.asperity_models import greenwood_williamson
+from roughcontact.theory.persson_theory import persson, persson_separation
+from roughcontact.theory.random_surfaces.waves import Waves
 from roughcontact_thesis import outlook_flat
 from roughcontact_thesis.cell_law import cells_stiffness
 from roughcontact_thesis.figures import drawn, findings, verdicts

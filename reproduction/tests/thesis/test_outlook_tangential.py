@@ -6,7 +6,8 @@ import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from roughcontact.study.study import Study
-from roughcontact.theory import mindlin, pohrt_popov
+from roughcontact.theory.joints import mindlin
+from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import outlook_tangential
 from roughcontact_thesis.figures import drawn, verdicts
 from thesis.computed import exported

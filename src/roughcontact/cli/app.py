@@ -11,45 +11,49 @@ from roughcontact.cli.late_group import late_group
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
-    from roughcontact.cli import (
+    from roughcontact.cli import serve_command as serve_command
+    from roughcontact.cli.adhesion import (
         adhesive_curve_command as adhesive_curve_command,
         adhesive_press_command as adhesive_press_command,
-        averages_command as averages_command,
+        detachment_command as detachment_command,
+    )
+    from roughcontact.cli.contact import (
         conductance_command as conductance_command,
         curve_command as curve_command,
-        detachment_command as detachment_command,
-        prepare_command as prepare_command,
         press_command as press_command,
-        serve_command as serve_command,
+    )
+    from roughcontact.cli.study import averages_command as averages_command, study_command as study_command
+    from roughcontact.cli.surface import (
+        prepare_command as prepare_command,
         spectrum_command as spectrum_command,
-        study_command as study_command,
         surface_command as surface_command,
     )
 
 __all__ = ["app"]
 
 
-_ALONE = {name: f"{name}_command" for name in ("press", "curve", "conductance", "serve")}
+_ALONE = {name: f"contact.{name}_command" for name in ("press", "curve", "conductance")}
+_ALONE["serve"] = "serve_command"
 _ADHESION = {
-    "press": "adhesive_press_command",
-    "curve": "adhesive_curve_command",
-    "loop": "adhesive_curve_command",
-    "detach": "detachment_command",
+    "press": "adhesion.adhesive_press_command",
+    "curve": "adhesion.adhesive_curve_command",
+    "loop": "adhesion.adhesive_curve_command",
+    "detach": "adhesion.detachment_command",
 }
 _SURFACE = {
-    "info": "surface_command",
-    "make": "surface_command",
-    "prepare": "prepare_command",
-    "spectrum": "spectrum_command",
+    "info": "surface.surface_command",
+    "make": "surface.surface_command",
+    "prepare": "surface.prepare_command",
+    "spectrum": "surface.spectrum_command",
 }
 _STUDY = {
-    "run": "study_command",
-    "status": "study_command",
-    "export": "study_command",
-    "add": "study_command",
-    "average": "averages_command",
-    "plot": "averages_command",
-    "table": "averages_command",
+    "run": "study.study_command",
+    "status": "study.study_command",
+    "export": "study.study_command",
+    "add": "study.study_command",
+    "average": "study.averages_command",
+    "plot": "study.averages_command",
+    "table": "study.averages_command",
 }
 
 app = typer.Typer(

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli import options
+from roughcontact.cli.contact.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import flag, option
-from roughcontact.cli.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.unit_options import Kind, parse, parse_load, parse_loads, parse_path
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from roughcontact.cli.contact.profile_options import PROFILE, ProfileBody
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.material_options import known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, flag, option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.profile_options import PROFILE, ProfileBody
 from roughcontact.cli.report import doing
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
 from roughcontact.materials import MATERIALS

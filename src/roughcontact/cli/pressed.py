@@ -12,9 +12,9 @@ from roughcontact.cli.report import doing, quantity
 from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
-    from roughcontact.contact.load_search import SurfaceKind
+    from roughcontact.contact.loads.load_search import SurfaceKind
     from roughcontact.surface.surface import Surface
-    from roughcontact.theory.plasticity import PlasticityIndex
+    from roughcontact.theory.plastic_asperities.plasticity import PlasticityIndex
 
 __all__ = ["Pressed", "best_state"]
 
@@ -43,7 +43,7 @@ class Pressed:
     @classmethod
     def of(cls, surface: Surface, modulus: float, softer: tuple[float, str] | None) -> Pressed:
         """Return what a surface is; say on standard error why a known hardness gives no index."""
-        from roughcontact.contact.load_search import SurfaceKind
+        from roughcontact.contact.loads.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)
         if not is_numpy(surface.heights):  # whose summits are not looked for

@@ -32,7 +32,7 @@ def serve(
     with reported(file):
         try:
             from roughcontact.files.read import channels
-            from roughcontact.page.serve import serve as run
+            from roughcontact.page.server.serve import serve as run
         except ImportError as error:
             if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):
                 raise

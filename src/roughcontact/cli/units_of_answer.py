@@ -9,7 +9,7 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.unit_options import PRESSURE, STIFFNESS_PER_AREA, parse_unit
 
 if TYPE_CHECKING:
-    from roughcontact.plot.engineering_units import Scale
+    from roughcontact.plot.drawing.engineering_units import Scale
 
 __all__ = ["Units"]
 
@@ -30,7 +30,7 @@ class Units:
 
     def chosen(self) -> dict[str, Scale]:
         """Return the units that were named, by the column that is given in them."""
-        from roughcontact.plot.engineering_units import Scale
+        from roughcontact.plot.drawing.engineering_units import Scale
 
         given = (
             ("interfacial_stiffness_per_area", self.unit_stiffness, STIFFNESS_PER_AREA, "--unit-stiffness"),

@@ -11,10 +11,8 @@ import numpy as np
 
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve, flow_point
-from roughcontact.contact.interface_table import InterfaceTable
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spots import are_labelled
-from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import (
     CURVE,
@@ -23,7 +21,6 @@ from roughcontact.labels.contact_columns import (
     FLOW_RISE,
     HARDNESS,
     HEIGHTS,
-    INTERFACE,
     MAPS,
     RMS,
     SPOT_LABEL,
@@ -38,7 +35,7 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = [
-    *("curve_dataframe", "curve_dataset", "curve_record", "interface_dataset"),
+    *("curve_dataframe", "curve_dataset", "curve_record"),
     *("numbers_dataset", "solution_dataset", "solution_maps", "solution_record"),
 ]
 
@@ -215,40 +212,3 @@ def _of_state(solution: Solution) -> Variables:
         data |= variables_of(FlowCurve(*map(np.asarray, flow_point(solution))), {(): FLOW}, kind)
         data |= variables_of(flow, {(): (FLOW_RISE,)}, kind, {"flow_rise": "rise"})
     return data if surface is None else data | variables_of(surface, {(): (RMS,)}, kind)
-
-
-def interface_dataset(table: InterfaceTable) -> xarray.Dataset:
-    """Return the law of an interface as an `xarray.Dataset` with units and long names.
-
-    Parameters
-    ----------
-    table : InterfaceTable
-
-    Returns
-    -------
-    xarray.Dataset
-        One value of each quantity a load; ``zero_gap`` without a dimension.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> surface = rc.examples.surface("ground")
-    >>> table = rc.interface_table(rc.loading_curve(surface, 1e11, pressures=[1e7, 3e7, 1e8]))
-    >>> table.to_dataset()["mean_gap"].attrs["units"]
-    'm'
-    """
-    import xarray
-
-    names = {
-        "nominal_pressure": "pressure",
-        "mean_gap": "gap",
-        "interfacial_stiffness_per_area": "stiffness",
-    }
-    data = variables_of(table, INTERFACE, Geometry.SURFACE, names)
-    data |= {name: variable(name, ("load",), values) for name, values in table.conductances.items()}
-    low, high = table.validity
-    words = {
-        "title": "law of a rough interface, per nominal area",
-        "validity": f"nominal pressure from {low:.6g} to {high:.6g} Pa",
-    }
-    return xarray.Dataset(data, attrs={"Conventions": "CF-1.11", **words})

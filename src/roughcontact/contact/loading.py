@@ -8,7 +8,7 @@ from roughcontact.contact.continuation import follow
 from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import FlowModel, flow_reading
 from roughcontact.contact.load_history import follow_history
-from roughcontact.contact.load_range import load_range
+from roughcontact.contact.loads.load_range import load_range
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness

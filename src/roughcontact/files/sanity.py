@@ -9,7 +9,7 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.files.noisy_rows import noisy_rows
-from roughcontact.surface.spikes import spikes_in
+from roughcontact.surface.preparation.spikes import spikes_in
 from roughcontact.validation import Array
 
 __all__ = ["IMPOSSIBLE", "doubts_about", "highest"]

@@ -20,11 +20,11 @@ from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.dataset import numbers_dataset, solution_dataset, solution_maps
-from roughcontact.contact.interface_table import InterfaceTable
-from roughcontact.contact.interface_text import abaqus_text, lammps_text
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
+from roughcontact.evaluation.interface_table import InterfaceTable
+from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes, write_npy
 from roughcontact.files.provenance import provenance

@@ -8,22 +8,21 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
-    from roughcontact.mdr import (
-        adhesion as adhesion,
-        adhesive_path as adhesive_path,
+    from roughcontact.mdr import foundation as foundation
+    from roughcontact.mdr.adhesive_bodies import adhesion as adhesion, adhesive_path as adhesive_path
+    from roughcontact.mdr.bodies import indentation as indentation, indenter as indenter
+    from roughcontact.mdr.lines import (
         equivalent_line as equivalent_line,
-        foundation as foundation,
-        indentation as indentation,
-        indenter as indenter,
         lattice_sums as lattice_sums,
-        lee_radok as lee_radok,
         line_curves as line_curves,
         line_scan as line_scan,
         random_lines as random_lines,
         rough_line as rough_line,
+    )
+    from roughcontact.mdr.tangential_loading import slip_history as slip_history, tangential as tangential
+    from roughcontact.mdr.viscoelasticity import (
+        lee_radok as lee_radok,
         sliding_friction as sliding_friction,
-        slip_history as slip_history,
-        tangential as tangential,
         viscoelastic as viscoelastic,
         viscoelastic_history as viscoelastic_history,
     )

@@ -18,9 +18,9 @@ from queue import SimpleQueue
 from typing import Any, BinaryIO
 
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
-from roughcontact.page.order import Job, Order, Send
+from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.server.order import Job, Order, Send
 from roughcontact.page.stopping import Stopped, Stopping
-from roughcontact.page.workbench import UploadedFile, Workbench
 
 __all__ = ["main", "perform"]
 
@@ -91,11 +91,11 @@ def _order(given: Mapping[str, Any]) -> Order:
 
 
 def _job(name: str) -> Job:
-    from roughcontact.page.bodies_job import bodies
-    from roughcontact.page.curve_jobs import curve, theories
-    from roughcontact.page.export_job import export
-    from roughcontact.page.press_jobs import cut, press
-    from roughcontact.page.surface_jobs import look, study
+    from roughcontact.page.jobs.bodies_job import bodies
+    from roughcontact.page.jobs.curve_jobs import curve, theories
+    from roughcontact.page.jobs.export_job import export
+    from roughcontact.page.jobs.press_jobs import cut, press
+    from roughcontact.page.jobs.surface_jobs import look, study
 
     jobs: dict[str, Job] = {
         each.__name__: each for each in (look, study, bodies, press, cut, curve, theories, export)

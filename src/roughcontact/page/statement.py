@@ -7,7 +7,7 @@ import shlex
 from dataclasses import dataclass
 
 from roughcontact.files.quantity import LENGTH, PRESSURE, parse, parse_number
-from roughcontact.page.conducting import conducting_pair
+from roughcontact.page.jobs.conducting import conducting_pair
 from roughcontact.page.preparation_calls import calls_of, written_value
 from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoad, PageLoads, PageRecipe
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING or _LATE is None:
         height_distribution as height_distribution,
         pressure_distribution as pressure_distribution,
     )
-    from roughcontact.plot.engineering_units import Scale as Scale
+    from roughcontact.plot.drawing.engineering_units import Scale as Scale
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
     from roughcontact.plot.jumps import (
         jump_area as jump_area,

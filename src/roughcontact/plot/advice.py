@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.plot.facts import quantity
-from roughcontact.surface.polynomial import polynomial_trend
-from roughcontact.surface.spikes import find_spikes, tail_of
+from roughcontact.surface.preparation.polynomial import polynomial_trend
+from roughcontact.surface.preparation.spikes import find_spikes, tail_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from roughcontact.surface.spikes import Spikes
+    from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 

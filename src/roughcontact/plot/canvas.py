@@ -17,14 +17,14 @@ from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.labels.variables import unit_of
 from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
-from roughcontact.plot.engineering_units import Scale, written
+from roughcontact.plot.drawing.engineering_units import Scale, written
+from roughcontact.plot.drawing.marks import contact_window
+from roughcontact.plot.drawing.raster import Window
+from roughcontact.plot.drawing.ticks import LABEL, TICK
 from roughcontact.plot.maps import contact_map, height_map, pressure_map
-from roughcontact.plot.marks import contact_window
 from roughcontact.plot.profile_plot import contact_profile, pressure_profile, profile_curve
-from roughcontact.plot.raster import Window
-from roughcontact.plot.ticks import LABEL, TICK
 from roughcontact.statistics.power_law import PowerLaw
-from roughcontact.surface.spikes import Spikes
+from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import numeric
 

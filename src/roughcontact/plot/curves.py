@@ -19,10 +19,10 @@ from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import Scale, scale
-from roughcontact.plot.level import free_place, level
-from roughcontact.plot.ticks import TICK, label_axes, outer_axis, readable_ticks
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.plot.drawing.level import free_place, level
+from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.validation import Array, numeric, require

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import names_of, shown_in
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.plot.facts import closed_gap, quantity, size_of
-from roughcontact.plot.ticks import LABEL, label_axes
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:

@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.ticks import LABEL, TICK, label_axes
-from roughcontact.plot.usual_range import usual_range
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.drawing.usual_range import usual_range
 from roughcontact.surface.analysis.histogram import height_histogram
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface

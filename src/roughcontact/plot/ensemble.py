@@ -11,9 +11,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import pretty
-from roughcontact.plot.ticks import TICK, label_axes
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import pretty
+from roughcontact.plot.drawing.ticks import TICK, label_axes
 from roughcontact.validation import Array
 
 __all__ = ["fitted_values", "mean_curves", "shades"]

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 
 __all__ = ["jump_area", "jump_figure", "jump_loop"]
 

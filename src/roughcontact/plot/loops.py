@@ -14,11 +14,11 @@ from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.raster import length_scale
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes, readable_ticks
 from roughcontact.plot.maps import height_map
-from roughcontact.plot.raster import length_scale
-from roughcontact.plot.ticks import LABEL, TICK, label_axes, readable_ticks
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
 

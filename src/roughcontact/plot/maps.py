@@ -12,13 +12,22 @@ from matplotlib.colors import ListedColormap
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.marks import faint_spots
-from roughcontact.plot.raster import Window, box, colour_bar, extent, heights_image, length_scale, part, show
-from roughcontact.plot.ticks import LABEL
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.marks import faint_spots
+from roughcontact.plot.drawing.raster import (
+    Window,
+    box,
+    colour_bar,
+    extent,
+    heights_image,
+    length_scale,
+    part,
+    show,
+)
+from roughcontact.plot.drawing.ticks import LABEL
 from roughcontact.surface.in_memory import analysed_on_host
-from roughcontact.surface.spikes import Spikes
+from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
 

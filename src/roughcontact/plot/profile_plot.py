@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.raster import length_scale
-from roughcontact.plot.ticks import LABEL, TICK, label_axes
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.raster import length_scale
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.in_memory import analysed_on_host
-from roughcontact.surface.spikes import Spikes
+from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, numeric, require
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from roughcontact.contact.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.contact.solution import Solution
+from roughcontact.evaluation.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.halfspace.subsurface.fields_below import stress
 from roughcontact.material import Solid
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
-from roughcontact.plot.raster import colour_bar, length_scale
-from roughcontact.plot.ticks import LABEL, label_axes
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.raster import colour_bar, length_scale
+from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.validation import numeric
 
 __all__ = ["von_mises_section"]

@@ -9,8 +9,8 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
-from roughcontact.plot.ticks import TICK
 from roughcontact.statistics.averages import combinations
 
 __all__ = ["study_figure"]

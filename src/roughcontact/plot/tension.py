@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale, written
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale, written
+from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, pooled, show
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.maps import colour_limit
 from roughcontact.plot.profile_plot import draw_contact, places_of
-from roughcontact.plot.raster import colour_bar, length_scale, part, pooled, show
-from roughcontact.plot.ticks import LABEL, TICK, label_axes
 from roughcontact.validation import Array, Mask
 
 __all__ = ["state_figure", "tension_map", "tension_profile"]

@@ -11,10 +11,10 @@ from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.axes_for import axes_for
-from roughcontact.plot.engineering_units import scale
-from roughcontact.plot.raster import length_scale
-from roughcontact.plot.ticks import LABEL, label_axes
+from roughcontact.plot.drawing.axes_for import axes_for
+from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.plot.drawing.raster import length_scale
+from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import numeric

@@ -9,15 +9,15 @@ from typing import Literal
 import numpy as np
 
 from roughcontact.grid import Grid
-from roughcontact.surface.in_memory import analysed_on_host
-from roughcontact.surface.surface import Surface
-from roughcontact.surface.wave_grid import (
+from roughcontact.surface.generation.wave_grid import (
     Spectrum,
     Support,
     multiplicity,
     wave_powers,
     wavenumbers,
 )
+from roughcontact.surface.in_memory import analysed_on_host
+from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require, require_numbers
 
 __all__ = ["Moments", "grid_moments", "surface_moments"]

@@ -8,48 +8,60 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
-    from roughcontact.theory import (
+    from roughcontact.theory import law as law, laws as laws
+    from roughcontact.theory.adhesive import (
         adhesive_asperities as adhesive_asperities,
         adhesive_sphere as adhesive_sphere,
         adhesive_wave as adhesive_wave,
-        asperities as asperities,
         bearing_area_model as bearing_area_model,
-        beat_wave as beat_wave,
-        bush_gibson_thomas as bush_gibson_thomas,
-        cattaneo as cattaneo,
-        chang_etsion_bogy as chang_etsion_bogy,
-        conductance as conductance,
-        cosine as cosine,
-        finite_size as finite_size,
-        gaussian_heights as gaussian_heights,
-        greenwood_williamson as greenwood_williamson,
-        height_distribution as height_distribution,
-        hertz as hertz,
-        holm as holm,
-        interaction as interaction,
-        jaeger as jaeger,
-        kogut_etsion as kogut_etsion,
-        law as law,
-        laws as laws,
         maugis as maugis,
-        mindlin as mindlin,
-        nayak as nayak,
         pastewka_robbins as pastewka_robbins,
+        persson_tosatti as persson_tosatti,
+    )
+    from roughcontact.theory.asperity_models import (
+        asperities as asperities,
+        bush_gibson_thomas as bush_gibson_thomas,
+        greenwood_williamson as greenwood_williamson,
+        interaction as interaction,
+    )
+    from roughcontact.theory.joints import (
+        cattaneo as cattaneo,
+        conductance as conductance,
+        holm as holm,
+        jaeger as jaeger,
+        mindlin as mindlin,
+        thermal as thermal,
+    )
+    from roughcontact.theory.persson_theory import (
         persson as persson,
         persson_plastic as persson_plastic,
         persson_separation as persson_separation,
-        persson_tosatti as persson_tosatti,
+    )
+    from roughcontact.theory.plastic_asperities import (
+        chang_etsion_bogy as chang_etsion_bogy,
+        kogut_etsion as kogut_etsion,
         plasticity as plasticity,
-        pohrt_popov as pohrt_popov,
-        power_law_indenter as power_law_indenter,
         pullen_williamson as pullen_williamson,
+    )
+    from roughcontact.theory.random_surfaces import nayak as nayak, waves as waves
+    from roughcontact.theory.spheres_and_punches import (
+        hertz as hertz,
+        power_law_indenter as power_law_indenter,
         punch as punch,
         rough_sphere as rough_sphere,
-        rough_square as rough_square,
+    )
+    from roughcontact.theory.springs import (
+        beat_wave as beat_wave,
+        cosine as cosine,
+        gaussian_heights as gaussian_heights,
+        height_distribution as height_distribution,
         stepped as stepped,
-        thermal as thermal,
         two_cosines as two_cosines,
-        waves as waves,
+    )
+    from roughcontact.theory.stiffness_laws import (
+        finite_size as finite_size,
+        pohrt_popov as pohrt_popov,
+        rough_square as rough_square,
     )
 
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]

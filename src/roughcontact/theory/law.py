@@ -13,7 +13,7 @@ import numpy as np
 from roughcontact.validation import Array, number
 
 if TYPE_CHECKING:
-    from roughcontact.theory.waves import Spectrum
+    from roughcontact.theory.random_surfaces.waves import Spectrum
 
 __all__ = ["Basis", "LoadingLaw", "composed", "over_area"]
 

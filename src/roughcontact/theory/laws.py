@@ -9,25 +9,15 @@ from functools import partial
 from types import MappingProxyType
 from typing import TypedDict, Unpack
 
-from roughcontact.theory import (
-    bush_gibson_thomas,
-    chang_etsion_bogy,
-    finite_size,
-    greenwood_williamson,
-    hertz,
-    interaction,
-    joint,
-    kogut_etsion,
-    persson,
-    persson_plastic,
-    pohrt_popov,
-    pullen_williamson,
-    rough_sphere,
-    rough_square,
-)
+from roughcontact.theory.asperity_models import bush_gibson_thomas, greenwood_williamson, interaction
+from roughcontact.theory.joints import joint
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.profile_moments import ProfileMoments
-from roughcontact.theory.waves import Spectrum, Waves
+from roughcontact.theory.persson_theory import persson, persson_plastic
+from roughcontact.theory.plastic_asperities import chang_etsion_bogy, kogut_etsion, pullen_williamson
+from roughcontact.theory.random_surfaces.profile_moments import ProfileMoments
+from roughcontact.theory.random_surfaces.waves import Spectrum, Waves
+from roughcontact.theory.spheres_and_punches import hertz, rough_sphere
+from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_square
 from roughcontact.validation import require
 
 __all__ = ["LAWS", "NamedLaw", "SurfaceFacts", "named"]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact.study.cases import find_case
 from roughcontact.study.cases.lines_case import CASE, LineParameters
 from roughcontact.study.study_errors import StudyError

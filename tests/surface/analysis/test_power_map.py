@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.surface.analysis.power_map import power_map
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 
 
 def noise(shape, spacing=(0.5, 0.25), periodic=True, seed=0):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from roughcontact.surface.analysis.preprocess import taper
-from roughcontact.surface.windows import WINDOWS
+from roughcontact.surface.preparation.windows import WINDOWS
 
 
 @pytest.mark.parametrize("size", [8, 101])

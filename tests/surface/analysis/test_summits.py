@@ -5,8 +5,8 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.surface.analysis.summits import find_summits
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 from roughcontact.surface.moments import grid_moments
-from roughcontact.surface.spectrum import SelfAffineSpectrum
 
 
 def egg_box(n=32, waves=2, amplitude=1e-6, spacing=1e-6, periodic=True):

@@ -12,8 +12,8 @@ from roughcontact.labels.labelled import described
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange
 from roughcontact.surface.analysis.summits import find_summits
-from roughcontact.surface.fourier import self_affine
-from roughcontact.theory.asperities import Asperities, press
+from roughcontact.surface.generation.fourier import self_affine
+from roughcontact.theory.asperity_models.asperities import Asperities, press
 
 if TYPE_CHECKING:
     import xarray

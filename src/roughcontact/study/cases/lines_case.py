@@ -9,11 +9,11 @@ from pydantic import Field
 
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
-from roughcontact.mdr.random_lines import rough_lines
-from roughcontact.mdr.rough_line import loading_curves
+from roughcontact.mdr.lines.random_lines import rough_lines
+from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact.study.case import Case
 from roughcontact.study.cases.shared_parameters import ForceRange
-from roughcontact.surface.spectrum import SelfAffineSpectrum
+from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
 
 if TYPE_CHECKING:
     import xarray

@@ -10,8 +10,8 @@ from pydantic import Field, model_validator
 
 from roughcontact.grid import Grid
 from roughcontact.study.case import Length, Parameters, Positive, Pressure
-from roughcontact.surface.fourier import self_affine
-from roughcontact.surface.shapes import paraboloid
+from roughcontact.surface.generation.fourier import self_affine
+from roughcontact.surface.generation.shapes import paraboloid
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import require
 

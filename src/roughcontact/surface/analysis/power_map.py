@@ -9,9 +9,9 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
+from roughcontact.surface.generation.wave_grid import wave_vectors
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.wave_grid import wave_vectors
 from roughcontact.validation import Array, numeric
 
 __all__ = ["PowerMap", "power_map"]

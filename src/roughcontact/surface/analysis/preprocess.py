@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact.surface.preparation.windows import window_values
 from roughcontact.surface.surface import Surface
-from roughcontact.surface.windows import window_values
 from roughcontact.validation import Array
 
 __all__ = ["Level", "SpectralWindow", "Taper", "complete", "power_left", "prepared", "taper", "tapers"]

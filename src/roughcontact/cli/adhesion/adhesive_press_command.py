@@ -1,0 +1,101 @@
+"""The command ``adhesion press``: the end of an approach of surfaces that attract each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from roughcontact.cli import options
+from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_unresolved
+from roughcontact.cli.contact.profile_options import kinds_of
+from roughcontact.cli.exits import MISSED
+from roughcontact.cli.load_options import AdhesiveLoad
+from roughcontact.cli.messages import plain, reported
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.pressed import Pressed, best_state
+from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, print_facts
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
+
+__all__ = ["EXAMPLES", "press"]
+
+EXAMPLES = {
+    "press": """
+roughcontact adhesion press part.x3p --depth -2nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
+roughcontact adhesion press part.x3p --force 1mN --modulus 10MPa --work 50mJ/m^2 --range 20nm
+roughcontact adhesion press joint.npz --mean-gap 100nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --law dugdale
+""",
+}
+
+
+def press(
+    reading: options.Reading,
+    *,
+    load: AdhesiveLoad,
+    elasticity: options.Elasticity,
+    law: AdhesionLaw,
+    answer: options.Answer,
+) -> None:
+    """Bring a surface that sticks to one load: map of pressure and tension, area, stiffness and stability.
+
+    The state is the end of an approach from beyond the reach of the attraction. For a tension use 'adhesion curve'.
+    """
+    import roughcontact as rc
+
+    file = reading.source.file
+    with reported(file, answer.out, as_json=answer.json):
+        given = load.value(reading.profile)
+        modulus, adhesion, tolerance = elasticity.reduced_modulus(), law.adhesion(), answer.residual
+        with output(answer.out) as folder:
+            surface = reading.surface()
+            pressed = Pressed.of(surface, modulus, None)
+            limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
+            state: AdhesiveState = best_state(
+                rc.adhesive_state, surface, modulus, adhesion, **given, **limits
+            )
+            with doing("Stability and files"):
+                record = {
+                    "command": "adhesion press",
+                    "file": plain(str(file)),
+                    "surface": list(surface.provenance),
+                    "kind": pressed.kind.value,
+                    **state.to_record(),
+                    "converged": state.status.converged,
+                }
+                if folder is not None:
+                    [(name, value)] = given.items()
+                    control = f"{name.replace('_', ' ')} = {value!r} {kinds_of(reading.profile)[name].unit}"
+                    _write(state, record, folder, control, answer.ending)
+        if answer.json:
+            emit(record)
+        else:
+            size, *others = adhesive_facts(state)
+            print_facts([size, *pressed.facts(), *others])
+        note_unresolved(state.unresolved)
+        note_files(folder, ("press.json", "pressure.nc", f"pressure.{answer.ending}"))
+        if not state.status.converged:
+            raise typer.Exit(MISSED)
+
+
+def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: str, ending: str) -> None:
+    """Write NetCDF, picture and summary into a folder: all of them or none."""
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_json, write_netcdf
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.tension import state_figure
+
+    source = provenance(
+        state.problem.surface,
+        modulus=state.problem.modulus,
+        control=control,
+        tolerance=state.problem.tolerance,
+        command=command_line(),
+    )
+    with all_or_none(folder) as aside:
+        write_netcdf(state.to_dataset(), aside / "pressure.nc", source)
+        save(state_figure(state), aside / f"pressure.{ending}")
+        write_json(record, aside / "press.json", source)

@@ -1,0 +1,82 @@
+"""The command ``adhesion detach``: a surface that was pressed, stuck, and is drawn back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from roughcontact.cli import options
+from roughcontact.cli.adhesion.adhesion_options import WORK, parse_work
+from roughcontact.cli.contact.profile_options import kinds_of
+from roughcontact.cli.load_options import FallingLoads, OneLoad
+from roughcontact.cli.messages import note, reported
+from roughcontact.cli.output import output
+from roughcontact.cli.path_answer import PathAnswer, collected
+from roughcontact.cli.pressed import best_state
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from roughcontact.adhesion.detachment_curve import DetachmentCurve
+
+__all__ = ["EXAMPLES", "detach"]
+
+EXAMPLES = {
+    "detach": """
+roughcontact adhesion detach part.x3p --force 100uN --modulus 1GPa --work 50mJ/m^2 --out result
+roughcontact adhesion detach part.x3p --depth 100nm --depths 50nm:-50nm:11 --modulus 1GPa --work 50mJ/m^2
+""",
+}
+
+
+def detach(
+    reading: options.Reading,
+    *,
+    load: OneLoad,
+    retreat: FallingLoads,
+    elasticity: options.Elasticity,
+    work: str = WORK,
+    answer: options.Answer,
+) -> None:
+    """Press a surface by one load, and draw it back as if it were stuck: pull-off force, and the cells that let go.
+
+    This is the limit of an attraction without a range, by Johnson, Kendall and Roberts. Nothing attracts the surface
+    while it is pressed. With an attraction that has a range use 'adhesion loop'.
+    """
+    import roughcontact as rc
+    from roughcontact.adhesion.detachment_curve import collect_detachments
+    from roughcontact.plot.detachment_plot import DETACHMENT_COLUMNS, detachment_facts
+
+    file, body = reading.source.file, reading.profile
+    with reported(file, answer.out, as_json=answer.json):
+        given, loads, energy = load.value(body), retreat.values(body), parse_work(work)
+        falling: dict[str, Any] = {} if loads is None else {f"{loads.kind}s": loads.values}
+        kind: Literal["depth", "force"] = "force" if falling.keys() & {"forces", "pressures"} else "depth"
+        total = 1 if loads is None else loads.values.size
+        with output(answer.out) as folder:
+            surface, modulus = reading.surface(), elasticity.reduced_modulus()
+            limits = {"operator": reading.body(surface, modulus), "tolerance": answer.residual}
+            preload = best_state(rc.press, surface, modulus, **given, **limits)
+            states = rc.detachment_path(preload, energy, **falling)
+            found, whole = collected(
+                states, lambda states: collect_detachments(states, kind), "Drawing back", total
+            )
+            converged = preload.status.converged and found.converged
+            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachment", converged)
+            if folder is not None:
+                [(name, value)] = given.items()
+                control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
+                path.write(folder, control, _drawn, answer.ending)
+        path.tell(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
+        if not preload.status.converged:
+            note("the preload missed the tolerance")
+        path.end(folder, answer.ending, total)
+
+
+def _drawn(found: DetachmentCurve) -> Figure:
+    from matplotlib.figure import Figure
+
+    from roughcontact.plot.detachment_plot import detachment_force
+
+    figure = Figure(figsize=(5.6, 4.2), layout="constrained")
+    detachment_force(found, figure.subplots())
+    return figure

@@ -1,0 +1,266 @@
+"""What the command ``curve`` answers: on the screen, as JSON, and in files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cached import cached_property
+from roughcontact.cli import report
+from roughcontact.cli.contact.conductance_command import conduction_facts, shown_columns
+from roughcontact.cli.contact.theory_options import deviations, exponents, parameters
+from roughcontact.cli.messages import note, plain
+from roughcontact.cli.output import all_or_none, command_line
+from roughcontact.files.own_errors import is_ours
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+    from roughcontact.cli.contact.error_options import LoadErrors
+    from roughcontact.cli.pressed import Pressed
+    from roughcontact.contact.compare import Comparison
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.loop import Loop
+    from roughcontact.evaluation.conduction import Conductors
+    from roughcontact.plot.drawing.engineering_units import Scale
+    from roughcontact.statistics.power_law import PowerLaw
+    from roughcontact.surface.surface import Surface
+    from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["CurveAnswer"]
+
+
+@dataclass(frozen=True)
+class CurveAnswer:
+    """A computed curve and what was asked to stand beside it.
+
+    Parameters
+    ----------
+    curve : Curve
+    surface : Surface
+        What was pressed.
+    file : Path
+        Where it comes from.
+    tolerance : float
+        That was asked for.
+    notes : tuple of str
+        On the last load.
+    laws : mapping of str to LoadingLaw
+        Theories, by the names they were asked for.
+    taken : mapping of str to float
+        What they took from the surface, in SI units.
+    conductors : Conductors or None
+        The conducting bodies.
+    of : str
+        What conducts, see `roughcontact.conductance`.
+    per_area : bool
+        Whether table and picture are those of a joint, against nominal pressure.
+    units : mapping of str to Scale
+        Units that were asked for, by column.
+    refused : mapping of str to str
+        Why theories that were asked for do not apply to the surface, by their names.
+    errors : tuple of LoadErrors
+        Of the first and the last resolved load, if they were asked for.
+    pressed : Pressed
+        What the surface is to a contact.
+    """
+
+    curve: Curve
+    surface: Surface
+    file: Path
+    tolerance: float
+    notes: tuple[str, ...]
+    laws: Mapping[str, LoadingLaw]
+    taken: Mapping[str, float]
+    conductors: Conductors | None
+    of: str
+    per_area: bool
+    units: Mapping[str, Scale]
+    refused: Mapping[str, str]
+    errors: tuple[LoadErrors, ...]
+    pressed: Pressed
+
+    @property
+    def converged(self) -> bool:
+        """Whether every load met the tolerance."""
+        return all(status.converged for status in self.curve.status)
+
+    @cached_property
+    def fit(self) -> PowerLaw | None:
+        """The power law through the resolved points, if they allow one."""
+        try:
+            return self.curve.fit()
+        except ValueError as error:
+            note(f"no power law: {error}")
+            return None
+
+    @cached_property
+    def comparisons(self) -> dict[str, Comparison]:
+        """The curve beside each theory that applies."""
+        return self._compared[0]
+
+    @property
+    def drawn(self) -> tuple[LoadingLaw, ...]:
+        """The theories that apply, with what the curve has of them, by the names that they were asked for."""
+        return tuple(
+            replace(
+                law,
+                name=key,
+                quantities={name: law.quantities[name] for name in self.comparisons[key].predicted},
+            )
+            for key, law in self.laws.items()
+            if key in self.comparisons
+        )
+
+    @property
+    def left_out(self) -> dict[str, str]:
+        """Why a theory does not stand beside the curve, by its name."""
+        return {**self.refused, **self._compared[1]}
+
+    @cached_property
+    def _compared(self) -> tuple[dict[str, Comparison], dict[str, str]]:
+        found: dict[str, Comparison] = {}
+        failed: dict[str, str] = {}
+        for key, law in self.laws.items():
+            try:
+                found[key] = self.curve.compare(law)
+            except ValueError as error:
+                if not is_ours(error):
+                    raise
+                failed[key] = str(error)
+        return found, failed
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """The curve with the columns of theories and conductance, in the units that were asked for."""
+        from roughcontact.contact.compare import with_theories
+        from roughcontact.contact.dataset import curve_dataset
+        from roughcontact.evaluation.conduction import with_conductance
+
+        dataset = with_theories(curve_dataset(self.curve), self.comparisons)
+        if self.conductors is not None:
+            dataset = with_conductance(dataset, self.conductors, self.of)
+        return dataset.assign({name: _in_unit(dataset[name], unit) for name, unit in self.units.items()})
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """The answer as plain values."""
+        from roughcontact.contact.dataset import curve_record
+        from roughcontact.labels.labelled import plain_values
+
+        conducted = {
+            name: self.dataset[name]
+            for name in names_of(CONDUCTION + CONDUCTION_PER_AREA)
+            if name in self.dataset
+        }
+        record = {
+            "command": "curve",
+            "file": plain(str(self.file)),
+            "surface": list(self.surface.provenance),
+            **self.pressed.record(),
+            **curve_record(self.curve),
+            **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
+            "fit": None if self.fit is None else _fit_record(self.fit),
+            "local_exponents": [asdict(each) for each in self.curve.local_exponents()],
+            "theory_parameters": dict(self.taken),
+            "theories_left_out": self.left_out,
+            "theories": {key: each.to_record() for key, each in self.comparisons.items()},
+            "errors": [each.to_record() for each in self.errors],
+            "tolerance": self.tolerance,
+            "converged": self.converged,
+            "notes": list(self.notes),
+        }
+        record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
+        return record
+
+    def source(self, control: str) -> dict[str, Any]:
+        """Return what files say of where they come from."""
+        from roughcontact.files.provenance import provenance
+
+        return provenance(
+            self.surface,
+            modulus=self.curve.modulus,
+            control=control,
+            tolerance=self.tolerance,
+            command=command_line(),
+        )
+
+    def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:
+        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
+        from roughcontact.files.write import write_csv, write_json, write_netcdf
+        from roughcontact.plot.canvas import save
+
+        with all_or_none(folder) as aside:
+            write_netcdf(self.dataset, aside / "curve.nc", source)
+            write_csv(self.dataset, aside / "curve.csv", source)
+            save(self._figure(), aside / f"curve.{ending}")
+            write_json(self.record, aside / "curve.json", source)
+
+    def tell(self, json: bool, loop: Loop | None = None) -> None:
+        """Print the answer on standard output, and what a reader should know on standard error."""
+        curve = self.curve
+        if json:
+            report.emit(self.record | ({} if loop is None else {"loop": loop.to_record()}))
+        else:
+            modulus = report.quantity("modulus", curve.modulus)
+            size = report.size_of(self.surface.grid)
+            report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
+            columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
+            report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
+            conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
+            local = exponents(curve, self.comparisons)
+            report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
+            if self.comparisons:
+                report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
+            if loop is not None:
+                report.print_facts(report.loop_facts(loop))
+            for each in self.errors:
+                each.tell(self.units, patch=not self.per_area, joint=self.per_area)
+        missed = sum(not status.converged for status in curve.status)
+        if missed:
+            note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
+        if self.fit is not None and not self.fit.straight:
+            note(report.bend_words(self.fit))
+        for name, why in self.left_out.items():
+            note(f"theory {name} is left out: {why}")
+        for line in self.notes:
+            note(line)
+        if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
+            note(
+                "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
+                "in N/m only, never per area (docs/joints.md)"
+            )
+
+    def _figure(self) -> Figure:
+        """Return the picture: of a joint against pressure, of a patch against force."""
+        from roughcontact.plot.canvas import areal_figure, curve_figure
+
+        laws = self.drawn
+        if self.per_area:
+            return areal_figure(self.curve, self.fit, laws, self.units)
+        return curve_figure(self.curve, self.fit, laws)
+
+
+def _in_unit(column: xarray.DataArray, unit: Scale) -> xarray.DataArray:
+    """Return a column in another unit, and its name with it."""
+    return (column * unit.factor).assign_attrs(column.attrs | {"units": unit.unit})
+
+
+def _fit_record(law: PowerLaw) -> dict[str, Any]:
+    numbers: dict[str, float | None] = {
+        name: float(getattr(law, name)) for name in ("exponent", "prefactor", "scatter", "bend")
+    }
+    error = float(law.bend_error)
+    numbers["bend_error"] = error if math.isfinite(error) else None
+    return numbers | {
+        "straight": law.straight,
+        "window": [float(end) for end in law.window],
+        "count": int(law.count),
+    }

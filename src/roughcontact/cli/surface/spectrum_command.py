@@ -1,0 +1,302 @@
+"""The command ``surface spectrum``: Hurst exponent, limits and moments of a measured surface."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from roughcontact.cli import options
+from roughcontact.cli.messages import UsageError, note, plain, reported
+from roughcontact.cli.option_groups import option
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
+from roughcontact.cli.report import doing, emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.run_memory import require_memory
+from roughcontact.cli.unit_options import LENGTH, parse_positive
+from roughcontact.plot.drawing.engineering_units import written
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.surface.analysis.hurst import HurstFit
+    from roughcontact.surface.analysis.power import PowerSpectrum
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["EXAMPLES", "spectrum"]
+
+EXAMPLES = {
+    "spectrum": """
+roughcontact surface spectrum part.x3p --out result
+roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
+roughcontact surface spectrum scan.csv --out result
+""",
+}
+_FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
+_COARSE = 20.0  # of the table and the moments
+_FILTERED = re.compile(r"Gaussian filter: waves (below|above) (\S+) m removed")
+_CLEAR = (
+    3.0  # times its cut-off: there a short-wave filter takes a seventh of the power, a long-wave one 0.4 %
+)
+_BYTES_PER_POINT = 64  # heights, their levelled copy, the transform and its squares
+_LIMITS = {"rolloff": "roll-off", "long_cutoff": "long cut-off", "short_cutoff": "short cut-off"}
+_UNITS = {
+    **dict.fromkeys(("rms", "rms_in_band", "longest", "shortest", *_LIMITS), "m"),
+    **{"m0": "m2", "m4": "m-2", "rms_curvature": "m-1"},
+    **dict.fromkeys(
+        ("hurst", "standard_error", "misfit", "m2", "rms_slope", "isotropic_rms_slope", "nayak"), "1"
+    ),
+}
+
+
+Limit = StrEnum("Limit", ["AUTO", "NONE", "ROLLOFF", "LONG_CUTOFF"])
+Direction = StrEnum("Direction", ["AUTO", "RING", "X", "Y"])
+
+# The spectrum, the law fitted to it and, of a profile, C2D of the isotropic surface that has such profiles.
+_Found = tuple["PowerSpectrum", "HurstFit", "PowerSpectrum | None"]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Which spectrum is asked for, and which law in it."""
+
+    PANEL: ClassVar = "Spectrum"
+    direction: Direction = option(
+        "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
+        "auto: ring of a map, x of a profile.",
+        default=Direction.AUTO,
+    )
+    limit: Limit = option("How the power law may end toward long waves.", default=Limit.AUTO)
+    longest: str | None = option(
+        "Longest wave that counts (default: a third of a free map's length).", "100um"
+    )
+    shortest: str | None = option("Shortest wave that the instrument follows (default: two cells).", "1um")
+    fill: bool = option("Fill missing points smoothly first.", default=False)
+
+    def band(self) -> dict[str, float]:
+        """Return the band that was asked for as wavenumbers [rad/m]."""
+        band = {
+            name: 2 * math.pi / parse_positive(text, LENGTH, f"--{flag}", "a wavelength")
+            for name, flag in (("q_min", "longest"), ("q_max", "shortest"))
+            if (text := getattr(self, flag)) is not None
+        }
+        if len(band) == 2 and not band["q_min"] < band["q_max"]:
+            raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
+        return band
+
+
+def spectrum(
+    source: options.Source,
+    *,
+    asked: Asked,
+    periodic: bool | None = options.PERIODIC,
+    level: options.Levelling | None = options.LEVEL,
+    out: Path | None = options.OUT,
+    format: PictureFormat | None = FORMAT,
+    json: bool = options.JSON,
+) -> None:
+    """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
+
+    Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    """
+    with reported(source.file, out, as_json=json):
+        band, ending = asked.band(), picture_ending(format, out)
+        with output(out) as folder:
+            surface = _surface(source, periodic, asked.fill)
+            with doing("Spectrum, law and files"):
+                found, law = _analysed(surface, asked, band, level)
+                record = _record(surface, found, law, source.file)
+                if folder is not None:
+                    isotropic = _isotropic(surface, found, law)
+                    _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder, ending)
+        if json:
+            emit(record)
+        else:
+            print_facts(_facts(surface, record))
+        for line in record["notes"]:
+            note(line)
+        note_files(folder, ("spectrum.csv", f"spectrum.{ending}"))
+
+
+def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surface:
+    """Return the surface without missing points; its tilt is removed when the spectrum is taken."""
+    surface = source.map_or_line(periodic)
+    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
+    if surface.missing and not fill:
+        raise UsageError(
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
+            "or crop them away by 'roughcontact surface prepare'"
+        )
+    if surface.missing:
+        note(f"{surface.missing} missing points are filled smoothly: the shortest waves are too weak there")
+        surface = surface.filled()
+    return surface
+
+
+def _analysed(
+    surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
+) -> tuple[PowerSpectrum, HurstFit]:
+    """Return the spectrum in fine bins, its band set, and the law that fits it."""
+    import roughcontact as rc
+
+    # mypy takes the values of an enum for any text.
+    direction: Any = asked.direction.value
+    limit: Any = asked.limit.value
+    taken: Any = "auto" if level is None else level.value
+    if level is None and not all(surface.grid.periodic):
+        trend = "plane" if surface.grid.ndim == 2 else "line"
+        note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+    whole = rc.power_spectrum(surface, direction, level=taken, per_decade=_FINE)
+    whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
+    return whole, rc.fit_spectrum(whole, limit=limit)
+
+
+def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
+    import roughcontact as rc
+
+    moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
+    values = {
+        **{name: getattr(law, name) for name in ("hurst", "standard_error", "misfit")},
+        "longest": 2 * math.pi / spectrum.q_min,
+        "shortest": 2 * math.pi / spectrum.q_max,
+        **{name: getattr(law, name) for name in _LIMITS},
+        "rms": surface.rms if all(surface.grid.periodic) else surface.levelled("plane").rms,
+        "rms_in_band": moments.rms_height,
+        **{
+            name: getattr(moments, name) for name in ("rms_slope", "rms_curvature", "m0", "m2", "m4", "nayak")
+        },
+    }
+    if surface.grid.ndim == 1:
+        values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
+    return {
+        "command": "surface spectrum",
+        "file": plain(str(file)),
+        "kind": spectrum.kind,
+        # JSON has no word for what is infinite or unknown.
+        **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
+        "notes": _doubts(surface, law),
+        "provenance": list(surface.provenance),
+        "units": {name: unit for name, unit in _UNITS.items() if name in values},
+    }
+
+
+def _doubts(surface: Surface, law: HurstFit) -> list[str]:
+    """Return a misfit beyond chance in words, with the filters that the fitted band runs into."""
+    if law.misfit <= law.chance:
+        return []
+    longest, shortest = (2 * math.pi / wavenumber for wavenumber in law.band)
+    reasons = []
+    for gone, text in _FILTERED.findall("\n".join(surface.provenance)):
+        cutoff, short = float(text), gone == "below"
+        clear = cutoff * _CLEAR if short else cutoff / _CLEAR
+        if shortest < clear if short else longest > clear:
+            what = f"the cut-off of a filter that removed waves {gone} {quantity('lengths', cutoff)}"
+            end = "shortest" if short else "longest"
+            reasons.append(f"the band runs past {what}; give --{end} {clear:.3g}")
+    why = " and ".join(reasons) or "the spectrum is no power law; narrow the band by --longest and --shortest"
+    return [f"the fit is poor, misfit {law.misfit:.3g} where chance stays below {law.chance:.2g}: {why}"]
+
+
+def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    ends = [
+        (label, quantity("lengths", record[name]))
+        for name, label in _LIMITS.items()
+        if record[name] is not None
+    ]
+    band = f"{quantity('lengths', record['longest'])} to {quantity('lengths', record['shortest'])}"
+    nayak = "unknown" if record["nayak"] is None else f"{record['nayak']:.4g}"
+    facts = [
+        ("file", record["file"]),
+        ("surface" if surface.grid.ndim == 2 else "profile", size_of(surface.grid)),
+        ("Hurst exponent H", f"{record['hurst']:.4f} ± {record['standard_error']:.4f}"),
+        ("misfit", f"{record['misfit']:.3g} (near 1 where the law holds)"),
+        ("waves", band),
+        *(
+            ends
+            or [
+                (
+                    "limits",
+                    "none found" if record["notes"] else "none found: the law holds over the whole band",
+                )
+            ]
+        ),
+        (
+            "rms height",
+            f"{quantity('rms', record['rms'])}; {quantity('rms', record['rms_in_band'])} in the band",
+        ),
+        ("rms slope in the band", f"{record['rms_slope']:.4g}"),
+        ("rms curvature in the band", written(record["rms_curvature"] * 1e-3, "", 4) + " 1/mm"),
+        (
+            "moments of the band",
+            f"m0 = {record['m0']:.4g} m², m2 = {record['m2']:.4g}, m4 = {record['m4']:.4g} 1/m²",
+        ),
+        ("Nayak's parameter", nayak),
+    ]
+    if surface.grid.ndim == 1:
+        facts.append(("isotropic surface", f"rms slope {record['isotropic_rms_slope']:.4g} in the band"))
+    return facts
+
+
+def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
+    """Return C2D of the isotropic surface that has such profiles, where there is one."""
+    import roughcontact as rc
+
+    if surface.grid.ndim == 2:
+        return None
+    try:
+        return rc.surface_spectrum(spectrum.rebinned(_COARSE), hurst=law.hurst)
+    except ValueError as error:
+        note(f"no C2D: {error}")
+        return None
+
+
+def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path, ending: str) -> None:
+    """Write ``spectrum.csv`` and the picture; the table repeats the numbers of the record."""
+    from matplotlib.figure import Figure
+
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv
+    from roughcontact.plot.canvas import save
+    from roughcontact.plot.spectrum_plot import spectrum_curve
+
+    spectrum, law, isotropic = found
+    figure = Figure(figsize=(6.0 if isotropic is None else 10.0, 4.6), layout="constrained")
+    panels = figure.subplots(1, 1 if isotropic is None else 2, squeeze=False)[0]
+    spectrum_curve(spectrum, panels[0], law=law)
+    if isotropic is not None:
+        spectrum_curve(isotropic, panels[1], label="isotropic surface\nwith this profile")
+    source = provenance(surface, command=command_line())
+    with all_or_none(folder) as aside:
+        write_csv(_table(found, record), aside / "spectrum.csv", source, dimension="bin")
+        save(figure, aside / f"spectrum.{ending}")
+
+
+def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:
+    """Return the table: a row a bin, and the numbers that are known about the whole."""
+    import xarray
+
+    spectrum, law, isotropic = found
+    q = spectrum.wavenumber
+    unit = {"C2D": "m4", "C1D": "m3"}[spectrum.kind]
+    columns = {
+        "wavenumber": (q, "rad m-1"),
+        "wavelength": (spectrum.wavelength, "m"),
+        "density": (spectrum.density, unit),
+        "standard_error": (spectrum.standard_error, unit),
+        "law": (law(q), unit),
+    }
+    if isotropic is not None:
+        columns["isotropic_density"] = (isotropic.density, "m4")
+    reliable = (q >= spectrum.q_min * (1 - 1e-9)) & (q <= spectrum.q_max * (1 + 1e-9))
+    scalars = {
+        # The column of that name is the densities'.
+        f"hurst_{name}" if name == "standard_error" else name: ((), record[name], {"units": units})
+        for name, units in record["units"].items()
+        if record[name] is not None
+    }
+    data = {name: ("bin", column, {"units": units}) for name, (column, units) in columns.items()}
+    return xarray.Dataset({**scalars, **data, "reliable": ("bin", reliable)}, attrs={"kind": spectrum.kind})

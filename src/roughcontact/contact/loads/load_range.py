@@ -1,0 +1,241 @@
+"""Which loads suit a surface: between which forces the grid resolves it, and why the range ends there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from roughcontact.arrays import is_numpy, on_host
+from roughcontact.contact.curve import DECADE, length_scale
+from roughcontact.contact.loads.load_ends import with_ends
+from roughcontact.contact.loads.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
+from roughcontact.contact.press import grid_of, make_problem
+from roughcontact.contact.problem import Body
+from roughcontact.contact.size_law import Hardness
+from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.variables import unit_of
+from roughcontact.material import Solid, as_modulus
+from roughcontact.solver.control import Force
+from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.surface.preparation.spikes import find_spikes
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, numeric, whole
+
+__all__ = ["LoadRange", "load_range"]
+
+FORCES = 24
+FORCES_BELOW = 4  # of these below the range, within a decade
+DIGITS = 3  # of the forces: fewer than those in which machines agree on the stiffness by far
+STEEP = 0.6  # rms slope: asperities then bear about 0.4 of it times E*, half of what ends elasticity here
+ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadRange:
+    """The loads that suit a surface, and why.
+
+    Attributes
+    ----------
+    kind : SurfaceKind
+    single_feature : bool
+        Whether the largest spot carries more than half where the contact is as stiff as twenty cells.
+    forces : array, shape (n,)
+        Forces for a curve [N], increasing; half of those in the range are even in ln k, half in ln A.
+    lowest, highest : float
+        The range that the grid resolves [N]; on a line what is suggested [N/m]. Not above each other where there is
+        none.
+    reasons : tuple of str
+        What sets its two ends: the limit that is reached there, or the search, which goes from 1e-7 to 1e4 of E* h L.
+    notes : tuple of str
+        What a reader should know, in sentences: with the remedy where the range is short.
+    """
+
+    kind: SurfaceKind
+    single_feature: bool
+    forces: Array
+    lowest: float
+    highest: float
+    reasons: tuple[str, str]
+    notes: tuple[str, ...]
+
+    @property
+    def below(self) -> int:
+        """How many forces lie below the range."""
+        return int(np.count_nonzero(self.forces < self.lowest * (1 - 10.0 ** (1 - DIGITS))))
+
+
+@numeric(modulus="Pa", hardness="Pa")
+def load_range(
+    surface: Body,
+    modulus: float | Solid | tuple[Solid, Solid],
+    *,
+    count: int = FORCES,
+    operator: Operator | None = None,
+    hardness: Hardness | None = None,
+) -> LoadRange:
+    """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
+
+    From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force,
+    has sixteen cells (if that leaves less than a decade: where it is as stiff, with a note). It ends with the first
+    of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps half of the area in contact; on maps
+    with form contact at the border, beyond which the body goes on; a mean pressure in contact of half the reduced
+    modulus or, under a hardness, half of the force that it bears. Both ends are solved for, to a hundredth of these
+    limits, or of the force where a limit is passed in a jump. What flows is in contact too: under a hardness the
+    stiffness here is that of unloading. On a line contact it is 0.03 to 3 of E* h.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `press`.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    count : int
+        Number of forces.
+    operator : Operator, optional
+        Another body than the half-space on the surface's grid.
+    hardness : float, array or function, optional
+        Pressure that no cell exceeds [Pa].
+
+    Returns
+    -------
+    LoadRange
+        Forces rounded to three digits, so that machines whose last digits differ hardly ever suggest other ones.
+
+    Raises
+    ------
+    ValueError
+        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), rolloff=16e-6)
+    >>> loads = rc.load_range(surface, 1e9)
+    >>> loads.kind.value, loads.below
+    ('periodic', 4)
+    """
+    whole(count, "count, the number of forces,")
+    grid = grid_of(surface)
+    if not surface.rms > 0:
+        raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
+    geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
+    length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
+    scale = as_modulus(modulus) * surface.rms * length
+    kind = SurfaceKind.of(surface)
+    if geometry is Geometry.LINE:
+        low, high = (part * scale for part in ON_LINES)
+        ends = (f"{ON_LINES[0]:g} E* h", f"{ON_LINES[1]:g} E* h")
+        return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
+    first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
+    problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
+    return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
+
+
+def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
+    """Return the forces: some below the range, and half of the others even in ln k, half in ln A."""
+    low, high = search.lowest, search.highest
+    reasons = (search.start, search.reason or "the largest force of the search")
+    if low < high:
+        below = min(FORCES_BELOW, count // 6)
+        half = (count - below) // 2
+        ends = np.linspace(0, 1, count - below - half)
+        between = (np.arange(half) + 0.5) / max(1, half)
+        forces = np.concatenate(
+            [
+                np.geomspace(low / 10, low, below, endpoint=False),
+                _even(search, "stiffness", low, high, ends),
+                _even(search, "area", low, high, between),
+            ]
+        )
+    else:
+        forces = np.geomspace(high / 100, high, count)
+    forces = _distinct(forces, count)
+    notes = tuple(_notes(search, forces, surface))
+    return LoadRange(search.kind, search.single_feature, forces, low, high, reasons, notes)
+
+
+def _even(
+    search: LoadSearch, name: Literal["stiffness", "area"], low: float, high: float, parts: Array
+) -> Array:
+    """Return the forces of a range at which the logarithm of a quantity is at some parts of its way."""
+    force, rising = np.log(search.column("force")), np.log(np.maximum.accumulate(search.column(name)))
+    ends = np.interp(np.log([low, high]), force, rising)
+    return np.asarray(np.exp(np.interp(ends[0] + parts * (ends[1] - ends[0]), rising, force)))
+
+
+def _distinct(forces: Array, count: int) -> Array:
+    """Return forces of few digits, increasing, as many as are wanted: the widest gaps are halved."""
+
+    def rounded(values: Array) -> Array:
+        return np.unique(np.array([float(f"{value:.{DIGITS - 1}e}") for value in values]))
+
+    forces = rounded(forces)
+    while len(forces) < count:
+        widest = int(np.argmax(np.diff(np.log(forces))))
+        more = rounded(np.append(forces, math.sqrt(forces[widest] * forces[widest + 1])))
+        if len(more) == len(forces):
+            break
+        forces = more
+    return forces
+
+
+def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
+    """Yield what a reader should know of the range."""
+    low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
+    if search.single_feature:
+        until = (
+            "over the whole range" if search.released is None else f"up to {search.released:.3g} {force_unit}"
+        )
+        yield (
+            f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
+            "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop)."
+        )
+    if low < high and low < search.spots_from:
+        where = (
+            f"below {search.spots_from:.3g} {force_unit}"
+            if search.spots_from <= high
+            else "over the whole range"
+        )
+        yield (
+            f"Spots have fewer than {SPOT_CELLS} cells {where}: contact area and pressure are those of the grid there, "
+            "the stiffness hardly; for them take a finer map."
+        )
+    if low < high and high >= DECADE * low:
+        return
+    few = CELLS * cell_stiffness(search.problem.operator)
+    if few >= FULL_CONTACT_SHARE * full_contact_stiffness(search.problem):
+        yield f"No load is resolved: the map has too few cells, {surface.grid.shape}; take a finer one."
+    elif not low < high:
+        yield f"No load is resolved before {search.reason or 'the search ends'}: {_remedy(search, surface)}."
+    else:
+        yield (
+            f"The grid resolves forces over a factor of {high / low:.2g} only, less than a power law takes "
+            f"(a decade): {_remedy(search, surface)}."
+        )
+
+
+def _remedy(search: LoadSearch, surface: Body) -> str:
+    """Return what to do where the range is short."""
+    if isinstance(surface, Surface) and surface.grid.ndim == 2 and is_numpy(surface.heights):
+        if (spikes := find_spikes(surface)).count:
+            return f"{spikes} may carry the load; remove what is faulty (despiked, --despike)"
+        if (slope := _slope(surface)) > STEEP and "reduced modulus" in search.reason:
+            return (
+                f"with an rms slope of {slope:.2g} the surface is so steep that elasticity ends at first touch; give a "
+                "hardness, or filter the short waves if they are noise"
+            )
+    return "take a finer map, or crop to the part in contact"
+
+
+def _slope(surface: Surface) -> float:
+    """Return the rms slope of the measured cells."""
+    slopes = np.gradient(on_host(surface.heights), *surface.grid.spacing)
+    return math.sqrt(sum(float(np.nanmean(slope**2)) for slope in slopes))

@@ -1,0 +1,244 @@
+"""What a contact conducts: electricity and heat, from its stiffness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, overload
+
+import numpy as np
+
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.flow_curve import FlowCurve
+from roughcontact.contact.solution import Solution
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.column import names_of
+from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
+from roughcontact.labels.labelled import variable
+from roughcontact.theory.joints import conductance as theory
+from roughcontact.validation import Array, number, numeric
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Conductors", "conductance", "part_words", "with_conductance"]
+
+
+# What a conductance is of, and the stiffness that it follows from.
+_PARTS = {"interface": "interfacial_stiffness", "total": "stiffness"}
+
+
+@dataclass(frozen=True, slots=True)
+class Conductors:
+    """How well the two bodies conduct.
+
+    Parameters
+    ----------
+    resistivities : tuple of float, optional
+        Electrical resistivity of both bodies [ohm m]; 0 for a superconductor.
+    conductivities : tuple of float, optional
+        Thermal conductivity of both bodies [W/(m K)]; infinite for an isothermal body, 0 for an insulator.
+
+    Raises
+    ------
+    ValueError
+        If neither is given, or not for both bodies, a number is negative, or nothing limits the conductance.
+    """
+
+    resistivities: tuple[float, float] | None = None
+    conductivities: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.resistivities is None and self.conductivities is None:
+            raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
+        for pair in (self.resistivities, self.conductivities):
+            if pair is not None and np.shape(number(pair, "the numbers of both bodies")) != (2,):
+                raise ValueError(f"give the numbers of both bodies, such as (1.7e-8, 1.7e-8), not {pair!r}")
+        self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
+
+    def given(self) -> dict[str, tuple[float, float]]:
+        """Return what was given, by the names of the fields."""
+        pairs = {"resistivities": self.resistivities, "conductivities": self.conductivities}
+        return {name: pair for name, pair in pairs.items() if pair is not None}
+
+    def of(self, stiffness: Array, modulus: float) -> dict[str, Array]:
+        """Return the conductances and resistances of contacts by `stiffness` [N/m] at reduced `modulus` [Pa]."""
+        found: dict[str, Array] = {}
+        if self.resistivities is not None:
+            electrical = theory.electrical(stiffness, modulus, self.resistivities)
+            found |= {
+                "electrical_conductance": electrical,
+                "electrical_resistance": theory.resistance(electrical),
+            }
+        if self.conductivities is not None:
+            thermal = theory.thermal(stiffness, modulus, self.conductivities)
+            found |= {"thermal_conductance": thermal, "thermal_resistance": theory.resistance(thermal)}
+        return found
+
+
+@overload
+def conductance(
+    contact: Curve | Solution,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    of: Literal["interface", "total"] = "interface",
+) -> dict[str, Array]: ...
+@overload
+def conductance(
+    contact: xarray.Dataset,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    of: Literal["interface", "total"] = "interface",
+) -> xarray.Dataset: ...
+@numeric(resistivities="ohm*m", conductivities="W/m/K")
+def conductance(
+    contact: Curve | Solution | xarray.Dataset,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    of: Literal["interface", "total"] = "interface",
+) -> dict[str, Array] | xarray.Dataset:
+    """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
+
+    Parameters
+    ----------
+    contact : Curve, Solution or Dataset
+        Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that give way conduct like the
+        others: the stiffness is that of unloading. A dataset is that of a curve, ``curve.to_dataset()`` or as it was
+        read from a file.
+    resistivities, conductivities : tuple of float
+        At least one of the two, see ``Conductors``.
+    of : {"interface", "total"}
+        The conductance of the interface alone, from the interfacial stiffness; or the total one of two half-spaces that
+        touch on this patch and nowhere else, from the stiffness: the spreading resistance of the patch (the
+        macro-constriction towards it) is in it.
+
+    Returns
+    -------
+    dict of str to array, or Dataset
+        ``electrical_conductance`` [S] and ``electrical_resistance`` [ohm], ``thermal_conductance`` [W/K] and
+        ``thermal_resistance`` [K/W], what was asked for: along the curve, or one number. Of the interface also over the
+        nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm m^2],
+        ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films, gas
+        and radiation carry nothing here. Of a dataset, this dataset with these as further columns, as
+        `roughcontact.plot.resistance_curve` draws them.
+
+    Raises
+    ------
+    ValueError
+        If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
+        reference length, if it is a curve under a hardness that does not hold the stiffness of unloading, or if the
+        interface is asked for of a Winkler foundation, which has none.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> solution = rc.press(ball, 1e9, force=1e-3)
+    >>> copper = rc.conductance(solution, resistivities=(1.7e-8, 1.7e-8), of="total")
+    >>> f"{copper['electrical_resistance'] * 1e3:.1f} mOhm"
+    '2.0 mOhm'
+    """
+    materials = Conductors(resistivities, conductivities)
+    _require_part(of)
+    if not isinstance(contact, Curve | Solution):
+        if not hasattr(contact, "data_vars"):
+            raise ValueError(
+                f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
+            )
+        return with_conductance(contact, materials, of)
+    if isinstance(contact, Solution):
+        contact = contact.flattened  # plastic cells conduct as well
+    scales = contact.problem if isinstance(contact, Solution) else contact
+    area = scales.nominal_area if isinstance(scales, Curve) else scales.grid.area
+    name = _PARTS[of]
+    known: Curve | Solution | FlowCurve | None = contact
+    if isinstance(contact, Curve) and contact.hardness < math.inf:
+        name, known = f"unloading_{name}", contact.flow
+    _require_conducting(scales.geometry, known is None, of)
+    stiffness = np.asarray(getattr(known, name), dtype=np.float64)
+    return _of_part(materials.of(stiffness, scales.modulus), area, of)
+
+
+def with_conductance(
+    dataset: xarray.Dataset, conductors: Conductors, of: str = "interface"
+) -> xarray.Dataset:
+    """Return the dataset of a curve with what it conducts as further columns along ``load``, instead of any it has.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As `roughcontact.Curve.to_dataset` makes it, or as it was read from a file.
+    conductors : Conductors
+        The two bodies.
+    of : {"interface", "total"}
+        See `roughcontact.conductance`; the long name of each column says which it is.
+
+    Raises
+    ------
+    ValueError
+        If the dataset is not that of a curve, or that of a line contact, or of a plastic body without its stiffness of
+        unloading, or if the interface is asked for of a Winkler foundation.
+    """
+    _require_part(of)
+    plastic, stiffness = "hardness" in dataset, _PARTS[of]
+    missing = [name for name in ("force", stiffness, "modulus", "nominal_area") if name not in dataset]
+    if missing or dataset[stiffness].dims != ("load",):
+        raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
+    stiffness = f"unloading_{stiffness}" if plastic else stiffness
+    _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), stiffness not in dataset, of)
+    found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
+    columns, words = {}, part_words(dataset, of)
+    for name, values in _of_part(found, float(dataset["nominal_area"]), of).items():
+        columns[name] = variable(name, ("load",), values)
+        columns[name][2]["long_name"] += f", of {words}"
+    return dataset.drop_vars(names_of(CONDUCTION + CONDUCTION_PER_AREA), errors="ignore").assign(columns)
+
+
+def part_words(dataset: xarray.Dataset, of: str) -> str:
+    """Return in words what a conductance of a curve's dataset is of."""
+    if of == "interface":
+        return "the interface alone"
+    if dataset["periodic"].to_numpy().all():
+        return "the interface: a periodic map has no spreading resistance"
+    return "the whole patch between two half-spaces, its spreading resistance included"
+
+
+def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
+    """Return conductances and resistances, of the interface also over the nominal area.
+
+    The spreading resistance of a patch falls with its side, not with its area: of the total there is no such number.
+    """
+    if of != "interface":
+        return found
+    areal = {
+        f"{name}_per_area": values * area if name.endswith("resistance") else values / area
+        for name, values in found.items()
+    }
+    return found | areal
+
+
+def _require_part(of: str) -> None:
+    """Refuse what is neither the interface nor the total."""
+    if of not in _PARTS:
+        raise ValueError(
+            f"of must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
+        )
+
+
+def _require_conducting(geometry: Geometry, hidden: bool, of: str) -> None:
+    """Refuse a curve that does not say what its contact conducts: of a line, or without the stiffness of all cells."""
+    if geometry is Geometry.LINE:
+        raise ValueError(
+            "a line contact has no conductance of its own: it depends on how far away the bodies end; press a map of "
+            "heights"
+        )
+    if geometry is Geometry.FOUNDATION and of == "interface":
+        raise ValueError("a Winkler foundation has a total conductance only: take of='total'")
+    if hidden:
+        raise ValueError(
+            "under a hardness the plastic cells conduct, but the stiffness of this curve leaves them out: compute it "
+            "anew, with the stiffness of unloading"
+        )

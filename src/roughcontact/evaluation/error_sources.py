@@ -1,0 +1,249 @@
+"""The errors of a load: it is pressed again on maps that were made otherwise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from roughcontact.arrays import is_numpy
+from roughcontact.contact.convergence import ConvergenceError
+from roughcontact.contact.loads.load_search import SurfaceKind
+from roughcontact.contact.press import solve
+from roughcontact.contact.problem import ContactProblem, separation_of
+from roughcontact.contact.solution import Solution
+from roughcontact.evaluation.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.evaluation.error_notes import notes_on_sources
+from roughcontact.evaluation.perimeter import corrected_area
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import capabilities
+from roughcontact.labels.variables import VARIABLES
+from roughcontact.solver.control import Force
+from roughcontact.surface.finest_waves import is_rough_to_cells
+from roughcontact.surface.preparation.filters import require_cells
+from roughcontact.surface.preparation.halving import halved
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, numeric, positive_scalar
+
+__all__ = ["NUMBERS", "checked_cutoff", "error_budget"]
+
+CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none on a free map
+OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
+SAME = 1e-9  # relative difference up to which two loads or spacings are one
+NUMBERS = (
+    *("force", "depth", "stiffness", "interfacial_stiffness", "interfacial_stiffness_per_area"),
+    *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
+    *("mean_gap", "elastic_energy"),
+)
+
+
+@numeric(short_cutoff="m")
+def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None) -> ErrorBudget:
+    """Return the errors of the numbers of a pressed map, or of the means of several patches.
+
+    The load is pressed again on half as many cells, on the map without its short waves, and, where the map is free and
+    nominally flat, without its quadratic form; the changes of a number are its parts. They are not corrections: each
+    says how much a number depends on what was not known when the map was made.
+
+    Parameters
+    ----------
+    pressed : Solution or sequence of Solution
+        What `press` returned of a map of heights; or of several patches of one size, at the same load.
+    short_cutoff : float, optional
+        Wavelength [m] below which the instrument does not measure: the Gaussian filter leaves half of it. Four cells
+        without.
+
+    Returns
+    -------
+    ErrorBudget
+        The number that was prescribed, force or depth, is not in it.
+
+    Raises
+    ------
+    ValueError
+        If what is given was not pressed as a map of heights, the cut-off has fewer than four cells or is as long as the
+        map, or patches differ in their grid or load.
+    ConvergenceError
+        If a load missed its tolerance.
+
+    Notes
+    -----
+    *Grid*: the mean heights over half as many cells of the same sides, so that long waves stay what they are. The
+    change is what the grid at hand gained over that one; on nested surfaces it is more than what it still lacks.
+    *Short cut-off*: what the shortest waves of the map do. Still shorter ones do as much again to the area, and the
+    depth counts from the highest point of all: their errors are those of a surface without shorter waves than its map.
+    On a map that is rough down to its cells the depth has none (NaN), because it would grow with the grid.
+    The largest pressure grows with the waves, and at the border of a free map with the grid: it has no error at all.
+    *Levelling*: the map less its least-squares quadratic. *Patches*: the standard error of the mean over them. The
+    first two have the waves of two to four cells in common, so that the error is rather too large (docs/errors.md).
+
+    The area is given as the cells count it and as corrected for its perimeter by Yastrebov, Anciaux and Molinari,
+    Tribology International 114 (2017) 161.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> waves = {"hurst": 0.8, "rms": 1e-7, "rolloff": 32e-6, "short_cutoff": 8e-6}
+    >>> surface = rc.self_affine(grid, rng=np.random.default_rng(1), **waves)
+    >>> budget = rc.error_budget(rc.press(surface, 1e9, pressure=1e6))
+    >>> [source.name for source in budget.sources]
+    ['grid', 'short cut-off']
+    >>> budget["interfacial_stiffness"].relative_error < 0.1
+    True
+    """
+    patches = tuple(pressed) if isinstance(pressed, Iterable) else (pressed,)
+    _check(patches)
+    first = patches[0].problem
+    surfaces = [each.problem.surface for each in patches if isinstance(each.problem.surface, Surface)]
+    shortest = checked_cutoff(surfaces[0], short_cutoff)
+    cut = f"Gaussian low-pass at {shortest:.3g} m{'' if short_cutoff is not None else f', {CELLS} cells'}"
+    sources = [ErrorSource("grid", "bias", "half as many cells along each axis, of mean heights")]
+    otherwise: list[Callable[[Surface], Surface]] = [halved]
+    sources.append(ErrorSource("short cut-off", "bias", cut))
+    otherwise.append(lambda surface: surface.filtered(short_cutoff=shortest))
+    kinds = {SurfaceKind.of(surface) for surface in surfaces}
+    notes = []
+    if kinds == {SurfaceKind.FLAT}:
+        sources.append(ErrorSource("levelling", "bias", "without the least-squares quadratic"))
+        otherwise.append(lambda surface: surface.levelled("quadratic"))
+    elif SurfaceKind.FORM in kinds:
+        notes.append("Levelling is left out: a form larger than the roughness is the body itself.")
+    values, parts = _table(patches), []
+    with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
+        for source, change in zip(sources, otherwise, strict=True):
+            again = _table([_again(each, change) for each in patches])
+            parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
+            if np.isnan(again).all(axis=0).any():
+                notes.append(
+                    f"The map made otherwise ({source.name}) cannot take this load: its part is unknown."
+                )
+        if len(patches) > 1:
+            many = f"standard error of the mean of {len(patches)} patches"
+            sources.append(ErrorSource("patches", "standard error", many))
+            parts.append(values.std(axis=1, ddof=1) / math.sqrt(len(patches)))
+    prescribed = "force" if isinstance(first.control, Force) else "depth"
+    if any(map(is_rough_to_cells, surfaces)):
+        for part in parts[: len(OF_CELLS)]:
+            part[NUMBERS.index("depth")] = math.nan
+        notes.append(_of_highest_point(prescribed))
+    numbers = tuple(
+        QuotedNumber(name, float(value), VARIABLES[name].unit, tuple(map(float, part)))
+        for name, value, part in zip(NUMBERS, values.mean(axis=1), np.transpose(parts), strict=True)
+        if name != prescribed
+    )
+    return ErrorBudget(numbers, tuple(sources), (*notes, *notes_on_sources(numbers, sources)))
+
+
+def _of_highest_point(prescribed: str) -> str:
+    """Return what is said of the depth of a map that is rough down to its cells."""
+    why = "This map is rough down to its cells, and finer waves raise the highest point, from which the depth counts"
+    if prescribed == "depth":
+        return f"{why}: the errors at a given depth grow with the grid. Prescribe the force or the pressure."
+    return f"{why}: the depth has no error, because it would grow with the grid. Quote the mean gap."
+
+
+def _check(patches: Sequence[Solution]) -> None:
+    """Refuse what is no map of heights that was pressed to its tolerance, and patches that differ."""
+    if not patches or not all(isinstance(each, Solution) for each in patches):
+        raise ValueError("give the Solution that press returned, or several of one size and load")
+    first = patches[0].problem
+    for each in patches:
+        problem = each.problem
+        if problem.geometry is not Geometry.SURFACE or not isinstance(problem.surface, Surface):
+            raise ValueError(
+                f"errors are those of a map of heights that was pressed, not of a {problem.geometry.value} or of a "
+                "separation alone: press a Surface of two axes"
+            )
+        if not is_numpy(problem.surface.heights):
+            raise ValueError(
+                "errors are for heights in NumPy's memory: press the surface there, or take solution.on_host()"
+            )
+        if problem.flow is not None or problem.rise or not isinstance(problem.hardness, int | float):
+            raise ValueError(
+                "errors are those of one load that is pressed again on other maps: not of a surface that has flowed "
+                "before or that rises as it flows, nor of a hardness that differs from cell to cell"
+            )
+        if not each.status.converged:
+            raise ConvergenceError(each)
+        same = (
+            type(problem.control) is type(first.control)
+            and math.isclose(problem.control.value, first.control.value, rel_tol=SAME)
+            and problem.grid.shape == first.grid.shape
+            and problem.grid.periodic == first.grid.periodic
+            and np.allclose(problem.grid.spacing, first.grid.spacing, rtol=SAME, atol=0)
+        )
+        if not same:
+            raise ValueError(
+                "patches must have one size and one load to have a mean: crop them to one size, and press each by "
+                f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}"
+            )
+
+
+def _words(problem: ContactProblem) -> str:
+    return f"{problem.grid.shape} cells of {problem.grid.spacing} m under {problem.control}"
+
+
+def checked_cutoff(surface: Surface, given: float | None) -> float:
+    """Return the short cut-off [m] of the errors of a map: the given one, or four cells.
+
+    Raises
+    ------
+    ValueError
+        If the map has too few cells for it, or is no longer than it.
+    """
+    cutoff = (
+        CELLS * max(surface.grid.spacing) if given is None else positive_scalar(given, "short_cutoff [m]")
+    )
+    if cutoff >= min(surface.grid.lengths):
+        raise ValueError(
+            f"a short_cutoff of {cutoff:g} m leaves nothing of a map of {min(surface.grid.lengths):g} m: give the "
+            "shortest wave that the instrument records, or take a larger map"
+        )
+    require_cells(cutoff, surface)
+    return cutoff
+
+
+def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution | None:
+    """Return the same load on the surface made otherwise; None where that cannot take it, as near full contact."""
+    problem = solution.problem
+    surface, operator = change(problem.surface), problem.operator  # type: ignore[arg-type]
+    if surface.grid != problem.grid:
+        other = capabilities(operator).coarsened(surface.grid)
+        if other is None:
+            raise ValueError(
+                "this body is not known on other cells, so that the error of its grid cannot be estimated: press the "
+                "surface without operator="
+            )
+        operator = other
+    try:
+        other_map = replace(problem, separation=separation_of(surface), operator=operator, surface=surface)
+    except ValueError:  # all else about it was accepted before
+        return None
+    answer = solve(other_map)
+    if not answer.status.converged:
+        raise ConvergenceError(answer)
+    return answer
+
+
+def _table(solutions: Sequence[Solution | None]) -> Array:
+    """Return the numbers of contacts, shape (numbers, contacts)."""
+    return np.array([list(_numbers(each)) for each in solutions]).T
+
+
+def _numbers(solution: Solution | None) -> Iterator[float]:
+    """Yield the values of NUMBERS; NaN of no contact that there is."""
+    if solution is None:
+        yield from (math.nan for _ in NUMBERS)
+        return
+    nominal, corrected = solution.problem.grid.area, corrected_area(solution)
+    yield from (solution.force, solution.depth, solution.stiffness, solution.interfacial_stiffness)
+    yield solution.interfacial_stiffness / nominal
+    yield from (solution.contact_area, corrected)
+    yield from (solution.contact_fraction, corrected / nominal)
+    gap = solution.mean_gap  # a difference of lengths of the depth's size
+    yield 0.0 if abs(gap) <= ROUNDING * solution.depth else gap
+    yield solution.elastic_energy

@@ -1,0 +1,167 @@
+"""The law of an interface for finite and discrete elements: pressure and stiffness against gap, per area."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact import methods
+from roughcontact.contact.curve import REMEDY, Curve
+from roughcontact.evaluation.conduction import conductance
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.validation import Array, numeric, positive
+
+__all__ = ["InterfaceTable", "interface_table"]
+
+_CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_area")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InterfaceTable:
+    """What an interface does per nominal area: the resolved loads of a curve, by rising pressure.
+
+    The bodies' own compliance is not in it: the model around the interface has that.
+
+    Attributes
+    ----------
+    pressure, gap, stiffness, contact_fraction : array, shape (n,)
+        Nominal pressure p [Pa], mean gap g [m], K/A0 [Pa/m], relative real contact area A/A0.
+    conductances : dict of array
+        ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], where known.
+    area : float
+        Nominal area that a table of forces is for [m^2].
+    periodic : bool
+        Whether the map was pressed as a part of an endless surface.
+    hardness : float
+        Pressure that no cell exceeds [Pa].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> table = rc.interface_table(rc.loading_curve(surface, 1e9, pressures=np.geomspace(1e6, 1e7, 6)))
+    >>> f"closed by {table.overclosure[0] * 1e9:.0f} to {table.overclosure[-1] * 1e9:.0f} nm"
+    'closed by 55 to 179 nm'
+    >>> f"straight lines lie up to {table.chord_error:.1%} above", table.to_dataset()["mean_gap"].attrs["units"]
+    ('straight lines lie up to 2.7% above', 'm')
+    """
+
+    pressure: Array
+    gap: Array
+    stiffness: Array
+    contact_fraction: Array
+    conductances: dict[str, Array]
+    area: float
+    periodic: bool
+    hardness: float = math.inf
+
+    def __len__(self) -> int:
+        return len(self.pressure)
+
+    @property
+    def validity(self) -> tuple[float, float]:
+        """Lowest and highest nominal pressure that the curve resolves [Pa]."""
+        return float(self.pressure[0]), float(self.pressure[-1])
+
+    @property
+    def zero_gap(self) -> float:
+        """Mean gap at which the pressure begins [m]: the tangent of the first resolved load ends there.
+
+        A rough surface has no such gap: its pressure falls without end as the gap grows. Codes want one, and from it to
+        the first resolved load a straight line of the stiffness of that load.
+        """
+        return float(self.gap[0] + self.pressure[0] / self.stiffness[0])
+
+    @property
+    def overclosure(self) -> Array:
+        """How far the interface has closed since `zero_gap` [m], shape (n,)."""
+        return self.zero_gap - self.gap
+
+    @property
+    def chord_error(self) -> float:
+        """How far straight lines between the loads lie above the pressure at most, relative.
+
+        Of an exponential law, which that of a rough surface is nearly: (r - 1)/ln r exp(ln r/(r - 1) - 1) - 1 between
+        pressures of the ratio r.
+        """
+        ratio = float((self.pressure[1:] / self.pressure[:-1]).max())
+        return math.expm1(math.log((ratio - 1) / math.log(ratio)) + math.log(ratio) / (ratio - 1) - 1)
+
+    to_dataset = methods.interface_dataset
+
+
+@numeric(resistivities="ohm*m", conductivities="W/m/K", area="m^2")
+def interface_table(
+    curve: Curve,
+    *,
+    resistivities: tuple[float, float] | None = None,
+    conductivities: tuple[float, float] | None = None,
+    area: float | None = None,
+) -> InterfaceTable:
+    """Return pressure, stiffness and area against gap, per nominal area: the law of an interface.
+
+    For finite elements and discrete elements: `roughcontact.write` makes of it a table of comma-separated values
+    (``.csv``), lines for Abaqus (``.inp``) and a table of forces for LAMMPS (``.table``).
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a map, best of a periodic one; the loads that are not resolved have no part in the table.
+    resistivities, conductivities : tuple of float, optional
+        Of both bodies [ohm m] and [W/(m K)], for the conductances per area; see `conductance`.
+    area : float, optional
+        Nominal area that the forces of LAMMPS are for [m^2], such as that of one particle; by default that of the map.
+
+    Returns
+    -------
+    InterfaceTable
+        By rising pressure.
+
+    Raises
+    ------
+    ValueError
+        If the curve is not that of a map, fewer than two of its loads are resolved, or the gap does not fall from load
+        to load.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1), long_cutoff=3e-5)
+    >>> curve = rc.loading_curve(surface, 1e11, pressures=[3e7, 1e8, 3e8])
+    >>> table = rc.interface_table(curve)
+    >>> len(table), bool((np.diff(table.overclosure) > 0).all())
+    (3, True)
+    """
+    if curve.geometry is not Geometry.SURFACE:
+        raise ValueError(
+            f"an interface has a law per area where a map of it was pressed, not a {curve.geometry.value}: "
+            "press a map of heights"
+        )
+    resolved = curve.resolved & np.isfinite(curve.interfacial_stiffness) & (curve.force > 0)
+    kept = np.flatnonzero(resolved)[np.argsort(curve.force[resolved], kind="stable")]
+    if len(kept) < 2:
+        raise ValueError(f"a table needs two resolved loads, and the curve has {len(kept)}: {REMEDY}")
+    gap = curve.mean_gap[kept]
+    if not ((np.diff(gap) < 0).all() and (np.diff(curve.force[kept]) > 0).all()):
+        raise ValueError(
+            "the gap does not fall from each resolved load to the next: take loads that are further apart"
+        )
+    found = {}
+    if resistivities is not None or conductivities is not None:
+        found = conductance(curve, resistivities=resistivities, conductivities=conductivities)
+    return InterfaceTable(
+        pressure=curve.nominal_pressure[kept],
+        gap=gap,
+        stiffness=curve.interfacial_stiffness_per_area[kept],
+        contact_fraction=curve.contact_fraction[kept],
+        conductances={name: found[name][kept] for name in _CONDUCTANCES if name in found},
+        area=curve.nominal_area if area is None else float(positive(area, "area [m^2]")),
+        periodic=all(curve.periodic),
+        hardness=curve.hardness,
+    )

@@ -1,0 +1,138 @@
+"""The law of an interface in the words of other programs: lines for Abaqus, a table of forces for LAMMPS."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from textwrap import wrap
+
+import numpy as np
+
+from roughcontact.evaluation.interface_table import InterfaceTable
+from roughcontact.validation import Array
+
+__all__ = ["UNIT_SYSTEMS", "abaqus_text", "lammps_text"]
+
+# By system: its units in words, then what a pressure, a length, a thermal and an electrical conductance per area in SI
+# is to be multiplied by. With mm, N, s and t (tonnes) stresses are in MPa and powers in mW, and so amperes go with mV.
+UNIT_SYSTEMS = {
+    "SI": ("m, N, Pa, W/m2/K, A/V/m2", (1.0, 1.0, 1.0, 1.0)),
+    "mm": ("mm, N, MPa, mW/mm2/K, A/mV/mm2", (1e-6, 1e3, 1e-3, 1e-9)),
+}
+_WIDTH = 120  # letters of a comment, which Abaqus reads whole up to 256
+_LINES = 1001  # of a table for LAMMPS: evenly spaced, as its own interpolation wants them
+_GAP_CONDUCTANCES = (
+    ("thermal_conductance_per_area", "*GAP CONDUCTANCE, PRESSURE"),
+    ("electrical_conductance_per_area", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE"),
+)
+
+
+def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: str = "SI") -> str:
+    """Return a surface interaction for Abaqus: pressure against overclosure, and what the gap conducts.
+
+    Parameters
+    ----------
+    table : InterfaceTable
+    remarks : iterable of str
+        Further comments.
+    units : {"SI", "mm"}
+        Metres, newtons, pascals; or millimetres, newtons, megapascals.
+
+    Returns
+    -------
+    str
+        Ends with a line end.
+    """
+    words, (stress, length, *conduction) = UNIT_SYSTEMS[units]
+    zero = f"overclosure 0 is a mean gap of {table.zero_gap * length!r}: bodies meshed in touch carry nothing yet"
+    head = [
+        f"units: {words}",
+        *_facts(table, "Pa" if stress == 1 else "MPa", stress),
+        zero,
+        "between two lines Abaqus interpolates linearly: at most "
+        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it goes on straight",
+        *remarks,
+    ]
+    lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]
+    lines.append("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR")
+    lines += _pairs(table.pressure * stress, table.overclosure * length)
+    for (name, keyword), factor in zip(_GAP_CONDUCTANCES, conduction, strict=True):
+        if name in table.conductances:
+            lines += [keyword, *_pairs(table.conductances[name] * factor, table.pressure * stress)]
+    return "\n".join(lines) + "\n"
+
+
+def lammps_text(table: InterfaceTable, remarks: Iterable[str] = ()) -> str:
+    """Return a table of energy and force against distance, for ``fix wall/table`` and ``pair_style table``.
+
+    The distance is the mean gap. Between the loads the logarithm of the pressure is interpolated by monotone cubics.
+
+    Parameters
+    ----------
+    table : InterfaceTable
+    remarks : iterable of str
+        Further comments.
+
+    Returns
+    -------
+    str
+        Ends with a line end.
+    """
+    gap, pressure, energy = _evenly(table)
+    head = [
+        "UNITS: si",
+        *_facts(table, "Pa", 1.0),
+        f"force and energy of a nominal area of {table.area!r} m2 (r, energy, force in m, J, N)",
+        f"r is the mean gap; the force begins at {table.zero_gap!r} m",
+        f"the table ends at {float(gap[0])!r} m: LAMMPS stops where a wall comes nearer",
+        f"fix ID group wall/table linear {len(gap)} zlo POSITION FILE INTERFACE {table.zero_gap!r}",
+        *remarks,
+    ]
+    rows = zip(gap.tolist(), (table.area * energy).tolist(), (table.area * pressure).tolist(), strict=True)
+    lines = [*(f"# {line}" for line in _plain(head)), "", "INTERFACE", f"N {len(gap)}", ""]
+    lines += [f"{k} {r!r} {e!r} {f!r}" for k, (r, e, f) in enumerate(rows, start=1)]
+    return "\n".join(lines) + "\n"
+
+
+def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
+    """Yield what whoever uses a table must know of it, pressures in a unit of which a pascal is `stress`."""
+    low, high = (stress * each for each in table.validity)
+    yield "law of a rough interface, per nominal area; the compliance of the bodies is not in it: the model has it"
+    yield f"valid from {low:.6g} to {high:.6g} {unit}, {len(table)} resolved loads; below: a straight line to zero"
+    kind = "periodic map" if table.periodic else "free patch, which is not pressed evenly (docs/joints.md)"
+    yield f"computed on a {kind}; elastic, normal load, no friction, no adhesion"
+    if math.isfinite(table.hardness):
+        limit = f"{table.hardness * stress:.6g} {unit}"
+        yield f"no cell bears more than {limit}: for loading only, on unloading it is another law"
+
+
+def _pairs(first: Array, second: Array) -> Iterator[str]:
+    """Yield lines of two numbers, zeros first."""
+    yield "0.0, 0.0"
+    yield from (f"{a!r}, {b!r}" for a, b in zip(first.tolist(), second.tolist(), strict=True))
+
+
+def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
+    """Return evenly spaced gaps with the pressure and the energy per area that it has stored."""
+    from scipy.interpolate import PchipInterpolator
+
+    log_pressure = PchipInterpolator(table.gap[::-1], np.log(table.pressure[::-1]))
+
+    def pressure(gap: Array) -> Array:
+        line = table.stiffness[0] * (table.zero_gap - gap)
+        return np.where(gap > table.gap[0], line, np.exp(log_pressure(np.minimum(gap, table.gap[0]))))
+
+    gaps = np.linspace(table.gap[-1], table.zero_gap, _LINES)
+    there = pressure(gaps)
+    there[-1] = 0.0
+    between = pressure((gaps[1:] + gaps[:-1]) / 2)
+    # Simpson's rule on each step; the energy is that of closing from where the force begins.
+    steps = np.diff(gaps) * (there[1:] + 4 * between + there[:-1]) / 6
+    return gaps, there, np.append(np.cumsum(steps[::-1])[::-1], 0.0)
+
+
+def _plain(lines: Iterable[str]) -> Iterator[str]:
+    """Yield remarks in short lines, in letters that every reader knows."""
+    for line in lines:
+        plain = " | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii")
+        yield from wrap(plain, _WIDTH, break_on_hyphens=False)

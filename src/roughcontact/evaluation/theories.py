@@ -1,0 +1,164 @@
+"""From a surface to the theories of its contact: what they need to know, and what body they stand on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any, Unpack
+
+import numpy as np
+
+from roughcontact.contact.solution import Solution
+from roughcontact.grid import Grid
+from roughcontact.halfspace.operators.build import half_space
+from roughcontact.material import Solid, as_modulus
+from roughcontact.surface.analysis.hurst import hurst_exponent
+from roughcontact.surface.analysis.spectra import power_spectrum
+from roughcontact.surface.in_memory import analysed_on_host
+from roughcontact.surface.surface import Surface
+from roughcontact.theory import laws
+from roughcontact.theory.asperity_models import interaction
+from roughcontact.theory.law import Basis, LoadingLaw
+from roughcontact.theory.persson_theory import persson
+from roughcontact.theory.random_surfaces.waves import Waves
+from roughcontact.validation import Array, numeric
+
+__all__ = ["facts_for", "loading_laws", "persson_pressures"]
+
+
+@numeric(modulus="Pa")
+@analysed_on_host
+def loading_laws(
+    surface: Surface,
+    modulus: float | Solid | tuple[Solid, Solid],
+    names: str | Sequence[str],
+    **knowns: Unpack[laws.Knowns],
+) -> list[LoadingLaw]:
+    """Return theories of the contact of a surface, to be compared with its loading curve by `Curve.compare`.
+
+    Parameters
+    ----------
+    surface : Surface
+        Without tilt, on a grid of two axes; missing points are filled for the spectrum.
+    modulus : float, Solid or pair of Solids
+        Reduced modulus E* [Pa], or what it follows from.
+    names : str or sequence of str
+        Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
+    **knowns : dict
+        What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
+        ``radius``, ``hardness``, see `roughcontact.theory.laws.SurfaceFacts`.
+
+    Returns
+    -------
+    list of LoadingLaw
+        In the order of the names, each with the contact it was `made_for`. A theory of the interface alone gets the
+        stiffness against the approach as well: on a periodic grid the same, on a free one with the compliance of the
+        body under its nominal area.
+
+    Raises
+    ------
+    ValueError
+        If there is no theory of a name, the surface is a line, or a theory needs what the surface does not show.
+
+    Notes
+    -----
+    Spectrum and moments are those of the very waves of a periodic surface; of a free one those of its power
+    spectrum under a window, over the band to be relied upon. The Hurst exponent is fitted where none is given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((32, 32), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
+    >>> [law.name for law in rc.loading_laws(surface, 1e9, ["persson", "gw"])]
+    ['Persson', 'Greenwood-Williamson']
+    """
+    if not isinstance(surface, Surface) or surface.grid.ndim != 2:
+        raise ValueError("these theories are about surfaces; give a grid of two axes")
+    wanted = [names] if isinstance(names, str) else list(names)
+    value = as_modulus(modulus)
+    if "cgp" in wanted and all(surface.grid.periodic):
+        raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
+    known = {"modulus": value, "area": surface.grid.area} | facts_for(surface, wanted, **knowns)
+    found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
+    basis = Basis(value, surface.grid.area, surface.rms, known.get("spectrum"))
+    return [replace(law, made_for=basis) for law in found]
+
+
+def facts_for(surface: Surface, names: Sequence[str], **knowns: Unpack[laws.Knowns]) -> dict[str, Any]:
+    """Return what theories of these names need to know of a surface: the `knowns`, and the rest from its heights.
+
+    The keys are those of `roughcontact.theory.laws.SurfaceFacts`.
+    """
+    needs = {need for name in names if name in laws.LAWS for need in laws.LAWS[name].needs} - knowns.keys()
+    found = dict(knowns)
+    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
+        found.setdefault("spectrum", _waves(surface))
+    if "rms" in needs:
+        found["rms"] = surface.rms
+    if "hurst" in needs:
+        found["hurst"] = hurst_exponent(_whole(surface)).hurst
+    if "rolloff" in needs:
+        found["rolloff"] = math.sqrt(surface.grid.area)
+    return found
+
+
+def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
+    """Return Persson's probability density of the pressure [1/Pa] at the load of a solution, for comparison.
+
+    A function of an array of pressures above zero [Pa]. Its integral is his contact fraction, its first moment the
+    nominal pressure; compare with `Solution.pressure_histogram` times the contact fraction.
+
+    Raises
+    ------
+    ValueError
+        If the solution is not that of a surface on a grid of two axes.
+    """
+    surface = solution.on_host().problem.surface
+    if not isinstance(surface, Surface) or surface.grid.ndim != 2:
+        raise ValueError("Persson's theory is about surfaces on a grid of two axes")
+    waves = _waves(surface)
+    nominal = solution.force / surface.grid.area
+    modulus = solution.problem.modulus
+    return partial(persson.pressure_density, pressure=nominal, modulus=modulus, surface=waves)
+
+
+def _whole(surface: Surface) -> Surface:
+    """Return the surface with a height at every point: a spectrum wants every one."""
+    return surface.filled() if surface.missing else surface
+
+
+def _waves(surface: Surface) -> Waves:
+    """Return the very waves of a periodic surface, of a free one its spectrum in the band to be relied upon."""
+    whole = _whole(surface)
+    if all(whole.grid.periodic):
+        dy, dx = whole.grid.spacing
+        return Waves.of_heights(whole.heights, (dy, dx))
+    return Waves.of(power_spectrum(whole))
+
+
+def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[LoadingLaw]:
+    """Return laws that give the stiffness against the approach, where they give any."""
+    of_interface = [
+        "stiffness" not in law.quantities and "interfacial_stiffness" in law.quantities for law in found
+    ]
+    if not any(of_interface):
+        return found
+    if all(grid.periodic):
+
+        def standing(law: LoadingLaw) -> LoadingLaw:
+            return replace(
+                law, quantities={**law.quantities, "stiffness": law.quantities["interfacial_stiffness"]}
+            )
+
+    else:
+        # Mean displacement under a unit pressure everywhere, E* = 1, over the length.
+        deflection = float(half_space(grid, 1.0).apply(np.ones(grid.shape)).mean()) / math.sqrt(grid.area)
+
+        def standing(law: LoadingLaw) -> LoadingLaw:
+            return interaction.finite_body(law, modulus, grid.area, deflection=deflection)
+
+    return [standing(law) if alone else law for law, alone in zip(found, of_interface, strict=True)]

@@ -1,0 +1,1 @@
+"""Bodies of revolution that attract what they touch."""

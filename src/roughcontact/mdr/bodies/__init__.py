@@ -1,0 +1,1 @@
+"""Bodies of revolution and their transforms."""

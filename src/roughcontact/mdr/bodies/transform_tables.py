@@ -1,0 +1,94 @@
+"""Bodies known as functions or as samples: their transforms as tables."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from roughcontact.mdr.bodies.axisymmetric_profile import Profile
+from roughcontact.mdr.bodies.chebyshev import FINEST, Function, Panels, fit, interpolate
+from roughcontact.mdr.bodies.terms import TableTerm
+from roughcontact.mdr.bodies.transform import FUNCTION, height_of, transform_of
+from roughcontact.validation import Array, number, require, scalar, shown
+
+__all__ = ["from_function", "from_samples", "from_two_functions"]
+
+NOISE = 1e-14  # of the largest value: what a fall of the transform must exceed to count
+FALL = 1e-9  # and of the value from which it falls
+
+
+def from_function(function: Function, radius: float, *, transformed: bool) -> Profile:
+    """Return the body whose height, or whose transform, is a function of the radius."""
+    scalar(radius, "radius")
+    if not (np.isfinite(radius) and radius > 0):
+        raise ValueError(f"say how far the body is known: a radius above 0 [m], not {radius}")
+    if not callable(function):
+        raise ValueError(f"a function of the radius is wanted, not {shown(function)}: sampled takes samples")
+    try:
+        # Two, since a function of single numbers may take an array of one.
+        start = float(np.asarray(function(np.zeros(2)), dtype=np.float64).ravel()[0])
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            f"the function must take an array of radii, as np.cosh does and math.cosh does not, but: {error}"
+        ) from error
+    require(np.isfinite(start), f"the function must be finite at its apex, not {start} at radius 0")
+    return _profile(fit(lambda x: function(x) - start, radius, tolerance=FUNCTION), transformed)
+
+
+def from_samples(places: Array, values: Array, *, sharp: bool, transformed: bool) -> Profile:
+    """Return the body whose height, or whose transform, is a cubic spline through samples."""
+    x, y = np.asarray(number(places, "places")), np.asarray(number(values, "values"))
+    if x.ndim != 1 or x.shape != y.shape or len(x) < 4:
+        raise ValueError(f"at least four radii and as many heights are wanted, not {x.shape} and {y.shape}")
+    if not (np.isfinite(x).all() and np.isfinite(y).all()):
+        raise ValueError("the samples of a profile must be finite: leave out what was not measured")
+    if x[0] != 0 or (np.diff(x) <= 0).any():
+        raise ValueError(f"the radii must increase strictly from 0 on, not from {x[0]:g}")
+    spline = CubicSpline(x, y - y[0], bc_type=("not-a-knot" if sharp else (1, np.zeros(())), "not-a-knot"))
+    return _profile(interpolate(spline, x, 4), transformed)
+
+
+def from_two_functions(
+    height: Function, transform: Function, radius: float, breaks: tuple[float, ...], *, noise: float = 0.0
+) -> Profile:
+    """Return the body whose height and transform are both known functions, to a relative `noise`, of the radius."""
+    f, g = (fit(function, radius, tolerance=max(FUNCTION, noise)) for function in (height, transform))
+    return _tabled(f, g, _flat(f), breaks)
+
+
+def _profile(given: Panels, transformed: bool) -> Profile:
+    height, transform = (height_of(given), given) if transformed else (given, transform_of(given))
+    return _tabled(height, transform, _flat(given), _kinks(given))
+
+
+def _tabled(height: Panels, transform: Panels, flat: float, breaks: tuple[float, ...]) -> Profile:
+    rises = _rises(transform)
+    term = TableTerm(height, transform, transform.derivative(), transform.primitive(), flat, breaks, rises)
+    return Profile(((1.0, term),), float(transform.edges[-1]), rises=rises)
+
+
+def _rises(transform: Panels) -> bool:
+    """Return whether the transform never falls, but for rounding."""
+    share = np.arange(6) / 6
+    x = (transform.edges[:-1, None] + np.diff(transform.edges)[:, None] * share).ravel()
+    values = transform(np.append(x, transform.edges[-1]))
+    highest = np.maximum.accumulate(np.maximum(values, 0))
+    return bool((highest - values <= FALL * highest + NOISE * np.abs(values).max()).all())
+
+
+def _flat(given: Panels) -> float:
+    """Return the radius up to which the function vanishes."""
+    size = np.abs(given.coefficients).sum(axis=1)
+    above = np.nonzero(size > NOISE * size.max())[0]
+    require(len(above) > 0, "the profile is flat as far as it is known: flat_punch is such a body")
+    # Panels that shrink towards zero end somewhere, and a power of r is no flat face.
+    first = float(given.edges[above[0]])
+    return first if size[: above[0]].max(initial=0.0) == 0 else 0.0
+
+
+def _kinks(given: Panels) -> tuple[float, ...]:
+    """Return the places, other than zero, to which the panels shrank as far as they may."""
+    end, width = given.edges[-1], np.diff(given.edges)
+    finest = (width <= 2 * FINEST * end) & (given.edges[:-1] > 4 * FINEST * end)
+    first = finest & ~np.append(False, finest[:-1])
+    return tuple(given.edges[:-1][first].tolist())

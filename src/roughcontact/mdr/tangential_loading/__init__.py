@@ -1,0 +1,1 @@
+"""Tangential loading of bodies of revolution."""

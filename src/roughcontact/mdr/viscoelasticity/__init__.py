@@ -1,0 +1,1 @@
+"""Viscoelastic bodies and foundations."""

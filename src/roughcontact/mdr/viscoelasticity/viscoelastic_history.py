@@ -1,0 +1,225 @@
+"""A body of revolution on a viscoelastic half-space under any history of depth or force.
+
+While the contact grows and then recedes once, the springs give the exact solution of Lee & Radok (1960) and Ting
+(J. Appl. Mech. 33, 845 (1966)); see Argatov & Popov, ZAMM 96, 956 (2016). Beyond - a body that comes back to a surface
+that has not yet recovered - they are a model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from roughcontact.mdr.bodies.axisymmetric_profile import Profile
+from roughcontact.mdr.bodies.indentation import Indentation, indent
+from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic, checked_history, checked_material
+from roughcontact.mdr.viscoelasticity.viscoelastic_springs import Springs, ViscoelasticFoundation
+from roughcontact.theory.tools.roots import bisect
+from roughcontact.validation import Array, numeric, require, whole
+
+__all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ViscoelasticHistory:
+    """States of a body on a viscoelastic half-space.
+
+    Attributes
+    ----------
+    time : array, shape (n,)
+        [s].
+    force : array, shape (n,)
+        [N].
+    depth : array, shape (n,)
+        Of the body [m], against the surface before first touch.
+    contact_radius : array, shape (n,)
+        [m], drawn on from the springs outside.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = viscoelastic_history.depth_history(
+    ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
+    ... )
+    >>> len(held), (held.contact_radius * 1e6).round().tolist(), held.force.round(3).tolist()
+    (3, [0.0, 316.0, 316.0], [0.0, 4.216, 0.422])
+    """
+
+    time: Array
+    force: Array
+    depth: Array
+    contact_radius: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@numeric
+def depth_history(
+    profile: Profile,
+    material: Viscoelastic,
+    times: Sequence[float] | Array,
+    depths: Sequence[float] | Array,
+    *,
+    springs: int = 1000,
+) -> ViscoelasticHistory:
+    """Lead a body through a history of its depth.
+
+    Parameters
+    ----------
+    profile : Profile
+    material : Viscoelastic
+    times : array, shape (n,)
+        [s]; a time that stands twice is a jump. Before the first the body is off.
+    depths : array, shape (n,)
+        [m], straight lines in between.
+    springs : int
+        Number of springs from the axis to the largest contact radius; the force's error falls as its square.
+
+    Returns
+    -------
+    ViscoelasticHistory
+        Whose force at a time is that at the end of the motion before it: a dashpot feels a change of speed at once.
+
+    Raises
+    ------
+    ValueError
+        If the history makes no sense, or jumps into a dashpot.
+
+    Examples
+    --------
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
+    >>> held = viscoelastic_history.depth_history(
+    ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
+    ... )
+    >>> round(float(held.force[1] / held.force[2]), 4)  # the force relaxes by E_0/E_inf
+    10.0
+    """
+    checked_material(material)
+    t, d = checked_history(times, depths)
+    require((d > 0).any(), f"the body never touches: its largest depth is {d.max():g} m")
+    foundation = _foundation(material, indent(profile, 1.0, depth=float(d.max())), springs)
+    state, before, at = foundation.untouched(), float(t[0]), 0.0
+    states = []
+    for now, depth in zip(t.tolist(), d.tolist(), strict=True):
+        state = foundation.move(state, (at, depth), now - before)
+        before, at = now, depth
+        states.append((foundation.force(state, depth), depth, foundation.contact_radius(state, depth)))
+    return ViscoelasticHistory(t, *np.array(states).T)
+
+
+@numeric
+def force_history(
+    profile: Profile,
+    material: Viscoelastic,
+    times: Sequence[float] | Array,
+    forces: Sequence[float] | Array,
+    *,
+    springs: int = 1000,
+) -> ViscoelasticHistory:
+    """Lead a body through a history of its force.
+
+    Parameters
+    ----------
+    profile : Profile
+    material : Viscoelastic
+    times : array, shape (n,)
+        [s]; a time that stands twice is a jump. Before the first the body is off.
+    forces : array, shape (n,)
+        [N], not negative, straight lines in between.
+    springs : int
+        Number of springs from the axis to the largest contact radius.
+
+    Returns
+    -------
+    ViscoelasticHistory
+        The depth moves evenly in each step and has the force right at its end, with a dashpot in its middle. The
+        error falls as the square of the step, but for what the first moments cost, when the depth is no straight line.
+
+    Raises
+    ------
+    ValueError
+        If the history makes no sense.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> soft, t = viscoelastic.standard_solid(1e8, 1e9, 1.0), np.linspace(0, 20, 41)
+    >>> held = viscoelastic_history.force_history(
+    ...     indenter.paraboloid(1e-2), soft, t, np.ones(41), springs=100
+    ... )
+    >>> creep = soft.creep()
+    >>> round(float((held.depth[-1] / held.depth[0]) ** 1.5), 1), round(float(creep(20.0) / creep(0.0)), 1)
+    (8.8, 8.8)
+    """
+    checked_material(material)
+    t, F = checked_history(times, forces)
+    if (F < 0).any() or not F.any():
+        raise ValueError(
+            f"forces must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"
+        )
+    # No history up to this force can reach a larger contact than the force itself, all the time.
+    most = float(F.max()) * float(material.creep()(t[-1] - t[0]))
+    largest = indent(profile, 1.0, force=most)
+    foundation = _foundation(material, largest, springs)
+    state, before, at, load = foundation.untouched(), float(t[0]), 0.0, 0.0
+    states = []
+    for now, force in zip(t.tolist(), F.tolist(), strict=True):
+        if force == load == 0:  # a body without load follows the surface
+            state = foundation.rest(state, now - before)
+            at = float((state.place + foundation.transform).min())
+        elif now > before or not material.dashpot:  # a sudden force moves a dashpot only with time
+            state, at = _loaded(foundation, state, at, now - before, (load, force), largest.depth)
+        before, load = now, force
+        states.append((force, at, foundation.contact_radius(state, at)))
+    return ViscoelasticHistory(t, *np.array(states).T)
+
+
+def _loaded(
+    foundation: ViscoelasticFoundation,
+    state: Springs,
+    at: float,
+    duration: float,
+    force: tuple[float, float],
+    scale: float,
+) -> tuple[Springs, float]:
+    """Return the springs and the depth after a step whose force is met at its end, with a dashpot in its middle."""
+    parts, goal = (2, sum(force) / 2) if foundation.material.dashpot else (1, force[1])
+
+    def force_at(depth: float) -> float:
+        return foundation.force(foundation.move(state, (at, depth), duration / parts), depth)
+
+    met = _depth(force_at, goal, at, scale)
+    end = at + 2 * (met - at) if parts == 2 else met
+    return foundation.move(state, (at, end), duration), end
+
+
+def _depth(force: Callable[[float], float], goal: float, start: float, scale: float) -> float:
+    """Return the largest depth at which the force is not above the goal."""
+    low = high = start
+    width = 1e-3 * scale
+    while force(high) <= goal:
+        low, high, width = high, high + width, 2 * width
+    width = 1e-3 * scale
+    while force(low) > goal:
+        low, high, width = low - width, low, 2 * width
+    if goal > 0:
+        return float(brentq(lambda d: force(d) - goal, low, high, xtol=1e-15 * scale))
+    return float(bisect(lambda d: np.asarray(force(float(d)) > goal), np.asarray(low), np.asarray(high)))
+
+
+def _foundation(material: Viscoelastic, largest: Indentation, springs: int) -> ViscoelasticFoundation:
+    """Return the springs under the largest contact."""
+    profile, width = largest.profile, largest.contact_radius / whole(springs, "springs")
+    require(
+        profile.rises, "on a body whose transform falls somewhere the contact is not one disc at every load"
+    )
+    # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
+    places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
+    return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius]), width)

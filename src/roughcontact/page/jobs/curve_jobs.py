@@ -1,0 +1,168 @@
+"""What a page shows of a curve: points as they come, a power law at the end, theories beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.files.own_errors import is_ours
+from roughcontact.labels.labelled import plain_values
+from roughcontact.page.jobs.conducting import conductors_of
+from roughcontact.page.jobs.curve_point import columns, point_of
+from roughcontact.page.jobs.workbench import Workbench, hardness_of, modulus_of
+from roughcontact.page.recipe import PageLoads, PageRecipe
+from roughcontact.page.server.order import Order, Send
+from roughcontact.page.statement import stated
+from roughcontact.page.stopping import Stopped
+
+if TYPE_CHECKING:
+    from roughcontact.contact.compare import Comparison
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.solution import Solution
+    from roughcontact.theory.law import LoadingLaw
+
+__all__ = ["compared", "curve", "theories", "whole_curve"]
+
+
+def curve(order: Order, bench: Workbench, send: Send) -> None:
+    """Send the loads, every point when it is there, and what the curve says as a whole."""
+    recipe = replace(order.recipe, load=None, loads=order.recipe.loads or PageLoads())
+    if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
+        send({"type": "doing", "words": "Looking for the loads that suit this surface"})
+    loads, notes = bench.loads(recipe, order.files)
+    conductors = conductors_of(recipe.bodies)
+    send({"type": "loads", "count": len(loads.values), "notes": notes, "columns": columns(conductors)})
+    send(_statement(recipe, order))
+
+    def watched(path: Iterator[Solution]) -> Iterator[Solution]:
+        done = 0
+        try:
+            for solution in path:
+                send(
+                    {
+                        "type": "point",
+                        "load": float(loads.values[done]),
+                        **point_of(solution, conductors),
+                        **_judged(solution),
+                    }
+                )
+                done += 1
+                yield solution
+        except Stopped:
+            if not done:  # nothing to keep
+                raise
+
+    computed = _collected(watched(bench.path(recipe, loads, order.files)))
+    bench.keep_curve(recipe, loads, computed)
+    send({"type": "curve", **_whole(computed), "stopped": len(computed) < len(loads.values)})
+
+
+def theories(order: Order, bench: Workbench, send: Send) -> None:
+    """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
+    loads = order.recipe.loads or PageLoads()
+    found, refused = compared(order, bench)
+    for name, why in refused.items():
+        send({"type": "theory", "name": name, "refused": why})
+    for name, (_, comparison) in found.items():
+        send(
+            {
+                "type": "theory",
+                "name": name,
+                "label": comparison.name,
+                "words": comparison.words(),
+                "predicted": {key: plain_values(values) for key, values in comparison.predicted.items()},
+            }
+        )
+    apply = replace(loads, theories=tuple(found))
+    send(_statement(replace(order.recipe, load=None, loads=apply), order))
+
+
+def compared(
+    order: Order, bench: Workbench
+) -> tuple[dict[str, tuple[LoadingLaw, Comparison]], dict[str, str]]:
+    """Return each theory that the recipe names beside the curve, and why others do not apply."""
+    computed, loads = whole_curve(order, bench), order.recipe.loads or PageLoads()
+    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
+    refused: dict[str, str] = {}
+    for name in loads.theories:
+        try:
+            law = _law(name, order, bench)
+            found[name] = law, computed.compare(law)
+        except ValueError as error:
+            if not is_ours(error):
+                raise
+            refused[name] = str(error)
+    return found, refused
+
+
+def whole_curve(order: Order, bench: Workbench) -> Curve:
+    """Return the curve that the page has, as far as it came; computed again if this worker has not seen it."""
+    loads, _ = bench.loads(order.recipe, order.files)
+    kept = bench.curve(order.recipe, loads)
+    if kept is not None:
+        return kept
+    computed = _collected(bench.path(order.recipe, loads, order.files))
+    bench.keep_curve(order.recipe, loads, computed)
+    return computed
+
+
+def _law(name: str, order: Order, bench: Workbench) -> LoadingLaw:
+    import roughcontact as rc
+    from roughcontact.theory.laws import LAWS
+
+    bodies = order.recipe.bodies
+    hardness = hardness_of(bodies)
+    if hardness is None and name in LAWS and "hardness" in LAWS[name].needs:
+        raise ValueError(
+            "it is about spots that flow: give the hardness of the softer body, and start the curve again"
+        )
+    known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
+    [law] = rc.loading_laws(bench.surface(order.recipe, order.files), modulus_of(bodies), name, **known)
+    return law
+
+
+def _statement(recipe: PageRecipe, order: Order) -> Mapping[str, Any]:
+    statement = stated(recipe, order.file)
+    return {"type": "stated", "command": statement.command, "python": statement.python}
+
+
+def _collected(path: Iterator[Solution]) -> Curve:
+    from roughcontact.contact.curve import collect
+
+    return collect(path)
+
+
+def _judged(solution: Solution) -> dict[str, Any]:
+    converged = solution.status.converged
+    return {"resolved": bool(solution.resolved and converged), "status": solution.status.value}
+
+
+def _whole(computed: Curve) -> dict[str, Any]:
+    from roughcontact.contact.curve import REMEDY
+    from roughcontact.plot.facts import bend_words, curve_facts
+
+    resolved = int(computed.resolved.sum())
+    try:
+        law = computed.fit()
+    except ValueError as error:
+        if not is_ours(error):
+            raise
+        why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
+        return {
+            "facts": curve_facts(computed, None),
+            "notes": [f"No power law: {why}."],
+            "resolved": resolved,
+        }
+    inside = (computed.force >= law.window[0]) & (computed.force <= law.window[1])
+    force = computed.force[inside]
+    return {
+        "facts": curve_facts(computed, law),
+        "notes": [] if law.straight else [f"There is {bend_words(law)}."],
+        "resolved": resolved,
+        "fit": {
+            "exponent": float(law.exponent),
+            "force": force.tolist(),
+            "stiffness": law.stiffness(force).tolist(),
+        },
+    }

@@ -1,0 +1,146 @@
+"""What a page shows of a surface: its map at once, and its roughness when there is time."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.files.own_errors import is_ours
+from roughcontact.labels.labelled import plain_values
+from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.recipe import FileSource
+from roughcontact.page.server.order import Order, Send, send_map
+from roughcontact.page.statement import stated
+from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.plot.facts import surface_facts, surface_record
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["look", "study"]
+
+_MOST_CURVE = 600  # points of a curve on the screen
+# Parameters of ISO 25178-2, their names there and their units.
+_AREAL = (
+    ("Sq", "root mean square height", "m"),
+    ("Sa", "arithmetic mean height", "m"),
+    ("Sz", "maximum height", "m"),
+    ("Sp", "maximum peak height", "m"),
+    ("Sv", "maximum pit depth", "m"),
+    ("Ssk", "skewness", ""),
+    ("Sku", "kurtosis", ""),
+    ("Sal", "autocorrelation length", "m"),
+    ("Str", "texture aspect ratio", ""),
+    ("Sdq", "root mean square gradient", ""),
+    ("Sdr", "developed interfacial area ratio", ""),
+)
+
+
+def look(order: Order, bench: Workbench, send: Send) -> None:
+    """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
+    import numpy as np
+
+    source = order.recipe.source
+    if isinstance(source, FileSource):
+        send({"type": "channels", "channels": _channels(order)})
+    raw, warned = bench.read(source, order.files)
+    surface = bench.surface(order.recipe, order.files)
+    heights = surface.heights - np.nanmean(surface.heights)
+    send_map(send, "heights", heights, order.whole("pixels", 1024, 4096), **_place(surface))
+    statement = stated(order.recipe, order.file)
+    send(
+        {
+            "type": "surface",
+            "facts": surface_facts(surface, surface_record(surface)),
+            "warned": [_on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
+            "missing": surface.missing,
+            "raw": {**_place(raw), "shape": raw.grid.shape, "missing": raw.missing},
+            "command": statement.command,
+            "python": statement.python,
+        }
+    )
+
+
+def study(order: Order, bench: Workbench, send: Send) -> None:
+    """Send the distribution of the heights, what looks suspicious, their spectrum, and roughness parameters."""
+    import numpy as np
+
+    import roughcontact as rc
+
+    surface = bench.surface(order.recipe, order.files)
+    rough = surface.rms > 0
+    if rough:
+        histogram = rc.height_histogram(surface, bins=80)
+        send(
+            {
+                "type": "heights",
+                "x": histogram.centres.tolist(),
+                "y": histogram.density.tolist(),
+                "normal": histogram.gaussian(histogram.centres).tolist(),
+            }
+        )
+    send({"type": "doubts", "doubts": bench.doubts(order.recipe.source, order.files)})
+    if rough:
+        spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
+        there = spectrum.density > 0
+        thin = np.linspace(0, there.sum() - 1, min(int(there.sum()), _MOST_CURVE)).astype(int)
+        send(
+            {
+                "type": "spectrum",
+                "x": spectrum.wavenumber[there][thin].tolist(),
+                "y": spectrum.density[there][thin].tolist(),
+                "band": [float(spectrum.q_min), float(spectrum.q_max)],
+            }
+        )
+        send({"type": "roughness", "facts": _roughness(surface)})
+
+
+# What readers advise as calls of Python, as the fields of the page.
+_ADVICE = {
+    "pass channel= for another": "choose another under Channel",
+    "take them out by masked()": "crop them away",
+    "unit=": "the unit of the heights",
+    "size=": "the width",
+}
+
+
+def _on_the_page(line: str) -> str:
+    for call, words in _ADVICE.items():
+        line = line.replace(call, words)
+    return line
+
+
+def _channels(order: Order) -> list[dict[str, Any]]:
+    from roughcontact.files.read import channels
+
+    found = []
+    for channel in channels(order.path):
+        words = asdict(channel)
+        found.append(
+            {name: plain_values(words[name]) for name in ("name", "shape", "unit", "size", "is_height")}
+        )
+    return found
+
+
+def _place(surface: Surface) -> dict[str, Any]:
+    return {"lengths": surface.grid.lengths, "periodic": list(surface.grid.periodic), "unit": "m"}
+
+
+def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
+    """Return what is told of the roughness: symbol or name, what it means, and its value."""
+    import roughcontact as rc
+
+    parameters, moments = rc.areal_parameters(surface), rc.surface_moments(surface)
+    facts = [
+        (name, words, written(float(getattr(parameters, name)), unit, 4)) for name, words, unit in _AREAL
+    ]
+    facts.append(("rms slope", "from the moment m2", written(moments.rms_slope, "", 4)))
+    facts.append(("rms curvature", "from the moment m4", written(moments.rms_curvature, "m-1", 4)))
+    facts.append(("Nayak's parameter", "m0 m4 / m2²", written(moments.nayak, "", 4)))
+    try:
+        exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
+    except ValueError as error:
+        if not is_ours(error):
+            raise
+        exponent, words = "none", str(error)
+    return [*facts, ("Hurst exponent", words, exponent)]

@@ -1,0 +1,301 @@
+"""The page as a web application: a few routes behind a guard."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+from collections.abc import AsyncIterator, Awaitable, Callable
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.routing import Route
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from roughcontact.page.frames import packed
+from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.server.crew import Crew
+from roughcontact.page.server.guard import HEADERS, Guard, Refused
+from roughcontact.page.server.server_folder import SCRATCH
+from roughcontact.page.server.session import Session
+from roughcontact.page.server.sessions import GIVEN, MOST_SESSIONS, Sessions
+from roughcontact.page.server.uploads import LARGEST, TooLargeError, TooSlowError, store
+from roughcontact.page.server.worker_process import WorkerEndedError
+
+__all__ = ["PageServer", "application"]
+
+_LONGEST_ORDER = 2**20  # bytes of JSON
+_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".svg": "image/svg+xml",
+}
+
+
+@dataclass(slots=True, eq=False)
+class PageServer:
+    """What the routes share.
+
+    Parameters
+    ----------
+    guard : Guard
+    sessions : Sessions
+    closing : asyncio.Event
+        Set when the server is about to end: answers that are still on their way are broken off.
+    opened : bool
+        Whether the token that opens the page once was used.
+    """
+
+    guard: Guard
+    sessions: Sessions
+    closing: asyncio.Event = field(default_factory=asyncio.Event)
+    opened: bool = False
+
+    @classmethod
+    def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
+        """Return a server without sessions, whose files and those of its workers lie in a folder."""
+        scratch = folder / SCRATCH
+        scratch.mkdir(mode=0o700)
+        return cls(guard, Sessions(Crew(scratch), folder, given))
+
+    async def begin(self, _: Request) -> Response:
+        """Open a session, for a tab that has none."""
+        key = await self.sessions.begin()
+        if key is None:
+            words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
+            return JSONResponse({"message": words}, 503)
+        file = self.sessions.given
+        given = None if file is None else {"file": GIVEN, "name": file.name}
+        return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
+
+    async def upload(self, request: Request) -> Response:
+        """Take a file."""
+        session = self._session(request)
+        if session is None:
+            return _no_session()
+        stated = request.headers.get("content-length", "")
+        name = request.query_params.get("name", "file")
+        try:
+            size = int(stated) if stated.isascii() and stated.isdigit() else None
+            key, file = await store(session.folder, name, size, request.stream())
+        except TooLargeError as error:
+            return JSONResponse({"message": str(error)}, 413, {"Connection": "close"})
+        except TooSlowError as error:
+            return JSONResponse({"message": str(error)}, 408, {"Connection": "close"})
+        except ClientDisconnect:
+            return Response(status_code=400)
+        except OSError as error:
+            words = f"The server cannot keep the file: {error.strerror or error}."
+            return JSONResponse({"message": words}, 507, {"Connection": "close"})
+        session.files[key] = file
+        return JSONResponse({"file": key, "name": file.name})
+
+    async def perform(self, request: Request) -> Response | ASGIApp:
+        """Answer an order, message by message."""
+        session = self._session(request)
+        if session is None:
+            return _no_session()
+        body = b""
+        async for part in request.stream():
+            body += part
+            if len(body) > _LONGEST_ORDER:
+                return JSONResponse({"message": "No order is that long."}, 413, {"Connection": "close"})
+        asked = _order(body)
+        if asked is None:
+            return JSONResponse({"message": "An order is an object of JSON."}, 400)
+        return _Streamed(session.perform(asked), self.closing)
+
+    async def stop(self, request: Request) -> Response:
+        """Stop an order."""
+        session = self._session(request)
+        if session is None:
+            return _no_session()
+        await session.stop(*(request.query_params.get(name, "") for name in ("lane", "key")))
+        return JSONResponse({})
+
+    async def end(self, request: Request) -> Response:
+        """End a session whose tab is closed."""
+        await self.sessions.end(request.query_params.get("session", ""))
+        return JSONResponse({})
+
+    async def alive(self, request: Request) -> Response:
+        """Note that a tab is still there."""
+        return _no_session() if self._session(request) is None else JSONResponse({})
+
+    @contextlib.asynccontextmanager
+    async def lifespan(self, _: object) -> AsyncIterator[None]:
+        """Have a worker ready from the start, and none left at the end."""
+        self.sessions.crew.prepare()
+        watching = asyncio.create_task(self.sessions.watch())
+        try:
+            yield
+        finally:
+            watching.cancel()
+            await self.sessions.crew.end()
+
+    def _session(self, request: Request) -> Session | None:
+        return self.sessions.find(request.query_params.get("session", ""))
+
+
+def application(server: PageServer) -> ASGIApp:
+    """Return the application of a server, behind its guard."""
+    files = dict(_files())
+    entry = files.pop("/index.html")
+
+    async def page(request: Request) -> Response:
+        guard, query = server.guard, request.url.query
+        if guard.entered(query):
+            # The token leaves the address line, where it would be read over a shoulder.
+            response: Response = RedirectResponse("/", 303)
+            if not (guard.entered_once(query) and server.opened):
+                server.opened = server.opened or guard.entered_once(query)
+                response.set_cookie(guard.cookie, guard.token, httponly=True, samesite="strict", path="/")
+            return response
+        return Response(entry, media_type=_TYPES[".html"])
+
+    async def file(request: Request) -> Response:
+        path = request.url.path
+        return Response(files[path], media_type=_TYPES[Path(path).suffix])
+
+    routes = [
+        Route("/", page),
+        *(Route(path, file) for path in files),
+        Route("/session", server.begin, methods=["POST"]),
+        Route("/file", server.upload, methods=["PUT"]),
+        Route("/order", _Endpoint(server.perform), methods=["POST"]),
+        Route("/stop", server.stop, methods=["POST"]),
+        Route("/alive", server.alive, methods=["POST"]),
+        Route("/end", server.end, methods=["POST"]),
+    ]
+    return _Guarded(Starlette(routes=routes, lifespan=server.lifespan), server.guard)
+
+
+@dataclass(frozen=True, slots=True)
+class _Endpoint:
+    """A route whose answer may be an application of its own."""
+
+    answer: Callable[[Request], Awaitable[Response | ASGIApp]]
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        response = await self.answer(Request(scope, receive))
+        await response(scope, receive, send)
+
+
+@dataclass(frozen=True, slots=True)
+class _Guarded:
+    """An application behind a guard; every answer bears the headers of safety."""
+
+    app: ASGIApp
+    guard: Guard
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
+        if scope["type"] != "http":
+            return
+
+        async def send_safely(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                safe = [(name.lower().encode(), value.encode()) for name, value in HEADERS.items()]
+                message = {**message, "headers": [*message.get("headers", []), *safe]}
+            await send(message)
+
+        query = scope["query_string"].decode("latin-1")
+        refused = self.guard.check(scope["method"], scope["path"], query, scope["headers"])
+        app = self.app if refused is None else _hung_up(refused)
+        await app(scope, receive, send_safely)
+
+
+def _hung_up(refused: Refused) -> Response:
+    """Return an answer after which the connection is closed: no more is read from who has no key."""
+    return PlainTextResponse(refused.reason + "\n", refused.status, {"Connection": "close"})
+
+
+@dataclass(frozen=True, slots=True)
+class _Streamed:
+    """Messages as they come; where the browser goes away, or the server is to end, no more are asked for."""
+
+    messages: AsyncIterator[bytes]
+    closing: asyncio.Event
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        headers = [(b"content-type", b"application/octet-stream")]
+        await send({"type": "http.response.start", "status": 200, "headers": headers})
+        sending = asyncio.create_task(self._send(send))
+        others = [asyncio.create_task(_left(receive)), asyncio.create_task(self.closing.wait())]
+        try:
+            await asyncio.wait({sending, *others}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for each in (sending, *others):
+                each.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await sending
+        await send({"type": "http.response.body", "body": b"", "more_body": False})
+
+    async def _send(self, send: Send) -> None:
+        async with contextlib.aclosing(self.messages) as messages:  # type: ignore[type-var]
+            try:
+                async for message in messages:
+                    await send({"type": "http.response.body", "body": message, "more_body": True})
+            except WorkerEndedError as error:
+                end = packed({"type": "end", "how": "died", "message": str(error)})
+                await send({"type": "http.response.body", "body": end, "more_body": True})
+
+
+async def _left(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+def _order(body: bytes) -> dict[str, Any] | None:
+    """Return what a body asks for; None where that is no object, or holds numbers that JSON does not know."""
+    try:
+        asked = json.loads(body)
+        json.dumps(asked, allow_nan=False)
+    except (ValueError, RecursionError):
+        return None
+    plain = isinstance(asked, dict) and isinstance(asked.get("more"), dict | None)
+    return asked if plain else None
+
+
+def _no_session() -> Response:
+    return JSONResponse({"message": "The server does not know this tab: load the page again."}, 410)
+
+
+def _choices() -> dict[str, Any]:
+    """Return what can be chosen by name."""
+    from roughcontact.materials import MATERIALS
+    from roughcontact.theory.laws import LAWS
+
+    given = {"hardness", "radius"}  # what no surface shows
+    laws = {name: law.about for name, law in LAWS.items() if not given & {*law.needs} - {"hardness"}}
+    materials = {
+        name: {
+            "grade": each.grade,
+            "young": each.solid.young_modulus,
+            "poisson": each.solid.poisson_ratio,
+            "hardness": each.hardness,
+        }
+        for name, each in MATERIALS.items()
+    }
+    return {"materials": materials, "theories": laws}
+
+
+def _files() -> list[tuple[str, bytes]]:
+    """Return the files of the page by their paths: these, and no other of the disk, can be asked for."""
+    found: list[tuple[str, bytes]] = []
+    folders = [("", resources.files("roughcontact.page") / "static")]
+    while folders:
+        path, folder = folders.pop()
+        for each in folder.iterdir():
+            if each.is_dir():
+                folders.append((f"{path}/{each.name}", each))
+            elif Path(each.name).suffix in _TYPES:
+                found.append((f"{path}/{each.name}", each.read_bytes()))
+    return found

@@ -1,0 +1,1 @@
+"""What pictures share: axes, ticks, units, marks, rasters."""

@@ -1,0 +1,1 @@
+"""Surfaces that are made: random ones by spectra, smooth shapes, punches, examples."""

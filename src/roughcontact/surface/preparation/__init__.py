@@ -1,0 +1,1 @@
+"""From a measured surface to one that is analysed or pressed."""

@@ -1,0 +1,331 @@
+"""Spikes: clusters of a few cells that stand out of all that is around them, as faulty measurements do."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from roughcontact.surface.in_memory import analysed_on_host, on_host_only
+from roughcontact.surface.preparation.missing import filled
+from roughcontact.surface.surface import Surface
+from roughcontact.validation import Array, Mask, numeric, require
+
+__all__ = ["Spikes", "despiked", "find_spikes", "spikes_in", "tail_of"]
+
+_REACH = {1: 4, 2: 2}  # cells from the middle of a window to its edge, by the number of axes: 9 and 25 cells
+_GROUP = 3  # one in so many cells of a window may stand out of it: 2 of 9 and 8 of 25
+_EXTENT = 0.5  # of the limit: neighbours that stand out by that much belong to a spike ...
+_LARGEST = 2  # ... which has at most half the cells of a window
+_HALF, _MOST = 0.5, 0.9  # quantiles between which the tail of the steps is measured
+_EXPECTED = 1e-3  # windows of a map without spikes that an exponential tail has beyond the limit
+_AROUND = {1: 30, 2: 7}  # cells from a spike within which the steps say how rough its surroundings are
+_CHOSEN = 100_000  # windows that the quantiles are taken of
+_FEWEST = 100
+_PASSES = 4  # over what is left beside spikes that were found: their flanks
+_SLAB = 2**14  # windows sorted at once
+_ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences that mean nothing
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spikes:
+    """The spikes of a surface.
+
+    Attributes
+    ----------
+    mask : array of bool, shape of the surface
+        Their cells.
+    places : array of int, shape (count, axes)
+        Of each spike the cell that stands out most: its row and column, of a line its position.
+    height : array, shape (count,)
+        By how much that cell stands above the median of the cells around the spike [m], negative below; the
+        largest come first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> heights = rough.heights.copy()
+    >>> heights[20, 30:32] += 1e-5
+    >>> spikes = rc.find_spikes(rc.Surface(heights, rough.grid))
+    >>> spikes.places.tolist(), f"{spikes.height[0] * 1e6:.0f} um high"
+    ([[20, 30]], '10 um high')
+    """
+
+    mask: Mask
+    places: npt.NDArray[np.int64]
+    height: Array
+
+    @property
+    def count(self) -> int:
+        """Number of spikes."""
+        return self.height.size
+
+    def __str__(self) -> str:
+        return f"{_counted(self.count, 'spike')} of {_counted(int(self.mask.sum()), 'cell')}"
+
+
+@numeric
+@analysed_on_host
+def find_spikes(surface: Surface) -> Spikes:
+    """Return the clusters of a few cells that stand out of all that is around them.
+
+    Parameters
+    ----------
+    surface : Surface
+        Tilt does not matter. A map of fewer than 100 measured cells has no statistics, and no spikes.
+
+    Returns
+    -------
+    Spikes
+
+    Notes
+    -----
+    The heights in a window of 5 x 5 cells (of 9 on a line) are put in order. Among the third of them at either end, 8
+    cells, the widest step to the next height is looked for: a spike in the middle shows as a wide step with the spike
+    beyond it, and neither an edge nor a right corner of a plateau does. A cell is marked where that step exceeds
+
+        q50 + (q90 - q50) / ln 5 * ln(500 N),
+
+    q50 and q90 the quantiles of the widest steps of all N windows, whatever is in their middle. An exponential tail
+    through both goes beyond that in one window of a thousand maps; steps on Gaussian surfaces, self-affine ones among
+    them, have a lighter tail, and spikes that touch less than a tenth of the windows hardly move the quantiles. Where
+    half the steps in the 15 x 15 cells around (61 on a line) exceed q90, the limit is as many times higher. Neighbours
+    beyond half the limit belong to a spike, which has at most 12 cells (4 on a line); what stands out beside it once it
+    is gone, its flank, is marked as well. Of windows cut by edges or missing points a third is fewer cells.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> heights = rough.heights.copy()
+    >>> heights[20, 30:32] += 1e-5
+    >>> spikes = rc.find_spikes(rc.Surface(heights, rough.grid))
+    >>> print(spikes)
+    1 spike of 2 cells
+    >>> rc.find_spikes(rough).count
+    0
+    """
+    return spikes_in(surface.heights, surface.grid.periodic)
+
+
+@on_host_only
+def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> Surface:
+    """Return the surface without its spikes, see `find_spikes`.
+
+    Parameters
+    ----------
+    surface : Surface
+    to : {"missing", "filled"}
+        What becomes of their cells: not measured, so that contact leaves them out; or filled in smoothly from the
+        heights around them, as `filled` does. Points that were missing before stay missing.
+
+    Returns
+    -------
+    Surface
+        With their number in the provenance; the surface itself if it has none.
+
+    Raises
+    ------
+    ValueError
+        If `to` is neither.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
+    >>> heights = rough.heights.copy()
+    >>> heights[20, 30:32] += 1e-5
+    >>> rc.Surface(heights, rough.grid).despiked().missing
+    2
+    """
+    require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}")
+    spikes = find_spikes(surface)
+    if spikes.count == 0:
+        return surface
+    if to == "missing":
+        heights = np.where(spikes.mask, np.nan, surface.heights)
+        return surface.with_heights(heights, f"despiked: {spikes} set to missing")
+    whole = filled(surface.with_heights(np.where(spikes.mask, np.nan, surface.heights), ""))
+    return surface.with_heights(
+        np.where(spikes.mask, whole.heights, surface.heights), f"despiked: {spikes} filled in, harmonic"
+    )
+
+
+def spikes_in(heights: Array, periodic: tuple[bool, ...]) -> Spikes:
+    """Return the spikes of heights [m], NaN where not measured, on axes of which some may be `periodic`."""
+    mask = np.zeros(heights.shape, dtype=np.bool_)
+    measured = np.flatnonzero(~np.isnan(heights))
+    if measured.size >= _FEWEST:
+        usual, limit = _limits(heights, periodic, measured)
+        cells = _screened(heights, periodic, _EXTENT * limit)
+        for _ in range(_PASSES):
+            found = _marked(np.where(mask, np.nan, heights), periodic, cells, usual, limit)
+            if not found.any():
+                break
+            mask |= found
+            cells = _dilated(mask, _REACH[mask.ndim]) & ~mask & ~np.isnan(heights)
+    return _described(heights, mask)
+
+
+def _limits(
+    heights: Array, periodic: tuple[bool, ...], measured: npt.NDArray[np.int64]
+) -> tuple[float, float]:
+    """Return what most of the widest steps stay below, and the limit beyond which one makes a spike [m]."""
+    # An odd stride meets every column of a map, whose width is even as a rule.
+    chosen = measured[:: 2 * (measured.size // _CHOSEN // 2) + 1]
+    steps = _steps(_padded(heights, periodic), np.stack(np.unravel_index(chosen, heights.shape), axis=1))
+    most, limit = tail_of(steps, measured.size)
+    return most, max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
+
+
+def tail_of(values: Array, count: int) -> tuple[float, float]:
+    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in a map of a thousand.
+
+    The map has `count` of them.
+    """
+    half, most = (float(np.quantile(values, share)) for share in (_HALF, _MOST))
+    rate = (most - half) / math.log((1 - _HALF) / (1 - _MOST))
+    return most, half + rate * math.log((1 - _HALF) * count / _EXPECTED)
+
+
+def _padded(heights: Array, periodic: tuple[bool, ...]) -> Array:
+    """Return the heights with the reach of a window beyond each edge: missing, or across it where periodic."""
+    reach = _REACH[heights.ndim]
+    for axis, repeats in enumerate(periodic):
+        width = [(reach, reach) if k == axis else (0, 0) for k in range(heights.ndim)]
+        wide = np.pad(heights, width, mode="wrap")
+        if not repeats:
+            ends = np.moveaxis(wide, axis, 0)
+            ends[:reach] = ends[-reach:] = np.nan
+        heights = wide
+    return heights
+
+
+def _windows(padded: Array, cells: npt.NDArray[np.int64]) -> Iterator[tuple[slice, Array]]:
+    """Yield the heights around a slice of the `cells`, shape (n, axes), one window a row."""
+    side = 2 * _REACH[padded.ndim] + 1
+    views = np.lib.stride_tricks.sliding_window_view(padded, (side,) * padded.ndim)
+    for start in range(0, len(cells), _SLAB):
+        part = slice(start, start + _SLAB)
+        yield part, views[tuple(cells[part].T)].reshape(-1, side**padded.ndim)
+
+
+def _steps(padded: Array, cells: npt.NDArray[np.int64]) -> Array:
+    """Return the widest step in the window about each of the `cells`, at either end [m]."""
+    found = np.zeros(len(cells))
+    for part, window in _windows(padded, cells):
+        none = np.full(len(window), -np.inf)
+        found[part] = np.maximum(_widest(window, none), _widest(-window, none))
+    return found
+
+
+def _gaps(padded: Array, cells: npt.NDArray[np.int64]) -> Array:
+    """Return the widest step that has the cell beyond it: positive below the cell, negative above [m]."""
+    found = np.zeros(len(cells))
+    for part, window in _windows(padded, cells):
+        middle = window[:, window.shape[1] // 2]
+        below, above = _widest(window, middle), _widest(-window, -middle)
+        found[part] = np.where(above >= below, above, -below)
+    return found
+
+
+def _widest(window: Array, middle: Array) -> Array:
+    """Return the widest step among the lowest third of the heights, those with `middle` before them."""
+    ordered = np.sort(window, axis=1)  # what is missing goes last
+    group = (np.count_nonzero(~np.isnan(ordered), axis=1) - 1) // _GROUP
+    widest = np.zeros(len(ordered))
+    for k in range(1, (ordered.shape[1] - 1) // _GROUP + 1):
+        step = ordered[:, k] - ordered[:, k - 1]
+        np.maximum(widest, step, out=widest, where=(k <= group) & (middle <= ordered[:, k - 1]))
+    return widest
+
+
+def _screened(heights: Array, periodic: tuple[bool, ...], gap: float) -> Mask:
+    """Return the cells whose gap may exceed `gap`: enough of their window is at least that far below or above."""
+    padded, reach = _padded(heights, periodic), _REACH[heights.ndim]
+    keep = np.zeros(heights.shape, dtype=np.bool_)
+    rows = max(1, _SLAB * len(heights) // heights.size)
+    shifts = list(np.ndindex(*(2 * reach + 1,) * heights.ndim))
+    for start in range(0, len(heights), rows):
+        slab = padded[start : start + rows + 2 * reach]
+        shape = (len(slab) - 2 * reach, *heights.shape[1:])
+        parts = [tuple(slice(k, k + n) for k, n in zip(shift, shape, strict=True)) for shift in shifts]
+        middle = slab[parts[len(parts) // 2]]
+        low, high, here = middle - gap, middle + gap, ~np.isnan(slab)
+        below, above, count = (np.zeros(shape, dtype=np.int8) for _ in range(3))
+        for part in parts:
+            below += slab[part] <= low
+            above += slab[part] >= high
+            count += here[part]
+        beyond = count - (count - 1) // _GROUP
+        enough = (below >= beyond) | (above >= beyond)
+        keep[start : start + rows] = enough & (count > _GROUP) & ~np.isnan(middle)
+    return keep
+
+
+def _marked(heights: Array, periodic: tuple[bool, ...], cells: Mask, usual: float, limit: float) -> Mask:
+    """Return those of the `cells` that belong to a spike."""
+    from scipy.ndimage import find_objects, label
+
+    padded = _padded(heights, periodic)
+    gaps = np.zeros(heights.shape)
+    gaps[cells] = _gaps(padded, np.argwhere(cells))
+    most = (2 * _REACH[heights.ndim] + 1) ** heights.ndim // _LARGEST
+    around = _AROUND[heights.ndim]
+    found = np.zeros(heights.shape, dtype=np.bool_)
+    for side in (gaps, -gaps):
+        clusters, _ = label(side > _EXTENT * limit, np.ones((3,) * heights.ndim))
+        for index, box in enumerate(find_objects(clusters), start=1):
+            inside = clusters[box] == index
+            largest = float(side[box][inside].max())
+            if largest <= limit or np.count_nonzero(inside) > most:
+                continue
+            wide = tuple(slice(max(0, part.start - around), part.stop + around) for part in box)
+            rest = np.argwhere(~np.isnan(heights[wide])) + [part.start for part in wide]
+            if usual > 0 and largest * usual <= limit * float(np.median(_steps(padded, rest))):
+                continue
+            found[box] |= inside
+    return found
+
+
+def _dilated(mask: Mask, reach: int) -> Mask:
+    from scipy.ndimage import binary_dilation
+
+    return np.asarray(
+        binary_dilation(mask, np.ones((2 * reach + 1,) * mask.ndim, dtype=np.bool_)), dtype=np.bool_
+    )
+
+
+def _described(heights: Array, mask: Mask) -> Spikes:
+    """Return the spikes whose cells are marked, the largest first."""
+    from scipy.ndimage import find_objects, label
+
+    places, height = [], []
+    clusters, _ = label(mask, np.ones((3,) * heights.ndim))
+    for index, box in enumerate(find_objects(clusters), start=1):
+        wide = tuple(slice(max(0, part.start - 1), part.stop + 1) for part in box)
+        inside = clusters[wide] == index
+        around = heights[wide][~mask[wide] & ~np.isnan(heights[wide])]
+        level = float(np.median(around)) if around.size else 0.0
+        above = np.where(inside, heights[wide] - level, 0.0)
+        top = np.unravel_index(int(np.argmax(np.abs(above))), above.shape)
+        places.append([part.start + int(k) for part, k in zip(wide, top, strict=True)])
+        height.append(float(above[top]))
+    order = np.argsort(-np.abs(height), kind="stable")
+    return Spikes(
+        mask,
+        np.array(places, dtype=np.int64).reshape(-1, heights.ndim)[order],
+        np.array(height, dtype=np.float64)[order],
+    )
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}{'' if number == 1 else 's'}"

@@ -1,0 +1,1 @@
+"""Theories of surfaces that attract each other."""

@@ -1,0 +1,1 @@
+"""Theories of summits: independent ones, and summits that push each other down."""

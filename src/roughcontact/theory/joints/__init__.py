@@ -1,0 +1,1 @@
+"""Joints: conductance and partial slip."""

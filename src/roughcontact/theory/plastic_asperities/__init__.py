@@ -1,0 +1,1 @@
+"""Theories of asperities that yield."""

@@ -1,0 +1,1 @@
+"""Single bodies in closed form: spheres, punches, indenters."""

@@ -1,0 +1,1 @@
+"""Lines on springs in closed form: the models of the method of dimensionality reduction."""
