@@ -15,6 +15,7 @@ from roughcontact.theory.law import LoadingLaw
 
 MODULUS = 1e11
 
+
 @pytest.fixture
 def axes() -> Axes:
     return Figure().subplots()
