@@ -104,6 +104,7 @@ def test_a_map_has_zero_in_the_middle_and_outlines_the_contact(state):
     axes = state.plot(Figure().subplots())
     image = axes.images[0]
     assert image.norm(0.0) == 0.5
+    assert not axes.patch.get_hatch()
     assert image.norm(image.norm.vmin) == 0.0
     np.testing.assert_allclose(image.get_array(), state.pressure * 1e3, rtol=1e-12)
     assert image.colorbar.ax.get_ylabel().startswith("pressure, tension negative [mPa]")
@@ -181,8 +182,9 @@ def test_missing_cells_are_left_out():
     heights = surface.heights.copy()
     heights[2:5, 3:9] = np.nan
     state = rc.adhesive_state(rc.Surface(heights, surface.grid), 1.0, sticky(2.0), depth=0.3)
-    image = rc.plot.tension_map(state, Figure().subplots()).images[0]
-    np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()), np.isnan(heights))
+    axes = rc.plot.tension_map(state, Figure().subplots())
+    np.testing.assert_array_equal(np.ma.getmaskarray(axes.images[0].get_array()), np.isnan(heights))
+    assert axes.patch.get_hatch()
 
 
 def test_whole_figures_are_drawn(loop, state):
@@ -253,6 +255,10 @@ def test_the_map_of_stuck_cells_is_theirs():
     ringed = np.pad(state.contact, 1)
     count = sum(int((np.diff(ringed.astype(int), axis=axis) != 0).sum()) for axis in (0, 1))
     assert len(edges.get_segments()) == count > 0
-    title = rc.plot.state_figure(state).axes[0].get_title()
+    figure = rc.plot.state_figure(state)
+    assert tuple(figure.get_size_inches()) == pytest.approx(
+        (6.2, 1.2 + 3.6 * 16 / 24)
+    )  # as wide as any, lower
+    title = figure.axes[0].get_title()
     assert "stability" not in title
     assert written(state.force, "N") in title

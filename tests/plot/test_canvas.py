@@ -87,6 +87,22 @@ def test_the_picture_of_a_surface_rings_its_spikes_beside_its_distribution():
     np.testing.assert_allclose(marks.get_xdata(), [1.15], rtol=1e-12)
 
 
+@pytest.mark.parametrize(("shape", "beside"), [((40, 48), True), ((48, 20), True), ((20, 48), False)])
+def test_two_wide_maps_lie_above_one_another_under_a_summary(shape, beside):
+    solution = rc.press(rough(shape), MODULUS, force=2e-3)
+    figure = solution_figure(solution)
+    figure.canvas.draw()
+    first, second = (axes.get_position() for axes in figure.axes[:2])
+    assert (first.x1 <= second.x0) == beside
+    assert (first.y0 >= second.y1) != beside
+    stiffness = written(solution.stiffness, "N m-1")
+    assert stiffness != written(solution.interfacial_stiffness, "N m-1")
+    assert figure.get_suptitle() == (
+        f"force 2 mN,  depth {written(solution.depth, 'm')},  stiffness {stiffness},  "
+        f"contact {100 * solution.contact.mean():.3g} % in {solution.spots.count} spots"
+    )
+
+
 def test_the_frame_shows_what_is_enlarged():
     heights = np.zeros((128, 160))
     heights[20, 30] = 1e-6

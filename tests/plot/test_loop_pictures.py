@@ -76,8 +76,20 @@ def test_the_stiffness_per_area_of_every_branch(loop):
     assert first[-1] / back[0] == pytest.approx(expected)
 
 
+def test_an_infinite_stiffness_has_no_place_in_a_loop():
+    """Full contact at the largest load, on a periodic map that is not square."""
+    grid = rc.Grid((12, 16), (1e-6, 2e-6), periodic=True)
+    surface = rc.self_affine(grid, hurst=0.8, rms=1e-9, rng=np.random.default_rng(3))
+    loop = rc.loading_loop(surface, 1e11, hardness=2e9, pressures=[1e6, 1e7, 1e9])
+    assert np.isinf(loop.loading.interfacial_stiffness[-1])
+    axes = loop.plot(Figure().subplots(), quantity="stiffness")
+    assert all(np.isfinite(drawn.get_xydata()).all() for drawn in axes.lines)
+    assert len(axes.lines[1].get_xdata()) == np.isfinite(loop.loading.interfacial_stiffness).sum() > 0
+
+
 def test_the_bearing_curve_is_cut_off(loop):
     axes = loop.plot(Figure().subplots(), quantity="bearing")
+    assert [drawn.get_label() for drawn in axes.lines] == ["before", "after"]
     before, after = (drawn.get_xydata() for drawn in axes.lines)
     assert before[-1, 0] == after[-1, 0] == 100
     assert after[0, 1] < before[0, 1]
@@ -135,6 +147,7 @@ def test_lines_and_rings_are_drawn_before_and_after(make):
     axes = rc.plot.flattened_figure(loop.surface, loop.flow).axes[0]
     scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
     assert scales[0] != scales[1]
+    assert [drawn.get_label() for drawn in axes.lines] == ["before", "after"]
     for drawn, body in zip(axes.lines, (loop.surface, loop.flow.flatten(loop.surface)), strict=True):
         expected = np.stack([body.grid.coordinates[0], body.heights], 1) * scales
         np.testing.assert_allclose(drawn.get_xydata(), expected)

@@ -167,6 +167,17 @@ def test_marks_stand_on_their_spots_and_not_on_one_another():
     assert faint_spots(solution, window)[0].size == 0
 
 
+@pytest.mark.parametrize("heavier", [(10, 20), (11, 22)])
+def test_of_neighbours_the_one_that_carries_more_is_marked(heavier):
+    heights = np.zeros((400, 512))
+    heights[10, 20] = heights[11, 22] = heights[300, 40] = 1e-6
+    heights[heavier] = 1.1e-6
+    solution = rc.press(rc.Surface(heights, rc.Grid(heights.shape, (2e-7, 1e-7))), MODULUS, depth=4e-7)
+    assert solution.spots.count == 3
+    _, places = faint_spots(solution, part(solution.problem.grid, None))
+    assert sorted(tuple(place) for place in places.tolist()) == [heavier, (300, 40)]
+
+
 def test_the_window_holds_compact_contact_and_keeps_the_shape_of_the_map():
     solution = pressed((200, 400), [(30, 100), (50, 110)])
     y, x = contact_window(solution)
