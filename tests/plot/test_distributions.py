@@ -136,6 +136,7 @@ def test_theories_of_pressure_are_drawn_in_the_unit_of_the_axis():
     expected = 2 * part * rising[:, 0] / (peak / 1e6) ** 2
     np.testing.assert_allclose(rising[:, 1], expected, rtol=1e-12)
     np.testing.assert_allclose(even[:, 1], part / (peak / 1e6), rtol=1e-12)
+    assert axes.get_xlim() == pytest.approx((0, peak / 1e6), rel=1e-12)
     assert rising[-1, 0] == even[-1, 0] == pytest.approx(peak / 1e6, rel=1e-12)
     assert [text.get_text() for text in axes.get_legend().get_texts()][1:] == ["rising", "even"]
     assert axes.get_title() == f"nominal pressure {written(0.1 / (80e-6 * 61e-6), 'Pa')}"
@@ -167,6 +168,7 @@ def test_heights_and_their_normal_distribution_are_drawn_in_the_unit_of_the_axis
     np.testing.assert_allclose(values, counts / about.size / np.diff(places), rtol=1e-9)
     [normal] = axes.lines
     z, density = normal.get_data()
+    assert axes.get_xlim() == pytest.approx((about.min(), about.max()), rel=1e-9)
     assert (z[0], z[-1]) == pytest.approx((about.min(), about.max()), rel=1e-9)
     expected = np.exp(-(z**2) / about.var() / 2) / np.sqrt(2 * np.pi * about.var())
     np.testing.assert_allclose(density, expected, rtol=1e-9)

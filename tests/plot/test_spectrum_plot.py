@@ -27,6 +27,8 @@ def test_all_that_is_drawn_lies_where_its_numbers_are(kind, power, unit, factor)
     assert axes.get_xlabel() == "wavenumber q [rad/µm]"
     assert axes.get_ylabel() == rf"power spectrum $C_{{\mathrm{{{kind[1:]}}}}}$ [{unit}]"
     assert axes.get_xlim() == pytest.approx((1e-2 / 1.3, 10 * 1.3), rel=1e-12)
+    assert axes.get_ylim()[0] == pytest.approx(density.min() * factor / 2, rel=1e-12)
+    assert axes.get_ylim()[1] > density.max() * factor
 
     every, measured, drawn_law, *limits = axes.lines
     q, values = Q / 1e6, density * factor

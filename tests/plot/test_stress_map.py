@@ -32,6 +32,7 @@ def test_it_shows_the_stress_in_its_place(solution):
     first, last = round(left), round(right)
     values = np.asarray(image.get_array())
     assert values.shape == (40, last - first)
+    assert image.get_clim() == pytest.approx((0.0, values.max()))
     exact = below(solution, (np.arange(40) + 0.5) * 0.2e-6, 0.3).von_mises[:, 20, first:last]
     np.testing.assert_allclose(values, exact * 1e-6, rtol=1e-9, atol=1e-9 * values.max())
     assert axes.get_xlabel() == "x [µm]"
