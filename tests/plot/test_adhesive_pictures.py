@@ -163,8 +163,10 @@ def test_a_profile_is_pressed_above_and_pulled_below_zero():
 def test_of_cells_that_share_a_pixel_the_largest_is_shown_pressure_or_tension():
     """Blocks of two rows by one column, on a map of 1500 rows."""
     grid = rc.Grid((1500, 4), (1.0, 2.0), periodic=True)
-    flat = rc.Surface(np.zeros(grid.shape), grid)
-    (state,) = rc.detachment_path(rc.press(flat, 1.0, pressure=0.1), 1e-3, pressures=[0.05])
+    heights = np.zeros(grid.shape)
+    heights[10, 1] = 1.0
+    tower = rc.Surface(heights, grid)
+    (state,) = rc.detachment_path(rc.press(tower, 1.0, depth=0.1), 1e-3, depths=[0.05])
     pressure = np.zeros(grid.shape)
     pressure[10, 1], pressure[11, 1] = 0.2, -0.3
     pressure[20, 2], pressure[21, 2] = 0.2, -0.1

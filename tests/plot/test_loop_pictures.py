@@ -144,7 +144,9 @@ def test_the_map_of_a_flattened_surface_is_that_of_after():
 @pytest.mark.parametrize("make", [rings, line])
 def test_lines_and_rings_are_drawn_before_and_after(make):
     loop = make()
-    axes = rc.plot.flattened_figure(loop.surface, loop.flow).axes[0]
+    axes, bearing = rc.plot.flattened_figure(loop.surface, loop.flow).axes
+    assert [drawn.get_color() for drawn in axes.lines] == [drawn.get_color() for drawn in bearing.lines]
+    assert axes.lines[0].get_color() != axes.lines[1].get_color()
     scales = per_unit(axes.get_xlabel()), per_unit(axes.get_ylabel())
     assert scales[0] != scales[1]
     assert [drawn.get_label() for drawn in axes.lines] == ["before", "after"]
