@@ -26,6 +26,7 @@ from roughcontact.files.heightmap import (
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.missing_marks import holds_mark
 from roughcontact.files.table_axes import counts
+from roughcontact.units import word_of
 
 __all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
@@ -49,8 +50,7 @@ class StoredVariable:
         for name in names:
             value = self.attributes.get(name)
             if value is not None:
-                text = value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
-                return text.strip() or None
+                return word_of(value).strip() or None
         return None
 
     def numbers(self) -> npt.NDArray[np.float64]:
@@ -317,6 +317,4 @@ def _periodic(variables: Mapping[str, StoredVariable], axes: tuple[str, ...]) ->
 
 def _history(attributes: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the provenance that our own writers leave."""
-    text = attributes.get("input_surface", "")
-    text = text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
-    return tuple(line for line in text.split("\n") if line)
+    return tuple(line for line in word_of(attributes.get("input_surface", "")).split("\n") if line)

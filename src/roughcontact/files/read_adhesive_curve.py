@@ -22,8 +22,8 @@ from roughcontact.files.stored_columns import (
     require_columns,
     sizes_of,
     statuses_of,
-    word_of,
 )
+from roughcontact.units import word_of
 from roughcontact.validation import Array
 
 __all__ = ["read_adhesive_curve"]

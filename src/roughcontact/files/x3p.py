@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_bounds import unzip
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
@@ -256,12 +256,8 @@ def parse_xml(main: bytes) -> _Node:
     target = SimpleNamespace(
         start=builder.start, end=builder.end, data=builder.data, close=builder.close, doctype=refuse
     )
-    try:
+    with damage("its main.xml is damaged", _AGAIN):  # of which its declared encoding may be a part
         return _Node(ElementTree.fromstring(main, ElementTree.XMLParser(target=target)))
-    except ContentError:
-        raise
-    except Exception as error:  # ParseError, but also LookupError and ValueError over the declared encoding
-        raise ContentError(f"its main.xml is damaged ({error})", _AGAIN) from error
 
 
 def x3p_bytes(surface: Surface) -> bytes:
