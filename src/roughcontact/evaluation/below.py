@@ -222,6 +222,8 @@ def half_space_grid(solution: Solution) -> Grid:
 
 def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
+    if isinstance(solid, tuple):
+        raise ValueError("give one of the two bodies: both carry the same pressure, each has its own stress")
     return solid.poisson_ratio if isinstance(solid, Solid) else scalar(solid, "Poisson's ratio")
 
 
