@@ -14,9 +14,9 @@ from roughcontact.cli.app import app
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
 from roughcontact.page.recipe import as_recipe
-from roughcontact.page.server.order import Order
+from roughcontact.page.server.page_request import Order
 
 LOADS = {"control": "force", "start": "50 mN", "end": "2 N", "count": 7}
 BODIES = {"materials": ["steel", "aluminium"]}

@@ -5,11 +5,11 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.page.jobs.bodies_job import bodies
+from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
 from roughcontact.page.jobs.surface_jobs import look, study
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
 from roughcontact.page.recipe import FileSource, as_recipe
 from roughcontact.page.refusal import refusal
-from roughcontact.page.server.order import Order
+from roughcontact.page.server.page_request import Order
 
 WRONG = [
     ("short_cutoff", {"preparation": {"short_cutoff": "10"}}),

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("starlette", reason="the page needs the extra 'page'")
 
 from asgi import answer
-from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server import uploads
 from roughcontact.page.server.guard import HEADERS, Guard
 from roughcontact.page.server.page_app import PageServer, application

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from roughcontact.page import page_worker
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import Workbench
 from roughcontact.page.stopping import Stopping
 
 MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}

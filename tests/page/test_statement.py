@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import roughcontact as rc
 from roughcontact.cli.app import app
 from roughcontact.page.jobs.reduced import as_seen, factor_for
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
 from roughcontact.page.recipe import as_recipe
 from roughcontact.page.statement import stated
 

@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from followed import heights, row
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import Workbench
 from roughcontact.page.page_worker import perform
 from roughcontact.page.stopping import Stopping
 

@@ -13,10 +13,10 @@ import numpy as np
 from roughcontact.arrays import is_numpy
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
+from roughcontact.files.height_warnings import IMPOSSIBLE, doubts_about, highest
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.missing_marks import without_fills
-from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si

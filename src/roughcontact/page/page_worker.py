@@ -18,8 +18,8 @@ from queue import SimpleQueue
 from typing import Any, BinaryIO
 
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
-from roughcontact.page.server.order import Job, Order, Send
+from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
+from roughcontact.page.server.page_request import Job, Order, Send
 from roughcontact.page.stopping import Stopped, Stopping
 
 __all__ = ["main", "perform"]

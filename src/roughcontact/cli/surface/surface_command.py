@@ -63,7 +63,7 @@ def info(
     with reported(file, out, as_json=json) as beside:
         from roughcontact.files.aside import output_folder
         from roughcontact.files.file_errors import ReadError
-        from roughcontact.plot.advice import advice
+        from roughcontact.plot.preparation_warnings import advice
 
         ending = picture_ending(format, out)
         channels = _channels(file)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from roughcontact.page.jobs.workbench import Workbench, hardness_of, modulus_of
-from roughcontact.page.server.order import Order, Send
+from roughcontact.page.jobs.session_cache import Workbench, hardness_of, modulus_of
+from roughcontact.page.server.page_request import Order, Send
 
 __all__ = ["bodies"]
 

@@ -10,9 +10,9 @@ from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import columns, point_of
-from roughcontact.page.jobs.workbench import Workbench, hardness_of, modulus_of
+from roughcontact.page.jobs.session_cache import Workbench, hardness_of, modulus_of
 from roughcontact.page.recipe import PageLoads, PageRecipe
-from roughcontact.page.server.order import Order, Send
+from roughcontact.page.server.page_request import Order, Send
 from roughcontact.page.statement import stated
 from roughcontact.page.stopping import Stopped
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_jobs import compared, whole_curve
-from roughcontact.page.jobs.workbench import Workbench, modulus_of
+from roughcontact.page.jobs.session_cache import Workbench, modulus_of
 from roughcontact.page.recipe import FileSource, PageLoads
-from roughcontact.page.server.order import Order, Send
+from roughcontact.page.server.page_request import Order, Send
 from roughcontact.page.statement import Statement, stated
 
 if TYPE_CHECKING:

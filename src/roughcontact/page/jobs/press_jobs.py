@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import point_of
-from roughcontact.page.jobs.workbench import Workbench
-from roughcontact.page.server.order import Order, Send, send_map
+from roughcontact.page.jobs.session_cache import Workbench
+from roughcontact.page.server.page_request import Order, Send, send_map
 from roughcontact.page.statement import stated
 
 if TYPE_CHECKING:

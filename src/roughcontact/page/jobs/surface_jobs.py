@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import Workbench
 from roughcontact.page.recipe import FileSource
-from roughcontact.page.server.order import Order, Send, send_map
+from roughcontact.page.server.page_request import Order, Send, send_map
 from roughcontact.page.statement import stated
 from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.plot.facts import surface_facts, surface_record

@@ -18,13 +18,13 @@ from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from roughcontact.page.frames import packed
-from roughcontact.page.jobs.workbench import UploadedFile
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import HEADERS, Guard, Refused
 from roughcontact.page.server.server_folder import SCRATCH
 from roughcontact.page.server.session import Session
 from roughcontact.page.server.sessions import GIVEN, MOST_SESSIONS, Sessions
 from roughcontact.page.server.uploads import LARGEST, TooLargeError, TooSlowError, store
+from roughcontact.page.server.worker_pool import Crew
 from roughcontact.page.server.worker_process import WorkerEndedError
 
 __all__ = ["PageServer", "application"]

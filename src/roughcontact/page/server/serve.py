@@ -16,7 +16,7 @@ import uvicorn
 from starlette.types import ASGIApp
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import Guard
 from roughcontact.page.server.page_app import PageServer, application
 from roughcontact.page.server.server_folder import server_folder

@@ -10,9 +10,9 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
-from roughcontact.page.jobs.workbench import UploadedFile
-from roughcontact.page.server.crew import Crew
-from roughcontact.page.server.lane import Lane
+from roughcontact.page.jobs.session_cache import UploadedFile
+from roughcontact.page.server.request_queue import Lane
+from roughcontact.page.server.worker_pool import Crew
 
 __all__ = ["Session"]
 

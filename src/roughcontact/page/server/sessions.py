@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 
-from roughcontact.page.jobs.workbench import UploadedFile
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.session import Session
+from roughcontact.page.server.worker_pool import Crew
 
 __all__ = ["GIVEN", "MOST_SESSIONS", "Sessions"]
 

@@ -6,7 +6,7 @@ import { cropFields } from "./crop.js";
 import { curveView } from "./curve_view.js";
 import { cutView } from "./cut_view.js";
 import { exports } from "./exports.js";
-import { holdings } from "./holds.js";
+import { holdings } from "./surface_view.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { numbersView } from "./numbers.js";

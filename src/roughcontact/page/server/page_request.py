@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from roughcontact.page.jobs.reduced import as_seen, factor_for
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
 from roughcontact.page.recipe import PageRecipe
 from roughcontact.validation import Array
 

@@ -68,7 +68,7 @@ class Workbench:
         """Return what looks suspicious in the heights before any preparation."""
 
         def found() -> list[dict[str, Any]]:
-            from roughcontact.plot.advice import advice
+            from roughcontact.plot.preparation_warnings import advice
 
             _, doubts = advice(self.read(source, files)[0])
             return [asdict(doubt) for doubt in doubts]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from roughcontact.page.frames import packed
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.server.worker_pool import Crew
 from roughcontact.page.server.worker_process import WorkerEndedError, WorkerProcess
 
 __all__ = ["Lane"]

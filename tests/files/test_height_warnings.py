@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.files.sanity import doubts_about
+from roughcontact.files.height_warnings import doubts_about
 
 CELL = (1e-6, 1e-6)
 GRID = rc.Grid((64, 80), CELL)
