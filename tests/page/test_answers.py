@@ -14,9 +14,9 @@ from roughcontact.cli.app import app
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
-from roughcontact.page.jobs.session_cache import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.recipe import as_recipe
-from roughcontact.page.server.page_request import Order
+from roughcontact.page.server.page_request import PageRequest
 
 LOADS = {"control": "force", "start": "50 mN", "end": "2 N", "count": 7}
 BODIES = {"materials": ["steel", "aluminium"]}
@@ -37,13 +37,13 @@ def file(tmp_path, monkeypatch):
 @pytest.fixture
 def ask(file):
     """Do a job, and return its messages with their bytes."""
-    bench = Workbench()
+    cache = SessionCache()
 
     def asked(job, load=None, loads=None, bodies=BODIES, **more):
         recipe = {"source": {"kind": "file", "file": "key"}, "bodies": bodies, "load": load, "loads": loads}
         said = []
-        order = Order(as_recipe(recipe), {"key": file}, more)
-        job(order, bench, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
+        request = PageRequest(as_recipe(recipe), {"key": file}, more)
+        job(request, cache, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
         return said
 
     return asked

@@ -8,7 +8,7 @@ import pytest
 import roughcontact as rc
 from served import PATIENCE, ended, started
 
-WAITING = """() => ["view", "holds"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
+WAITING = """() => ["view", "surface"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
   || document.querySelector("main").inert || document.getElementById("slider").disabled"""
 # Names that a screen reader would say, and ids that stand twice.
 NAMELESS = """() => {
@@ -203,7 +203,7 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
     person.open(tmp_path / "flat.npz")
     said = person.page.locator("#said", has_text="flat")
     said.wait_for(timeout=1000 * PATIENCE)
-    person.page.locator("#holds[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
+    person.page.locator("#surface[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
     assert person.text("roughness") == ""
     assert "16 x 16" in person.text("held_facts")
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
-__all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_loads"]
+__all__ = ["SessionCache", "UploadedFile", "hardness_of", "modulus_of", "without_loads"]
 
 T = TypeVar("T")
 _KEPT = 2  # of each: the one that is looked at, and the one before it
@@ -40,7 +40,7 @@ class UploadedFile:
 
 
 @dataclass(frozen=True, slots=True)
-class Workbench:
+class SessionCache:
     """What was computed last, by what it follows from; all of it can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)

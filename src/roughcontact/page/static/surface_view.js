@@ -18,7 +18,7 @@ function element(kind, text, more = {}) {
   return Object.assign(document.createElement(kind), { textContent: text }, more);
 }
 
-export function holdings(recipe, crop) {
+export function surfaceView(recipe, crop) {
   let doubts = [];
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
@@ -61,25 +61,25 @@ export function holdings(recipe, crop) {
     forget() {
       doubts = [];
       showDoubts();
-      by("held").hidden = true;
-      by("holds_none").hidden = false;
+      by("surface_shown").hidden = true;
+      by("surface_none").hidden = false;
       by("warned").replaceChildren();
       by("channels").replaceChildren();
     },
     // What is shown belongs to another preparation, until its study is done.
     wait() {
       rough = false;
-      by("holds").setAttribute("aria-busy", "true");
-      by("held").classList.add("stale");
+      by("surface").setAttribute("aria-busy", "true");
+      by("surface_shown").classList.add("stale");
     },
     done() {
-      by("holds").setAttribute("aria-busy", "false");
-      by("held").classList.remove("stale");
+      by("surface").setAttribute("aria-busy", "false");
+      by("surface_shown").classList.remove("stale");
       if (rough) return;
       for (const id of ["distribution", "spectrum"]) clear(by(id));
       by("roughness").replaceChildren();
     },
-    refused: () => by("holds").setAttribute("aria-busy", "false"),
+    refused: () => by("surface").setAttribute("aria-busy", "false"),
     channels(found) {
       table(by("channels"), ["Channel", "Points", "Unit", "Size"], found.map(({ name, shape, unit, size, is_height }) => [
         is_height ? name : `${name} (no heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
@@ -88,10 +88,10 @@ export function holdings(recipe, crop) {
     },
     surface({ facts, warned }) {
       by("channels").closest("details").hidden = recipe.now.source.kind !== "file";
-      by("held").hidden = false;
-      by("holds_none").hidden = true;
+      by("surface_shown").hidden = false;
+      by("surface_none").hidden = true;
       const shown = facts.filter(([name]) => name !== "history");
-      listed(by("held_facts"), shown);
+      listed(by("surface_facts"), shown);
       list(by("warned"), warned);
       list(by("history"), facts.filter(([name]) => name === "history").map(([, line]) => line));
     },
