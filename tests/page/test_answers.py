@@ -151,8 +151,8 @@ def test_without_a_curve_there_is_nothing_to_export(ask):
 
 def test_a_load_that_the_grid_does_not_resolve_has_a_remedy(ask):
     light = ask(press, load={"control": "force", "text": "1 uN"})
-    assert "larger load" in of(light, "state")[0]["advice"]
-    assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["advice"] == ""
+    assert "larger load" in of(light, "state")[0]["warning"]
+    assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["warning"] == ""
 
 
 def test_reduced_maps_keep_the_highest_pressure_and_the_lowest_gap(ask, file):

@@ -69,9 +69,9 @@ def test_a_study_shows_the_numbers_of_the_library(files):
     assert shown["rms slope"] == f"{rc.surface_moments(surface).rms_slope:.4g}"
 
 
-def test_doubts_are_those_of_the_file_and_name_the_step_that_mends_them(files):
+def test_warnings_are_those_of_the_file_and_name_the_step_that_mends_them(files):
     heard = ordered(study, files, {"preparation": {"despike": "filled", "fill": True}})
-    steps = {doubt["kind"]: doubt["step"] for doubt in heard["doubts"]["doubts"]}
+    steps = {warning["kind"]: warning["step"] for warning in heard["warnings"]["warnings"]}
     assert steps["spikes"] == ("despike", "filled")
     assert steps["missing points"] == ("fill", "")
 

@@ -147,12 +147,12 @@ def test_what_a_file_leaves_open_is_asked_for(person, bare):
     assert person.page.locator(".trouble").count() == 0
 
 
-def test_a_doubt_is_mended_by_its_button_and_undone(person, part):
+def test_a_warning_is_mended_by_its_button_and_undone(person, part):
     person.open(part)
     before = person.command
     person.page.get_by_role("button", name="Fill them smoothly").click()
     assert "--despike filled" in person.command
-    assert "mended by the preparation" in person.text("doubts")
+    assert "mended by the preparation" in person.text("warnings")
     person.page.keyboard.press("Control+z")
     assert person.command == before
     person.page.keyboard.press("Control+y")

@@ -42,7 +42,7 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "pressure": solution.force / grid.area,
             "depth": solution.depth,
             "highest": [int(index) for index in highest],
-            "advice": _advice(solution),
+            "warning": _warning(solution),
         }
     )
     statement = stated(request.recipe, request.file)
@@ -91,7 +91,7 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     )
 
 
-def _advice(solution: Solution) -> str:
+def _warning(solution: Solution) -> str:
     """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
     if not solution.status.converged:
         return "The solver has missed its tolerance: take another load, or filter the shortest waves."

@@ -62,18 +62,18 @@ class SessionCache:
 
         return self._once("surface", (recipe.source, recipe.preparation), prepared)
 
-    def doubts(
+    def warnings(
         self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
     ) -> list[dict[str, Any]]:
         """Return what looks suspicious in the heights before any preparation."""
 
-        def found() -> list[dict[str, Any]]:
-            from roughcontact.plot.preparation_warnings import advice
+        def made() -> list[dict[str, Any]]:
+            from roughcontact.plot.preparation_warnings import preparation_warnings
 
-            _, doubts = advice(self.read(source, files)[0])
-            return [asdict(doubt) for doubt in doubts]
+            _, found = preparation_warnings(self.read(source, files)[0])
+            return [asdict(warning) for warning in found]
 
-        return self._once("doubts", source, found)
+        return self._once("warnings", source, made)
 
     def solution(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""

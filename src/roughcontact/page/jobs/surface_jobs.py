@@ -79,7 +79,7 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
-    send({"type": "doubts", "doubts": cache.doubts(request.recipe.source, request.files)})
+    send({"type": "warnings", "warnings": cache.warnings(request.recipe.source, request.files)})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0

@@ -149,9 +149,9 @@ function heard(header, data) {
   else if (header.type === "channels") { fields.channels(header.channels); surfaceCard.channels(header.channels); }
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
   else if (header.type === "bodies") bodies.say(header);
-  else if (["doubts", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
+  else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
-  else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.advice); }
+  else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
   else if (header.type === "numbers") answered(header);
   else if (header.type === "pressures") numbers.pressures(header);
   else if (header.type === "cut") cut.heard(header);

@@ -5,7 +5,7 @@ import { facts as listed, list } from "./numbers.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
-// What the button beside a doubt says, by the step that mends it.
+// What the button beside a warning says, by the step that mends it.
 const MEND = {
   despike: "Fill them smoothly",
   level: "Remove the plane",
@@ -19,7 +19,7 @@ function element(kind, text, more = {}) {
 }
 
 export function surfaceView(recipe, crop) {
-  let doubts = [];
+  let warnings = [];
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
   function mended([step]) {
@@ -32,8 +32,8 @@ export function surfaceView(recipe, crop) {
     return recipe.change((next) => (next.preparation[step] = step === "fill" ? true : value));
   }
 
-  function showDoubts() {
-    by("doubts").replaceChildren(...doubts.map(({ kind, words, remedy, step }) => {
+  function showWarnings() {
+    by("warnings").replaceChildren(...warnings.map(({ kind, words, remedy, step }) => {
       const line = document.createElement("li");
       const done = step !== null && mended(step);
       line.className = done ? "mended" : "";
@@ -57,13 +57,13 @@ export function surfaceView(recipe, crop) {
   }
 
   return {
-    show: showDoubts,
+    show: showWarnings,
     forget() {
-      doubts = [];
-      showDoubts();
+      warnings = [];
+      showWarnings();
       by("surface_shown").hidden = true;
       by("surface_none").hidden = false;
-      by("warned").replaceChildren();
+      by("read_warnings").replaceChildren();
       by("channels").replaceChildren();
     },
     // What is shown belongs to another preparation, until its study is done.
@@ -92,13 +92,13 @@ export function surfaceView(recipe, crop) {
       by("surface_none").hidden = true;
       const shown = facts.filter(([name]) => name !== "history");
       listed(by("surface_facts"), shown);
-      list(by("warned"), warned);
+      list(by("read_warnings"), warned);
       list(by("history"), facts.filter(([name]) => name === "history").map(([, line]) => line));
     },
     study(header) {
-      if (header.type === "doubts") {
-        doubts = header.doubts;
-        showDoubts();
+      if (header.type === "warnings") {
+        warnings = header.warnings;
+        showWarnings();
       } else if (header.type === "heights") {
         rough = true;
         chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, height: 170, label: "Distribution of the heights", series: [
