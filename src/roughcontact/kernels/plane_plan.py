@@ -39,9 +39,9 @@ class PlanePlan:
         Numbers that a thread works in: of rows as they come from a transform, and in all, either of rows, as they come
         and in order, or of one block of columns.
     along, across : tuple
-        What kernels are told of transforms along rows, whose neighbours are taken for complex numbers and told apart by
-        twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are in
-        digit-reversed order.
+        Arguments of the kernels for transforms along rows, whose neighbours are taken for complex numbers and separated
+        by twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are
+        in digit-reversed order.
     """
 
     lengths: tuple[int, int]
@@ -108,7 +108,7 @@ class FourierPlan:
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What the kernel is told."""
+        """Arguments of the kernel."""
         return Operand(self.radices), len(self.radices), Operand(self.twiddles)
 
 

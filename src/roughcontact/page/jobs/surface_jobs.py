@@ -127,7 +127,7 @@ def _place(surface: Surface) -> dict[str, Any]:
 
 
 def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
-    """Return what is told of the roughness: symbol or name, what it means, and its value."""
+    """Return what is shown of the roughness: symbol or name, what it means, and its value."""
     import roughcontact as rc
 
     parameters, moments = rc.areal_parameters(surface), rc.surface_moments(surface)

@@ -38,8 +38,8 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
     port : int
         0 for any that is free.
     opened : callable
-        Is told two addresses when the page can be asked for: one that holds the token, for the user, and one that opens
-        the page once, for the command of a browser.
+        Called with two addresses when the page can be asked for: one that holds the token, for the user, and one that
+        opens the page once, for the command of a browser.
 
     Raises
     ------

@@ -28,7 +28,7 @@ class Session:
     folder : Path
         Where its files lie; it goes with the session.
     files : dict of str to UploadedFile
-        By the names that the page was told.
+        By the names that the page was given.
     heard : float
         When its tab last said something [s], on the clock of `time.monotonic`.
     """

@@ -3,7 +3,7 @@
 import { COLOURS } from "./colours.js";
 import { written } from "./words.js";
 
-const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, told apart from greys by everybody
+const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
 const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
 const STEPS = [1, 2, 5];
 
