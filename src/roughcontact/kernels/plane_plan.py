@@ -35,7 +35,7 @@ class PlanePlan:
     precision : {"float32", "float64"}
     lanes, blocks : int
         How many rows or columns go at once, and how many such blocks of columns there are.
-    raw, room : int
+    raw, scratch : int
         Numbers that a thread works in: of rows as they come from a transform, and in all, either of rows, as they come
         and in order, or of one block of columns.
     along, across : tuple
@@ -49,7 +49,7 @@ class PlanePlan:
     lanes: int
     blocks: int
     raw: int
-    room: int
+    scratch: int
     along: tuple[Any, ...]
     across: tuple[Any, ...]
 
@@ -59,13 +59,13 @@ class PlanePlan:
         (ny, nx), (my, mx), lanes = shape, lengths, WIDTH // np.dtype(precision).itemsize
         half = mx // 2
         blocks, raw = half // lanes + 1, -(-half // lanes) * 2 * lanes * lanes
-        room = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
+        scratch = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
         rows, columns = _plan(half, -(-nx // 2), precision), _plan(my, ny, precision)
         pairs = _twiddles(np.arange(half // 2 + 1), mx, precision)
         folded = np.minimum(columns.waves, my - columns.waves)
         along = half, *rows.arguments, Operand(rows.order), Operand(pairs)
         across = my, *columns.arguments, Operand(folded)
-        return cls(lengths, precision, lanes, blocks, raw, room, along, across)
+        return cls(lengths, precision, lanes, blocks, raw, scratch, along, across)
 
     def padded(self, rows: int) -> int:
         """Return how many rows a spectrum has memory for that holds so many."""

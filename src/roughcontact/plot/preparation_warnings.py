@@ -88,7 +88,7 @@ def _without(heights: Array, degree: int) -> tuple[Array, float]:
 
 
 def _steps(surface: Surface) -> Iterator[PreparationWarning]:
-    """Yield the largest step between two rows or columns, if it is none of chance, and the larger side of it."""
+    """Yield the largest step between two rows or columns, if it is not one of chance, and the larger side of it."""
     if surface.grid.ndim == 1:
         return
     for axis, name in enumerate(("rows", "columns")):
