@@ -70,8 +70,8 @@ class _Command(TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         try:
             return super().parse_args(ctx, args)
-        except Exception as told:
-            error: Any = told
+        except Exception as raised:
+            error: Any = raised
             # No such option: typers differ in the class.
             if hasattr(error, "possibilities") and (others := _elsewhere(ctx, error.option_name)):
                 error.message, error.possibilities = f"{error.message}; {others}", None

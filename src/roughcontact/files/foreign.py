@@ -72,13 +72,13 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
     """
     with _opened(kind, data) as (reader, stream):
         channels = _channels(reader, stream)
-        index, doubts = choose(channels, channel)
+        index, warnings = choose(channels, channel)
         found = _map(reader, index, channels[index])
         if isinstance(factor := _factor(reader, stream, index), str):
             found = replace(found, unclear=factor)
         if reader.format() in _MATRICES:
             found = heights_alone(found)
-        return replace(found, doubts=(*doubts, *found.doubts, *_left_over(reader, stream)))
+        return replace(found, warnings=(*warnings, *found.warnings, *_left_over(reader, stream)))
 
 
 def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:
@@ -197,7 +197,7 @@ def _units(info: Any) -> tuple[str | None, str | None]:
 
 
 def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
-    """Return a doubt where the channels that the header announces do not end where the file ends."""
+    """Return a warning where the channels that the header announces do not end where the file ends."""
     if left := left_behind_blocks(reader.format(), stream.getvalue()):
         where = f"{left} bytes before" if left > 0 else "beyond"
         return (f"its blocks end {where} the end of the file: it may be damaged",)

@@ -39,7 +39,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
     """Return the height channel of the file; points under its mask are missing, as Gwyddion leaves them out."""
     fields = _fields(data)
     channels = marked([field.channel for field in fields])
-    index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
+    index, warnings = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
     chosen, field = channels[index], fields[index]
     heights = field.heights
     notes: tuple[str, ...] = ()
@@ -58,7 +58,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
             spacing=spacing,
             unclear=field.sides,
             notes=notes,
-            doubts=doubts,
+            warnings=warnings,
         )
     )
 

@@ -139,7 +139,7 @@ def height_map_of(
     spacing = _spacing(variables, axes, heights.shape, unit)
     silent = [axis for axis in axes if axis in variables and not variables[axis].word("unit", "units")]
     borrowed = spacing is not None and "spacing" not in variables and silent
-    doubt = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
+    warning = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
     down = chosen.word("positive") == "down"  # CF's word for depths
     depths = "it states that its values count downwards: they are read with the other sign"
     return HeightMap(
@@ -150,7 +150,7 @@ def height_map_of(
         spacing=spacing,
         periodic=_periodic(variables, axes),
         history=_history(attributes),
-        doubts=(*((doubt,) if borrowed else ()), *((depths,) if down else ())),
+        warnings=(*((warning,) if borrowed else ()), *((depths,) if down else ())),
     )
 
 

@@ -134,7 +134,7 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
         spacing=_spacing(arrays, heights.shape),
         periodic=_periodic(arrays, heights.ndim),
         history=_history(arrays),
-        doubts=(masked,) if covered.any() else (),
+        warnings=(masked,) if covered.any() else (),
     )
     return found if chosen == "heights" else heights_alone(found)
 

@@ -55,15 +55,15 @@ def read_sur(data: bytes) -> HeightMap:
     header = _header(data)
     counts, unread = _counts(data, header)
     notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     if unread:
-        doubts = (f"{unread} bytes at its end belong to no height: its header may be damaged",)
+        warnings = (f"{unread} bytes at its end belong to no height: its header may be damaged",)
     missing = np.zeros(counts.shape, dtype=np.bool_)
     if header["special_points"] == 1:
         missing = counts == int(header["lowest"]) - 2
     outside = ~missing & ((counts < header["lowest"]) | (counts > header["highest"]))
     if outside.any():
-        doubts = (*doubts, f"{int(outside.sum())} heights lie outside the range that its header states")
+        warnings = (*warnings, f"{int(outside.sum())} heights lie outside the range that its header states")
     heights: Array = np.where(missing, np.nan, counts * float(header["dz"]))
     if (inversion := int(header["inversion"])) in (1, 2, 3):
         # 2 and 3 mirror as well; the same reading as that of Gwyddion.
@@ -86,7 +86,7 @@ def read_sur(data: bytes) -> HeightMap:
         unit=_text(header["dz_unit"]) or None,
         spacing=spacing,
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )
 
 

@@ -58,7 +58,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
         if pages is None:
             return read_foreign(".tiff", data, channel)
         channels = _channels(pages)
-        index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
+        index, warnings = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
         page = pages[index]
         heights = _numbers(page, len(data))
         missing, notes = _not_measured(page, heights)
@@ -72,7 +72,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
                     channel=channels[index].name,
                     unclear="a resolution, which is that of a print" if 282 in page.tags else None,
                     notes=(*notes, *((f"turned upright from orientation {turn}",) if turn != 1 else ())),
-                    doubts=(*doubts, *_doubts(page)),
+                    warnings=(*warnings, *_warnings(page)),
                 )
             )
         )
@@ -187,13 +187,13 @@ def _not_measured(page: Any, values: npt.NDArray[Any]) -> tuple[npt.NDArray[np.b
     return missing, (f"not measured where it is {text}, as it states",) if missing.any() else ()
 
 
-def _doubts(page: Any) -> tuple[str, ...]:
-    doubts = []
+def _warnings(page: Any) -> tuple[str, ...]:
+    warnings = []
     if int(page.photometric) == 0:
-        doubts.append(
+        warnings.append(
             "its small numbers are the bright ones (white is zero): they are read as stored, small is low"
         )
     stated = str(page.description) + str(page.tags.valueof(_GDAL, default=""))
     if re.search(r"^c[01]=|role=.(?:scale|offset)", stated, re.MULTILINE):
-        doubts.append("it states a scale or an offset of its numbers, which is not applied")
-    return tuple(doubts)
+        warnings.append("it states a scale or an offset of its numbers, which is not applied")
+    return tuple(warnings)

@@ -23,13 +23,13 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 from roughcontact.validation import Array, Mask
 
-__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
+__all__ = ["ROUNDING_FLOOR", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
 
 
-# Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
+# A pressure is stored to half a unit in its last place, and so is its displacement. So at given force
 # the gap can be no better than some units in the last place of what the largest pressure does in its own cell. Where
 # uniform pressure moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
-UNITS = 16 * float(np.finfo(np.float64).eps)
+ROUNDING_FLOOR = 16 * float(np.finfo(np.float64).eps)
 
 
 class Iterate(NamedTuple):
@@ -195,8 +195,10 @@ class Optimality:
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        floor = UNITS * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
-        return min(relative, UNITS) if violation <= floor else relative
+        floor = (
+            ROUNDING_FLOOR * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
+        )
+        return min(relative, ROUNDING_FLOOR) if violation <= floor else relative
 
     def predict_free_set(
         self, iterate: Iterate, *, depth: float, allowed: float, first: bool = False

@@ -1,4 +1,4 @@
-"""The law of adhesion as options, and what a reader of an adhesive state should doubt."""
+"""The law of adhesion as options, and warnings for a reader of an adhesive state."""
 
 from __future__ import annotations
 

@@ -192,7 +192,9 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
     if search.single_feature:
         until = (
-            "over the whole range" if search.released is None else f"up to {search.released:.3g} {force_unit}"
+            "over the whole range"
+            if search.shared_from is None
+            else f"up to {search.shared_from:.3g} {force_unit}"
         )
         yield (
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
