@@ -205,7 +205,7 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
     said.wait_for(timeout=1000 * PATIENCE)
     person.page.locator("#surface[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
     assert person.text("roughness") == ""
-    assert "16 x 16" in person.text("held_facts")
+    assert "16 x 16" in person.text("surface_facts")
 
 
 def test_what_is_being_typed_outlives_an_answer(person, part):

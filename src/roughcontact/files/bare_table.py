@@ -35,11 +35,9 @@ def heights_alone(found: HeightMap) -> HeightMap:
     if (points := points_in(values)) is not None:
         return _on_grid(found, points)
     axes = axes_of(values)
-    return (
-        found
-        if axes is None
-        else replace(found, heights=axes.heights, warnings=(*found.warnings, axes.warning))
-    )
+    if axes is None:
+        return found
+    return replace(found, heights=axes.heights, warnings=(*found.warnings, axes.warning))
 
 
 def points_in(values: Array) -> Array | None:

@@ -49,6 +49,7 @@ def read_text(data: bytes) -> HeightMap:
     if axes is not None:
         warnings = (*warnings, axes.warning)
     heights, stated, near = without_marks(heights, header.missing)
+    missing = () if stated_rows(table.comments) else _rows_missing(header, (ny, nx))
     return HeightMap(
         as_heights(heights),
         "text" if header == TextHeader(warnings=header.warnings) else "text with a header",
@@ -57,11 +58,7 @@ def read_text(data: bytes) -> HeightMap:
         spacing=header.spacing((ny, nx)) or _cell_of(axes, header.lateral or _lateral(table)),
         unclear=header.unclear,
         notes=(*notes, *stated),
-        warnings=(
-            *warnings,
-            *near,
-            *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx))),
-        ),
+        warnings=(*warnings, *near, *missing),
     )
 
 

@@ -121,15 +121,14 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
     warnings: list[str] = []
     for line in lines:
         label, value = _parts(line)
-        name = next((name for name, words in _LABELS_OF.items() if words.fullmatch(label)), None)
+        name = next((name for name, each in _LABELS_OF.items() if each.fullmatch(label)), None)
         if name == "missing":
             missing += _numbers(value)
         elif name is not None and value:
             stated.setdefault(name, value)
         elif _SCALES.fullmatch(label) and not _is_one(value):
-            warnings.append(
-                f"its header states {line.strip()[:60]!r}, which is not applied: check the heights"
-            )
+            words = line.strip()[:60]
+            warnings.append(f"its header states {words!r}, which is not applied: check the heights")
     for name, axis, points in (("height", "y", shape[0]), ("width", "x", shape[1])):
         if _value(stated.get(name)) == points:
             del stated[name]  # pixels

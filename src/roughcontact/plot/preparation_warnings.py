@@ -121,6 +121,5 @@ def _cells(surface: Surface) -> Iterator[PreparationWarning]:
         yield PreparationWarning("few cells", words, remedy)
     if surface.missing:
         words = f"{surface.missing / surface.grid.size:.2%}, which contact leaves out"
-        yield PreparationWarning(
-            "missing points", words, "--fill for spectra and filters, or --crop", ("fill", "")
-        )
+        remedy = "--fill for spectra and filters, or --crop"
+        yield PreparationWarning("missing points", words, remedy, ("fill", ""))

@@ -26,9 +26,9 @@ from roughcontact.validation import Array, Mask
 __all__ = ["ROUNDING_FLOOR", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
 
 
-# A pressure is stored to half a unit in its last place, and so is its displacement. So at given force
-# the gap can be no better than some units in the last place of what the largest pressure does in its own cell. Where
-# uniform pressure moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
+# A pressure is stored to half a unit in its last place, and so is its displacement. So at given force the gap can be no
+# better than some units in the last place of what the largest pressure does in its own cell. Where uniform pressure
+# moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
 ROUNDING_FLOOR = 16 * float(np.finfo(np.float64).eps)
 
 
@@ -195,9 +195,8 @@ class Optimality:
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        floor = (
-            ROUNDING_FLOOR * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
-        )
+        under_force = isinstance(self.spec.control, Force)
+        floor = ROUNDING_FLOOR * self.self_influence * strongest if under_force else 0.0
         return min(relative, ROUNDING_FLOOR) if violation <= floor else relative
 
     def predict_free_set(

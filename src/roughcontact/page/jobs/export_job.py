@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["export"]
 
+Writers = dict[str, Callable[[Path], None]]  # by the names of their files
 _KINDS = ("csv", "nc", "png", "svg", "zip")
 
 
@@ -69,7 +70,7 @@ def _everything(request: PageRequest, cache: SessionCache, statement: Statement,
     surface = cache.surface(recipe, request.files)
     rc.write(surface, folder / "surface.npz")
     save(surface_figure(surface), folder / "surface.png")
-    written: dict[str, Callable[[Path], None]] = {}
+    written: Writers = {}
     if recipe.load is not None:
         written |= _load_files(cache.solution(recipe, request.files), request, statement)
     if recipe.loads is not None:
@@ -83,9 +84,7 @@ def _everything(request: PageRequest, cache: SessionCache, statement: Statement,
     write_json({"file": request.file}, folder / "provenance.json", source)
 
 
-def _load_files(
-    solution: Solution, request: PageRequest, statement: Statement
-) -> dict[str, Callable[[Path], None]]:
+def _load_files(solution: Solution, request: PageRequest, statement: Statement) -> Writers:
     """Return how the files of a load are written, by their names."""
     from roughcontact.contact.dataset import solution_dataset, solution_record
     from roughcontact.files.provenance import provenance
@@ -114,9 +113,7 @@ def _load_files(
     }
 
 
-def _curve_files(
-    request: PageRequest, cache: SessionCache, statement: Statement
-) -> dict[str, Callable[[Path], None]]:
+def _curve_files(request: PageRequest, cache: SessionCache, statement: Statement) -> Writers:
     """Return how the files of a curve and of what was asked for beside it are written, by their names."""
     from roughcontact.contact.compare import with_theories
     from roughcontact.contact.dataset import curve_dataset, curve_record
