@@ -43,10 +43,7 @@ def defect_correction(
     while True:
         # D1, later D3: the inexact problem, on which the defect acts as a part of the separation
         state = solver.run(operator, separation + defect, inner, pressure)
-        pressure, steps = (
-            state.pressure,
-            steps + state.steps + 1,
-        )  # D4: what it finds is the corrected pressure
+        pressure, steps = state.pressure, steps + state.steps + 1  # D4: it is corrected already
         displacement = exact.apply(pressure)  # D2
         depth, residual, _, extremes = conditions.evaluate(Iterate(pressure, displacement, separation))
         met, reduced = residual <= spec.tolerance, residual < best / 2
