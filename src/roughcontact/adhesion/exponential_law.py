@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.validation import Array
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.adhesion.elastic_form import ElasticForm
 
 __all__ = ["ExponentialLaw"]
 
@@ -25,6 +30,13 @@ class ExponentialLaw:
 
     work: float | Array
     range: float
+
+    @classmethod
+    def on_cells(
+        cls, adhesion: Adhesion, work: Array, form: ElasticForm, separation: Array, modulus: float
+    ) -> ExponentialLaw:
+        """Return the law on the cells of a computation: it is evaluated at the gap of each cell."""
+        return cls(work, adhesion.range)
 
     @property
     def strength(self) -> float:

@@ -154,17 +154,17 @@ class Optimality:
         return p  # type: ignore[no-any-return]
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
-        """Return depth and residual of an iterate."""
+        """Return depth and residual of an iterate (A3, A4): in one pass in machine code where there is one."""
         spec, measure, passes = self.spec, self.measure, self.passes
         if passes is not None and passes.fit(*iterate):
             return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
         between = (pressure > 0) & (pressure < spec.hardness)
-        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth
+        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth  # A3
         gap -= depth
         scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
-        return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
+        return Evaluation(depth, self.residual(pressure, displacement, gap), scale)  # A4
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
         """Return the largest violation of the conditions, relative to the largest displacement.
@@ -240,8 +240,8 @@ class Optimality:
         if extremes is None or (not extremes.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:
-            depth = extremes.level / extremes.count
-        residual = math.inf
+            depth = extremes.level / extremes.count  # A3: the mean of u + f over the cells under pressure
+        residual = math.inf  # A4
         if extremes.weakest >= 0:
             violation = max(depth - extremes.lowest, extremes.highest - depth)
             residual = self.relative(violation, extremes.displacement, extremes.strongest)

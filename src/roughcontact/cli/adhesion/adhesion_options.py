@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
+from roughcontact.adhesion.attraction import LAWS
 from roughcontact.cli.messages import note
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.unit_options import ENERGY_PER_AREA, LENGTH, parse_positive
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_unresolved", "parse_work"]
 
-LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE"])
+LawChoice = StrEnum("LawChoice", list(LAWS))  # type: ignore[misc]  # no literal: it grows with the table
 _PANEL = "Adhesion"
 WORK: str = option(
     "Work of adhesion: the energy that parts a unit area.", "50mJ/m^2", default=..., rich_help_panel=_PANEL
@@ -33,7 +34,7 @@ class AdhesionLaw:
         "20nm",
         default=...,
     )
-    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice.EXPONENTIAL)
+    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice("exponential"))
     allow_unresolved: bool = option(
         "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",
         default=False,
@@ -50,8 +51,7 @@ class AdhesionLaw:
         import roughcontact as rc
 
         length = parse_positive(self.range, LENGTH, "--range", "the range of the attraction")
-        law: Any = self.law.value
-        return rc.Adhesion(parse_work(self.work), length, law, self.allow_unresolved)
+        return rc.Adhesion(parse_work(self.work), length, self.law.value, self.allow_unresolved)
 
 
 def parse_work(text: str) -> float:
