@@ -43,8 +43,8 @@ def test_numbers_of_the_law():
 def test_a_law_of_the_table_is_known_by_its_name_and_computed_with(monkeypatch):
     class Half(ExponentialLaw):
         @classmethod
-        def on_cells(cls, adhesion, work, form, separation, modulus):
-            return cls(work / 2, adhesion.range)
+        def on_cells(cls, work, length, strength, form, separation, modulus):
+            return cls(work / 2, length)
 
     assert get_args(Law) == tuple(LAWS)
     surface, given = rough(16, periodic=False, slope=0.1, seed=1), sticky(3.0)

@@ -129,9 +129,12 @@ class Attraction(Protocol):
 
     @classmethod
     def on_cells(
-        cls, adhesion: Adhesion, work: Array, form: ElasticForm, separation: Array, modulus: float
+        cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
     ) -> Attraction:
-        """Return the law on the cells of a computation; parameters as of `law_on`, `work` on cells [J/m^2]."""
+        """Return the law on the cells of a computation.
+
+        Work [J/m^2] of each cell, range [m] and strength [Pa] of the adhesion; the rest as of `law_on`.
+        """
 
     @property
     def work(self) -> float | Array:

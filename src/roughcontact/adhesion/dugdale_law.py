@@ -18,7 +18,6 @@ from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:
-    from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.elastic_form import ElasticForm
 
 __all__ = ["DugdaleLaw"]
@@ -52,14 +51,14 @@ class DugdaleLaw:
 
     @classmethod
     def on_cells(
-        cls, adhesion: Adhesion, work: Array, form: ElasticForm, separation: Array, modulus: float
+        cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
     ) -> DugdaleLaw:
         """Return the law on the cells of a computation, with the spread of the gaps within a few cells."""
         grid = form.grid
         widths = np.diff(grid.edges) if isinstance(grid, RadialGrid) else max(grid.spacing)
-        spread = UNDEFORMED * _across(grid, separation) + DEFORMED * adhesion.strength / modulus * widths
-        spread = np.minimum(spread, 2 * adhesion.range)
-        return cls(work, adhesion.range, form.extended(spread, adhesion.range))
+        spread = UNDEFORMED * _across(grid, separation) + DEFORMED * strength / modulus * widths
+        spread = np.minimum(spread, 2 * length)
+        return cls(work, length, form.extended(spread, length))
 
     @property
     def strength(self) -> float:

@@ -10,7 +10,6 @@ import numpy as np
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:
-    from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.adhesion.elastic_form import ElasticForm
 
 __all__ = ["ExponentialLaw"]
@@ -33,10 +32,10 @@ class ExponentialLaw:
 
     @classmethod
     def on_cells(
-        cls, adhesion: Adhesion, work: Array, form: ElasticForm, separation: Array, modulus: float
+        cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
     ) -> ExponentialLaw:
         """Return the law on the cells of a computation: it is evaluated at the gap of each cell."""
-        return cls(work, adhesion.range)
+        return cls(work, length)
 
     @property
     def strength(self) -> float:

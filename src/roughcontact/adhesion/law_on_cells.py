@@ -24,4 +24,5 @@ def law_on(adhesion: Adhesion, form: ElasticForm, separation: Array, modulus: fl
         Reduced modulus E* [Pa].
     """
     work = form.extended(np.where(np.isfinite(separation), adhesion.work, 0.0), 0.0)
-    return LAWS[adhesion.law].on_cells(adhesion, work, form, separation, modulus)
+    law = LAWS[adhesion.law]
+    return law.on_cells(work, adhesion.range, adhesion.strength, form, separation, modulus)
