@@ -49,11 +49,11 @@ def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     expected = json.loads(json.dumps(state.to_record()))
     assert {name: record[name] for name in expected} == expected
     assert record["converged"] is True
-    assert (tmp_path / "out" / "pressure.png").stat().st_size > 1000
-    with xarray.open_dataset(tmp_path / "out" / "pressure.nc") as dataset:
+    assert (tmp_path / "out" / "adhesive_state.png").stat().st_size > 1000
+    with xarray.open_dataset(tmp_path / "out" / "adhesive_state.nc") as dataset:
         np.testing.assert_array_equal(dataset["pressure"], state.pressure)
         assert "depth = -2e-08 m" in dataset.attrs["input_control"]
-    assert json.loads((tmp_path / "out" / "press.json").read_text())["provenance"]["input_sha256"]
+    assert json.loads((tmp_path / "out" / "adhesive_state.json").read_text())["provenance"]["input_sha256"]
 
 
 def test_a_press_takes_a_pressure_and_a_mean_gap(invoke, whole):
@@ -82,16 +82,38 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     record, expected = json.loads(answer.stdout), json.loads(json.dumps(curve.to_record()))
     assert {name: record[name] for name in expected} == expected
     assert record["branch"] == ["approach", "approach", "retreat"]
-    back = rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")
+    back = rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")
     np.testing.assert_array_equal(back.force, curve.force)
     assert back.jumps == curve.jumps
     table = np.genfromtxt(
-        tmp_path / "out" / "curve.csv", delimiter=",", names=True, usecols=("force", "depth")
+        tmp_path / "out" / "adhesive_curve.csv", delimiter=",", names=True, usecols=("force", "depth")
     )
     np.testing.assert_array_equal(table["force"], curve.force)
-    lines = (tmp_path / "out" / "jumps.csv").read_text().splitlines()
+    lines = (tmp_path / "out" / "adhesive_curve_jumps.csv").read_text().splitlines()
     assert len([line for line in lines if not line.startswith("#")]) == 1 + len(curve.jumps)
-    assert (tmp_path / "out" / "curve.png").stat().st_size > 1000
+    assert (tmp_path / "out" / "adhesive_curve.png").stat().st_size > 1000
+
+
+def test_one_folder_holds_the_files_of_all_commands(invoke, rough, tmp_path):
+    given = (rough, *MODULUS, "--out", tmp_path)
+    held: dict[str, bytes] = {}
+    for words in (
+        ("press", "--force", "1uN"),
+        ("curve", "--forces", "1uN,2uN"),
+        ("adhesion", "press", "--depth", "-20nm", *STICKS),
+        ("adhesion", "curve", *FEW, *STICKS),
+        ("adhesion", "loop", "--depth", "20nm", "--points", "3", *STICKS),
+        ("adhesion", "detach", "--depth", "0.15um", "--work", "10mJ/m^2"),
+    ):
+        assert invoke(*words, *given).exit_code == 0
+        written = {each.name: each.read_bytes() for each in tmp_path.iterdir()}
+        assert held.items() < written.items()  # new files, and the old ones as they were
+        held = written
+    for name in ("adhesive_loop.nc", "detachment.nc"):
+        told = invoke("conductance", tmp_path / name, "--resistivity", "17nohm*m")
+        assert told.exit_code == 2
+        assert f"{name} holds a path of surfaces that stick, whose conductance is not computed" in told.stderr
+    assert invoke("conductance", tmp_path, "--resistivity", "17nohm*m").exit_code == 0
 
 
 def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
@@ -168,7 +190,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
-    assert len(rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")) == 2
+    assert len(rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")) == 2
     loop = ("--depth", "50nm", "--points", "4", "--out", tmp_path / "loop")
     answer = invoke("adhesion", "loop", rough, *MODULUS, *STICKS, *loop)
     assert answer.exit_code == 130

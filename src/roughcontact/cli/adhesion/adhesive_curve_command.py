@@ -79,7 +79,7 @@ def loop(
 ) -> None:
     """Bring a surface that sticks to a depth and back until it is off: pull-off force, jumps and the lost energy.
 
-    The approach begins ten ranges of the attraction apart. Files are those of 'adhesion curve'.
+    The approach begins ten ranges of the attraction apart.
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
         from roughcontact.adhesion.adhesive_loop import loop_depths
@@ -120,7 +120,8 @@ def _answer(
             states, lambda states: collect_states(states, loads), "Approach and retreat", total
         )
         file = reading.source.file
-        path = PathAnswer(command, file, surface, found, whole, "curve", "jump", found.converged)
+        stem = f"adhesive_{command}"
+        path = PathAnswer(command, file, surface, found, whole, stem, f"{stem}_jumps", found.converged)
         if folder is not None:
             path.write(folder, control, jump_figure, asked.ending)
     law = law_facts(adhesion, modulus, surface.grid.spacing)

@@ -76,7 +76,7 @@ def press(
             size, *others = adhesive_facts(state)
             print_facts([size, *pressed.facts(), *others])
         note_unresolved(state.unresolved)
-        note_files(folder, ("press.json", "pressure.nc", f"pressure.{answer.ending}"))
+        note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
         if not state.status.converged:
             raise typer.Exit(MISSED)
 
@@ -96,6 +96,6 @@ def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: 
         command=command_line(),
     )
     with all_or_none(folder) as aside:
-        write_netcdf(state.to_dataset(), aside / "pressure.nc", source)
-        save(state_figure(state), aside / f"pressure.{ending}")
-        write_json(record, aside / "press.json", source)
+        write_netcdf(state.to_dataset(), aside / "adhesive_state.nc", source)
+        save(state_figure(state), aside / f"adhesive_state.{ending}")
+        write_json(record, aside / "adhesive_state.json", source)

@@ -61,7 +61,7 @@ def detach(
                 states, lambda states: collect_detachments(states, kind), "Drawing back", total
             )
             converged = preload.status.converged and found.converged
-            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachment", converged)
+            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachments", converged)
             if folder is not None:
                 [(name, value)] = given.items()
                 control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
