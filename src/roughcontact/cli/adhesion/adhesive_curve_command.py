@@ -22,13 +22,13 @@ __all__ = ["EXAMPLES", "curve", "loop"]
 
 EXAMPLES = {
     "curve": """
-roughcontact adhesion curve part.x3p --depths -20nm:20nm:9,-20nm --modulus 10MPa --work 50mJ/m^2 --range 20nm
-roughcontact adhesion curve part.x3p --forces 0N,1mN,-1mN --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
-roughcontact adhesion curve part.x3p --mean-gaps 3um:1um:5,3um --periodic --modulus 10MPa --work 50mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --depths -20nm:40nm:4,-20nm --modulus 1GPa --work 10mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --forces 1mN,0N,-1mN --modulus 1GPa --work 10mJ/m^2 --range 50nm --out result
+roughcontact adhesion curve part.x3p --mean-gaps 0.3um:0.2um:3,0.3um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
 """,
     "loop": """
-roughcontact adhesion loop part.x3p --depth 100nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
-roughcontact adhesion loop part.x3p --depth 20nm --points 10 --modulus 10MPa --work 50mJ/m^2 --range 20nm --json
+roughcontact adhesion loop part.x3p --depth 50nm --points 8 --modulus 1GPa --work 10mJ/m^2 --range 20nm --out result
+roughcontact adhesion loop part.x3p --depth 20nm --points 5 --modulus 1GPa --work 10mJ/m^2 --range 50nm --json
 """,
 }
 
