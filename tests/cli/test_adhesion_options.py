@@ -210,7 +210,7 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
     answer = invoke(*words, "--range", "20nm")
     assert answer.exit_code == 2
     assert "give --allow-unresolved" in answer.stderr
-    longer = answer.stderr.split("a range of at least ")[1].split(" m")[0]
+    longer = answer.stderr.split("a range of at least ")[1].split(", ")[0]
     assert invoke(*words, "--range", longer).exit_code == 0
     path = ("adhesion", "curve", rough, "--depths", "-10nm,10nm", *MODULUS, "--work", "10mJ/m^2")
     for command in (words, path):

@@ -74,9 +74,11 @@ ADHESION = [
     ),
     row(
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9), force=1e-9),
-        "cells of at most 1.69e-08 m or a range of at least 1.54e-08 m, or give the adhesion allow_unresolved=True",
+        "cells of at most 1.69e-08 m or a range of at least 1.54e-08 m, use detachment_path, which needs no range, "
+        "or give the adhesion allow_unresolved=True",
         lambda: stuck(heights(rc.Grid((16, 16), 1.69e-8)), rc.Adhesion(0.05, 2e-9), force=1e-9),
         lambda: stuck(adhesion=rc.Adhesion(0.05, 1.54e-8), force=1e-9),
+        lambda: detached(work=0.05, depths=[0.0]),
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-9),
     ),
     row(
