@@ -24,7 +24,7 @@ EXAMPLES = {
     "curve": """
 roughcontact adhesion curve part.x3p --depths -20nm:40nm:4,-20nm --modulus 1GPa --work 10mJ/m^2 --range 20nm
 roughcontact adhesion curve part.x3p --forces 1mN,0N,-1mN --modulus 1GPa --work 10mJ/m^2 --range 50nm --out result
-roughcontact adhesion curve part.x3p --mean-gaps 0.3um:0.2um:3,0.3um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --mean-gaps 0.3um,0.2um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
 """,
     "loop": """
 roughcontact adhesion loop part.x3p --depth 50nm --points 8 --modulus 1GPa --work 10mJ/m^2 --range 20nm --out result

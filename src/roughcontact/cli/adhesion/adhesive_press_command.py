@@ -25,9 +25,9 @@ __all__ = ["EXAMPLES", "press"]
 
 EXAMPLES = {
     "press": """
-roughcontact adhesion press part.x3p --depth -2nm --modulus 1GPa --work 10mJ/m^2 --range 20nm --out result
+roughcontact adhesion press part.x3p --depth -2nm --modulus 1GPa --work 10mJ/m^2 --range 20nm --law dugdale --out result
 roughcontact adhesion press part.x3p --force 1mN --modulus 1GPa --work 10mJ/m^2 --range 20nm
-roughcontact adhesion press part.x3p --mean-gap 0.2um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm --law dugdale
+roughcontact adhesion press part.x3p --mean-gap 0.2um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
 """,
 }
 
