@@ -223,7 +223,7 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--range", "2nm"), "Missing option '--work'"),
+        (("--range", "2nm"), "Missing option '--work'. Give one such as --work 50mJ/m^2"),
         (("--work", "50mJ/m^2"), "Missing option '--range'"),
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
@@ -289,6 +289,16 @@ def test_an_option_of_the_other_press_says_where_it_is(invoke, rough):
     assert "No such option: --work; use 'roughcontact adhesion press' for it" in answer.stderr
     answer = invoke("adhesion", "press", *words, *STICKS, "--hardness", "1GPa")
     assert "No such option: --hardness; use 'roughcontact press' for it" in answer.stderr
+    for option, commands in (
+        ("--points", "'roughcontact adhesion loop'"),
+        (
+            "--range",
+            "'roughcontact adhesion press' or 'roughcontact adhesion curve' or 'roughcontact adhesion loop'",
+        ),
+    ):
+        told = invoke("adhesion", "detach", *words, "--work", "1mJ/m^2", option, "20").stderr
+        told = " ".join(told.replace("│", "").split())
+        assert f"No such option: {option}; use {commands} for it" in told
     told = invoke("press", *words, "--pressures", "1kPa").stderr  # of curve, which is no press
     assert "Possible options" in told
     assert "for it" not in told

@@ -40,7 +40,7 @@ _TURN: str = option(
     rich_help_panel=_PANEL,
 )
 _POINTS: int = option(
-    "Depths of the approach, in even steps; the retreat has the same steps.",
+    "Even steps in depth of the approach; the retreat has the same steps.",
     "N",
     default=40,
     min=2,
