@@ -5,6 +5,7 @@ import pytest
 
 import roughcontact as rc
 from followed import LINE, MODULUS, PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, row
+from roughcontact.theory.law import LoadingLaw
 
 STEEL = rc.Solid(205e9, 0.29)
 PAIR = (STEEL, STEEL)
@@ -260,8 +261,11 @@ ANSWERS = [
     ),
     row(
         lambda: curve(forces=RISING).compare("gw"),
-        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0]",
+        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own",
         lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "gw")[0]),
+        lambda: curve(forces=RISING).compare(
+            LoadingLaw("own", "notes", {"depth": lambda force: force / 1e5})
+        ),
     ),
     row(
         lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, 2 * MODULUS, "gw")[0]),
