@@ -148,6 +148,17 @@ def test_forces_go_up_and_down(invoke, rough):
     assert record["branch"] == ["approach"] * 3 + ["retreat"]
 
 
+def test_a_range_beyond_the_heights_is_noted(invoke, rough):
+    span = np.ptp(rc.read(rough).heights)
+    words = ("adhesion", "press", rough, "--depth", "0nm", *MODULUS, "--work", "10mJ/m^2", "--range")
+    beyond, within = (invoke(*words, f"{share * span:.9e}") for share in (1.001, 0.999))
+    assert (beyond.exit_code, within.exit_code) == (0, 0)
+    assert "from lowest to highest: a --range without a unit is in metres" in beyond.stderr
+    assert "from lowest to highest" not in within.stderr
+    path = ("adhesion", "curve", rough, "--depths", "0nm", *MODULUS, "--work", "10mJ/m^2", "--range", "2")
+    assert "Note: the range of 2 m is longer than the surface is high" in invoke(*path).stderr
+
+
 def test_pressures_go_up_and_down(invoke, rough):
     words = ("adhesion", "curve", rough, "--pressures", "0Pa:2kPa:3,-1kPa", *MODULUS, *STICKS, "--json")
     record = json.loads(invoke(*words).stdout)

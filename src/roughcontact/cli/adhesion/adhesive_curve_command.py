@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_unresolved
+from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_long_range, note_unresolved
 from roughcontact.cli.load_options import AdhesiveLoads, unit_of_loads
 from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
@@ -110,6 +110,7 @@ def _answer(
 
     with output(asked.out) as folder:
         surface, modulus = reading.surface(), elasticity.reduced_modulus()
+        note_long_range(adhesion, surface)
         states = states_under(
             surface, modulus, adhesion, loads, reading.body(surface, modulus), asked.residual
         )

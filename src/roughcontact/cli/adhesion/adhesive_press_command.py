@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_unresolved
+from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_long_range, note_unresolved
 from roughcontact.cli.contact.profile_options import kinds_of
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.load_options import AdhesiveLoad
@@ -52,6 +52,7 @@ def press(
         modulus, adhesion, tolerance = elasticity.reduced_modulus(), law.adhesion(), answer.residual
         with output(answer.out) as folder:
             surface = reading.surface()
+            note_long_range(adhesion, surface)
             pressed = Pressed.of(surface, modulus, None)
             limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
             state: AdhesiveState = best_state(
