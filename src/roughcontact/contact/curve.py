@@ -290,7 +290,8 @@ class Curve:
         """
         if not hasattr(theory, "quantities"):
             raise ValueError(
-                f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {theory!r}"
+                "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own, "
+                f"not {theory!r}"
             )
         if self.geometry is Geometry.LINE:
             raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")

@@ -6,15 +6,19 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
+
 from roughcontact.adhesion.attraction import LAWS
 from roughcontact.cli.messages import note
 from roughcontact.cli.option_groups import option
+from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import ENERGY_PER_AREA, LENGTH, parse_positive
 
 if TYPE_CHECKING:
     from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.surface.surface import Surface
 
-__all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_unresolved", "parse_work"]
+__all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_long_range", "note_unresolved", "parse_work"]
 
 LawChoice = StrEnum("LawChoice", list(LAWS))  # type: ignore[misc]  # no literal: it grows with the table
 _PANEL = "Adhesion"
@@ -63,6 +67,16 @@ def parse_work(text: str) -> float:
         If it is not positive.
     """
     return parse_positive(text, ENERGY_PER_AREA, "--work", "the work of adhesion")
+
+
+def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
+    """Say on standard error if the attraction reaches beyond the heights of a surface: a forgotten unit."""
+    span = float(np.nanmax(surface.heights) - np.nanmin(surface.heights))
+    if adhesion.range > span > 0:
+        note(
+            f"the range of {quantity('adhesion_range', adhesion.range)} is longer than the surface is high, "
+            f"{quantity('depth', span)} from lowest to highest: a --range without a unit is in metres"
+        )
 
 
 def note_unresolved(unresolved: bool) -> None:

@@ -188,5 +188,5 @@ def synthesise(
 def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
     if rms is None:
         return ""
-    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} to {rms_band[1]:g} m"
+    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} m to {rms_band[1]:g} m"
     return f", rms = {rms:g} m{of}"
