@@ -73,9 +73,10 @@ def test_the_contact_area_breaks_at_jumps(loop):
     for name, way in (("approach", True), ("retreat", False)):
         drawn = names[name]
         expected = np.stack([loop.depth * NM, 100 * loop.contact_area / loop.nominal_area], 1)
-        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[loop.approach == way])
+        turn = [] if way else [np.flatnonzero(loop.approach)[-1]]  # where the retreat begins
+        points = np.concatenate([turn, np.flatnonzero(loop.approach == way)]).astype(int)
+        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[points])
         breaks = sorted({at for at in loop.jumped if loop.approach[at] == way})
-        points = np.flatnonzero(loop.approach == way)
         [gaps] = np.isnan(drawn[:, 1]).nonzero()
         # Before each point that jumps led to, counted without the gaps before it.
         assert [*gaps - np.arange(len(gaps))] == [*np.searchsorted(points, breaks)] != []
