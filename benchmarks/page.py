@@ -32,11 +32,11 @@ PATIENCE = 300_000  # milliseconds
 SHOWN = """(field, start, act) => new Promise((resolve) => {
   const canvas = document.getElementById("map");
   const watch = new MutationObserver(() => {
-    if (!(canvas.dataset.holds || "").includes(field)) return;
+    if (!(canvas.dataset.fields || "").includes(field)) return;
     watch.disconnect();
     requestAnimationFrame(() => resolve(performance.now() - start));
   });
-  watch.observe(canvas, { attributes: true, attributeFilter: ["data-holds"] });
+  watch.observe(canvas, { attributes: true, attributeFilter: ["data-fields"] });
   act();
 })"""
 DROP = f"""([name, text]) => {{
@@ -53,26 +53,26 @@ SLIDE = f"""(step) => {{
   }});
 }}"""
 IDLE = """() => document.getElementById("view").getAttribute("aria-busy") === "false"
-  && (document.getElementById("map").dataset.holds || "").includes("gap")"""
-# From the request to stop to the end of the answer; from the next order to its map.
+  && (document.getElementById("map").dataset.fields || "").includes("gap")"""
+# From the request to stop to the end of the answer; from the next one to its map.
 CANCEL = """async ([long, short]) => {
   const { session } = await (await fetch("/session", { method: "POST" })).json();
-  const order = async (key, asked) => (await fetch(`/order?session=${session}`,
-    { method: "POST", body: JSON.stringify({ ...asked, lane: "front", key, more: {} }) })).body.getReader();
+  const request = async (key, asked) => (await fetch(`/request?session=${session}`,
+    { method: "POST", body: JSON.stringify({ ...asked, queue: "front", key, more: {} }) })).body.getReader();
   const words = new TextDecoder();
   const until = async (reader, found) => {
     for (let read = await reader.read(); !read.done; read = await reader.read()) {
       if (found && words.decode(read.value).includes(found)) return;
     }
   };
-  const first = await order("1", long);
+  const first = await request("1", long);
   await until(first, "Looking");
   await new Promise((resolve) => setTimeout(resolve, 1000)); // into the middle of the work
   const asked = performance.now();
-  fetch(`/stop?session=${session}&lane=front&key=1`, { method: "POST" });
+  fetch(`/stop?session=${session}&queue=front&key=1`, { method: "POST" });
   await until(first, null);
   const over = performance.now();
-  const second = await order("2", short);
+  const second = await request("2", short);
   await until(second, '"map":"pressure"');
   const there = performance.now();
   await until(second, null);

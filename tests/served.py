@@ -87,10 +87,10 @@ class Served:
         assert status == 200, words
         return json.loads(words)["file"]
 
-    def order(self, session, job, recipe, *, lane="front", key="1", more=None):
-        """Yield the messages that answer an order, as their headers."""
-        asked = {"lane": lane, "job": job, "recipe": recipe, "more": more or {}, "key": key}
-        with self.open("POST", f"/order?session={session}", json.dumps(asked).encode()) as response:
+    def request(self, session, job, recipe, *, queue="front", key="1", more=None):
+        """Yield the messages that answer a request, as their headers."""
+        asked = {"queue": queue, "job": job, "recipe": recipe, "more": more or {}, "key": key}
+        with self.open("POST", f"/request?session={session}", json.dumps(asked).encode()) as response:
             assert response.status == 200
             while start := response.read(LENGTHS):
                 words, data = lengths_of(start)

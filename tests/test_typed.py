@@ -13,7 +13,7 @@ import pytest
 import roughcontact as rc
 import roughcontact_thesis
 from public_names import public_names
-from roughcontact.theory.laws import Knowns, SurfaceFacts
+from roughcontact.theory.laws import GivenValues, LawInputs
 
 # What has no type: tables of pandas, views of mpl_toolkits, options of Dask's cluster, entries of a study's file, and
 # what a figure of the thesis draws, each its own.
@@ -74,4 +74,4 @@ def test_the_types_of_all_public_names_are_known(pytestconfig, tmp_path):
 
 
 def test_keywords_of_theories_are_the_fields_of_what_they_become():
-    assert ["modulus", *Knowns.__annotations__] == [field.name for field in fields(SurfaceFacts)]
+    assert ["modulus", *GivenValues.__annotations__] == [field.name for field in fields(LawInputs)]

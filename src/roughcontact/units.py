@@ -56,10 +56,15 @@ def as_text(value: Any) -> Any:
     carried = None if type(value) in PLAIN else _unit_of(value)
     if carried is None:
         return value
-    unit = carried.decode("utf-8", "replace") if isinstance(carried, bytes) else str(carried)
+    unit = word_of(carried)
     numbers = np.asarray(_numbers_of(value), dtype=np.float64)
     texts = [f"{number!r} {unit}" for number in numbers.reshape(-1).tolist()]
     return texts if numbers.ndim else texts[0]
+
+
+def word_of(value: Any) -> str:
+    """Return a word, which some files hold as bytes."""
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
 @cache
@@ -111,7 +116,7 @@ def _unmasked(values: Any) -> Any:
 
 def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
     """Return plain numbers in `unit`; a value of pint or astropy goes to the base units of its own library first."""
-    stated = words = carried.decode("utf-8", "replace") if isinstance(carried, bytes) else str(carried)
+    stated = words = word_of(carried)
     if hasattr(value, "to_base_units"):
         value = value.to_base_units()
         words = str(value.units)

@@ -346,8 +346,8 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
     try:
         np.broadcast_shapes(*shapes.values())
     except ValueError as error:
-        told = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
-        raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {told}") from error
+        given = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
+        raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {given}") from error
 
 
 def _is_a(kind: str, value: Any) -> bool:

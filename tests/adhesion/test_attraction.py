@@ -1,12 +1,16 @@
 """The law of adhesion and its border."""
 
 import math
+from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.adhesion.attraction import LAWS, Law
 from roughcontact.adhesion.exponential_law import ExponentialLaw
+from sticking import rough, sticky
 
 
 def test_the_attraction_is_the_slope_of_its_energy_and_does_the_work_of_adhesion():
@@ -36,6 +40,25 @@ def test_numbers_of_the_law():
     assert math.isclose(adhesion.tabor(1e-6, 1e9) ** 3, 1e-6 * 0.05**2 / (1e18 * 8e-27))
 
 
+def test_a_law_of_the_table_is_known_by_its_name_and_computed_with(monkeypatch):
+    class Half(ExponentialLaw):
+        @classmethod
+        def on_cells(cls, work, length, strength, form, separation, modulus):
+            return cls(work / 2, length)
+
+    assert get_args(Law) == tuple(LAWS)
+    surface, given = rough(16, periodic=False, slope=0.1, seed=1), sticky(3.0)
+    with pytest.raises(ValueError, match="not 'half'"):
+        replace(given, law="half")
+    monkeypatch.setitem(LAWS, "half", Half)
+    half, whole = (
+        rc.adhesive_state(surface, 1.0, law, depth=-0.2) for law in (replace(given, law="half"), given)
+    )
+    weak = rc.adhesive_state(surface, 1.0, replace(given, work=given.work / 2), depth=-0.2)
+    np.testing.assert_array_equal(half.pressure, weak.pressure)
+    assert np.abs(half.pressure - whole.pressure).max() > 0.1 * np.abs(whole.pressure).max()
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [
@@ -45,6 +68,7 @@ def test_numbers_of_the_law():
         ((0.05, 0.0), "range of the attraction"),
         ((0.05, "2nm"), "range must be one number"),
         ((0.05, 2e-9, "jkr"), "one of 'exponential', 'dugdale', not 'jkr'"),
+        ((0.05, 2e-9, ["jkr"]), "one of 'exponential', 'dugdale', not"),
     ],
 )
 def test_what_is_no_law_is_refused(given, told):

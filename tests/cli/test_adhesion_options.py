@@ -1,7 +1,6 @@
 """The commands `adhesion ...`: the numbers of the library, files, refusals, Ctrl-C."""
 
 import json
-from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.adhesion import adhesive_loading
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
-from roughcontact.adhesion.attraction import Law
+from roughcontact.adhesion.attraction import LAWS
 from roughcontact.cli.adhesion.adhesion_options import LawChoice
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
@@ -36,7 +35,7 @@ def whole(tmp_path):
 
 
 def test_the_laws_are_those_of_the_library():
-    assert [law.value for law in LawChoice] == list(get_args(Law))
+    assert [law.value for law in LawChoice] == list(LAWS)
 
 
 def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
@@ -49,11 +48,11 @@ def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     expected = json.loads(json.dumps(state.to_record()))
     assert {name: record[name] for name in expected} == expected
     assert record["converged"] is True
-    assert (tmp_path / "out" / "pressure.png").stat().st_size > 1000
-    with xarray.open_dataset(tmp_path / "out" / "pressure.nc") as dataset:
+    assert (tmp_path / "out" / "adhesive_state.png").stat().st_size > 1000
+    with xarray.open_dataset(tmp_path / "out" / "adhesive_state.nc") as dataset:
         np.testing.assert_array_equal(dataset["pressure"], state.pressure)
         assert "depth = -2e-08 m" in dataset.attrs["input_control"]
-    assert json.loads((tmp_path / "out" / "press.json").read_text())["provenance"]["input_sha256"]
+    assert json.loads((tmp_path / "out" / "adhesive_state.json").read_text())["provenance"]["input_sha256"]
 
 
 def test_a_press_takes_a_pressure_and_a_mean_gap(invoke, whole):
@@ -82,16 +81,38 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     record, expected = json.loads(answer.stdout), json.loads(json.dumps(curve.to_record()))
     assert {name: record[name] for name in expected} == expected
     assert record["branch"] == ["approach", "approach", "retreat"]
-    back = rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")
+    back = rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")
     np.testing.assert_array_equal(back.force, curve.force)
     assert back.jumps == curve.jumps
     table = np.genfromtxt(
-        tmp_path / "out" / "curve.csv", delimiter=",", names=True, usecols=("force", "depth")
+        tmp_path / "out" / "adhesive_curve.csv", delimiter=",", names=True, usecols=("force", "depth")
     )
     np.testing.assert_array_equal(table["force"], curve.force)
-    lines = (tmp_path / "out" / "jumps.csv").read_text().splitlines()
+    lines = (tmp_path / "out" / "adhesive_curve_jumps.csv").read_text().splitlines()
     assert len([line for line in lines if not line.startswith("#")]) == 1 + len(curve.jumps)
-    assert (tmp_path / "out" / "curve.png").stat().st_size > 1000
+    assert (tmp_path / "out" / "adhesive_curve.png").stat().st_size > 1000
+
+
+def test_one_folder_holds_the_files_of_all_commands(invoke, rough, tmp_path):
+    given = (rough, *MODULUS, "--out", tmp_path)
+    held: dict[str, bytes] = {}
+    for words in (
+        ("press", "--force", "1uN"),
+        ("curve", "--forces", "1uN,2uN"),
+        ("adhesion", "press", "--depth", "-20nm", *STICKS),
+        ("adhesion", "curve", *FEW, *STICKS),
+        ("adhesion", "loop", "--depth", "20nm", "--points", "3", *STICKS),
+        ("adhesion", "detach", "--depth", "0.15um", "--work", "10mJ/m^2"),
+    ):
+        assert invoke(*words, *given).exit_code == 0
+        written = {each.name: each.read_bytes() for each in tmp_path.iterdir()}
+        assert held.items() < written.items()  # new files, and the old ones as they were
+        held = written
+    for name in ("adhesive_loop.nc", "detachment.nc"):
+        told = invoke("conductance", tmp_path / name, "--resistivity", "17nohm*m")
+        assert told.exit_code == 2
+        assert f"{name} holds a path of surfaces that stick, whose conductance is not computed" in told.stderr
+    assert invoke("conductance", tmp_path, "--resistivity", "17nohm*m").exit_code == 0
 
 
 def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
@@ -124,6 +145,17 @@ def test_forces_go_up_and_down(invoke, rough):
     assert record["control"] == "force"
     np.testing.assert_allclose(record["force"], [0, 0.5e-6, 1e-6, -1e-6], atol=1e-12)
     assert record["branch"] == ["approach"] * 3 + ["retreat"]
+
+
+def test_a_range_beyond_the_heights_is_noted(invoke, rough):
+    span = np.ptp(rc.read(rough).heights)
+    words = ("adhesion", "press", rough, "--depth", "0nm", *MODULUS, "--work", "10mJ/m^2", "--range")
+    beyond, within = (invoke(*words, f"{share * span:.9e}") for share in (1.001, 0.999))
+    assert (beyond.exit_code, within.exit_code) == (0, 0)
+    assert "from lowest to highest: a --range without a unit is in metres" in beyond.stderr
+    assert "from lowest to highest" not in within.stderr
+    path = ("adhesion", "curve", rough, "--depths", "0nm", *MODULUS, "--work", "10mJ/m^2", "--range", "2")
+    assert "Note: the range of 2 m is longer than the surface is high" in invoke(*path).stderr
 
 
 def test_pressures_go_up_and_down(invoke, rough):
@@ -168,7 +200,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
-    assert len(rc.read_adhesive_curve(tmp_path / "out" / "curve.nc")) == 2
+    assert len(rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")) == 2
     loop = ("--depth", "50nm", "--points", "4", "--out", tmp_path / "loop")
     answer = invoke("adhesion", "loop", rough, *MODULUS, *STICKS, *loop)
     assert answer.exit_code == 130
@@ -188,7 +220,7 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
     answer = invoke(*words, "--range", "20nm")
     assert answer.exit_code == 2
     assert "give --allow-unresolved" in answer.stderr
-    longer = answer.stderr.split("a range of at least ")[1].split(" m")[0]
+    longer = answer.stderr.split("a range of at least ")[1].split(", ")[0]
     assert invoke(*words, "--range", longer).exit_code == 0
     path = ("adhesion", "curve", rough, "--depths", "-10nm,10nm", *MODULUS, "--work", "10mJ/m^2")
     for command in (words, path):
@@ -201,7 +233,7 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--range", "2nm"), "Missing option '--work'"),
+        (("--range", "2nm"), "Missing option '--work'. Give one such as --work 50mJ/m^2"),
         (("--work", "50mJ/m^2"), "Missing option '--range'"),
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
@@ -267,6 +299,16 @@ def test_an_option_of_the_other_press_says_where_it_is(invoke, rough):
     assert "No such option: --work; use 'roughcontact adhesion press' for it" in answer.stderr
     answer = invoke("adhesion", "press", *words, *STICKS, "--hardness", "1GPa")
     assert "No such option: --hardness; use 'roughcontact press' for it" in answer.stderr
+    for option, commands in (
+        ("--points", "'roughcontact adhesion loop'"),
+        (
+            "--range",
+            "'roughcontact adhesion press' or 'roughcontact adhesion curve' or 'roughcontact adhesion loop'",
+        ),
+    ):
+        told = invoke("adhesion", "detach", *words, "--work", "1mJ/m^2", option, "20").stderr
+        told = " ".join(told.replace("│", "").split())
+        assert f"No such option: {option}; use {commands} for it" in told
     told = invoke("press", *words, "--pressures", "1kPa").stderr  # of curve, which is no press
     assert "Possible options" in told
     assert "for it" not in told

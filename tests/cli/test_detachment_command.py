@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.plot.facts import quantity
 from roughcontact.solver.control import Status
 
 GIVEN = ("--modulus", "10MPa", "--level", "none", "--work", "10mJ/m^2")
@@ -49,7 +50,11 @@ def test_without_loads_it_goes_on_until_no_cell_is_in_contact(invoke, rough):
     assert record["pull_off_force"] == curve.pull_off_force > 0
     assert (record["control"], record["contact_area"]) == ("depth", [0.0])
     told = invoke(*words).stdout
-    for each in ("pull-off force", "detachments", "work of adhesion", "10 mJ/m²"):
+    last = min(curve.detachments, key=lambda event: event.force_before)
+    assert last.force_before == -curve.pull_off_force
+    force = quantity("pull_off_force", curve.pull_off_force)
+    assert f" {force} at a depth of {quantity('depth', last.depth)}\n" in told
+    for each in ("detachments", "work of adhesion", "10 mJ/m²"):
         assert each in told
 
 

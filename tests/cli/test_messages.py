@@ -92,6 +92,8 @@ def test_warnings_of_ours_become_notes_and_others_stay_what_they_are(capsys):
         ("such as size='5 um' or size=(4e-4, 5e-4)", "such as --size '5 um' or --size '4e-4 x 5e-4'"),
         ("pass unit= with a unit, such as unit='um'", "pass --unit with a unit, such as --unit 'um'"),
         ("several\n   lines", "several lines"),
+        ("1.86e-06 m, 2e-05 m (3.25e-10 m)", "1.86 um, 20 um (325 pm)"),
+        ("1e-06 m^2 and 2e-03 m/s and 0.5 m", "1e-06 m^2 and 2e-03 m/s and 0.5 m"),
     ],
 )
 def test_keywords_become_options_in_one_line(text, line, capsys):

@@ -305,10 +305,12 @@ def test_a_log_has_a_line_a_minute(monkeypatch, capsys):
 
 def test_pace_counts_what_this_run_has_done():
     pace = Pace()
-    assert pace.told(Summary(100, 2, 98)) == "102 of 200 cases, 2 failed"
-    assert pace.told(Summary(110, 2, 88, 5.0)) == "112 of 200 cases, 2 failed, 2 a s, 44 s left"
-    assert pace.told(Summary(110, 12, 78, 100.0)) == "122 of 200 cases, 12 failed, 12 a min, 6 min 30 s left"
-    assert pace.told(Summary(111, 12, 77, 21 * 3600.0)) == "123 of 200 cases, 12 failed, 1 an h, 3 d 5 h left"
+    assert pace.words(Summary(100, 2, 98)) == "102 of 200 cases, 2 failed"
+    assert pace.words(Summary(110, 2, 88, 5.0)) == "112 of 200 cases, 2 failed, 2 a s, 44 s left"
+    assert pace.words(Summary(110, 12, 78, 100.0)) == "122 of 200 cases, 12 failed, 12 a min, 6 min 30 s left"
+    assert (
+        pace.words(Summary(111, 12, 77, 21 * 3600.0)) == "123 of 200 cases, 12 failed, 1 an h, 3 d 5 h left"
+    )
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,7 @@ def test_a_band_of_waves_has_the_rms_height(invoke, tmp_path):
     surface = rc.read(path)
     np.testing.assert_allclose(surface.heights, expected.heights, rtol=0, atol=1e-14 * expected.rms)
     assert surface.rms > 1e-6
-    assert any("of the waves from 0.001 to 0.0001 m" in line for line in surface.provenance)
+    assert any("of the waves from 0.001 m to 0.0001 m" in line for line in surface.provenance)
 
 
 def test_one_length_is_the_width_of_square_cells(invoke, tmp_path):

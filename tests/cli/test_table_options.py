@@ -26,7 +26,7 @@ def numbers(text):
 
 def test_the_tables_are_those_of_the_library(invoke, joint, tmp_path):
     out = tmp_path / "out"
-    words = ("--table", "abaqus,abaqus-mm,csv,lammps", "--table-area", "1mm^2", "--out", out)
+    words = ("--table", "abaqus,abaqus-mm", "--table", "csv,lammps", "--table-area", "1mm^2", "--out", out)
     answer = invoke("curve", joint, *LOADS, *HEAT, *words)
     assert answer.exit_code == 0, answer.stderr
     assert "interface.inp, interface_mm.inp, interface.csv and interface.table are in" in answer.stderr

@@ -116,6 +116,13 @@ def test_below_lines_rings_and_springs_nothing_is_known():
             below(s, 0.1, 0.3)
 
 
+def test_a_pair_of_bodies_is_refused():
+    body = rc.Solid(1e9, 0.3)
+    solution = rc.press(rc.shapes.paraboloid(rc.Grid((16, 20), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    with pytest.raises(ValueError, match="one of the two bodies"):
+        rc.below(solution, 1e-6, (body, body))
+
+
 def test_without_contact_there_is_no_largest():
     s = sphere(9, depth=0.0)
     assert not s.contact.any()

@@ -70,6 +70,14 @@ def test_what_nobody_speaks_of_is_refused(curve, name, message):
         curve.compare(hertz_law(), [name])
 
 
+def test_a_law_of_the_users_own_stands_beside_a_curve(curve):
+    own = LoadingLaw("own", "notes", {"stiffness": lambda force: 3.0 * force})
+    np.testing.assert_allclose(curve.compare(own).predicted["stiffness"], 3 * curve.force, rtol=1e-15)
+    [line] = [each for each in curve.plot(theories=[own]).lines if each.get_label().startswith("own")]
+    ratio = line.get_ydata() / line.get_xdata()  # in units of the axes
+    np.testing.assert_allclose(ratio, ratio[0], rtol=1e-12)
+
+
 def test_a_name_is_no_theory(curve):
     with pytest.raises(ValueError, match="a theory is wanted"):
         curve.compare("persson")

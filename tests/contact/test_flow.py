@@ -385,7 +385,7 @@ def test_arrays_of_other_libraries(library, flow):
 def test_what_makes_no_sense_is_refused():
     surface = plane()
     for given, says in (
-        ({"forces": [2e-3, 1e-3]}, "only under a hardness or with an adhesion do loads go up and down"),
+        ({"forces": [2e-3, 1e-3]}, "only under a hardness and in adhesive_path do loads go up and down"),
         (
             {"forces": [1e-3], "hardness": 0.1, "flow": "lost"},
             "flow must be 'removed' or 'raised', not 'lost'",

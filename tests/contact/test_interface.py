@@ -167,7 +167,10 @@ class TestAbaqus:
         assert "** made by J?rg | in two lines" in lines
         assert max(map(len, lines)) <= 123
         assert "for loading only" not in text
-        assert "no cell bears more than 2e+09 Pa" in abaqus_text(replace(exponential, hardness=2e9))
+        flowing = abaqus_text(replace(exponential, hardness=2e9))
+        assert "no cell bears more than 2e+09 Pa" in flowing
+        assert "elastic and perfectly plastic, normal load" in flowing
+        assert "; elastic, normal load" in abaqus_text(exponential)
         assert "free patch" in abaqus_text(replace(exponential, periodic=False))
 
 

@@ -241,12 +241,12 @@ def test_a_resolved_contact_has_nothing_to_say():
         (rc.Surface(np.eye(1, 1024, 333).reshape(32, 32), rc.Grid((32, 32), 1.0)), 1e-9, "outlier"),
     ],
 )
-def test_what_an_engineer_would_doubt_is_said(surface, force, words):
+def test_what_an_engineer_would_question_is_said(surface, force, words):
     assert any(words in note for note in rc.press(surface, 1.0, force=force).notes)
 
 
 @pytest.mark.parametrize(("part", "told"), [(0.49, False), (0.51, True)])
-def test_a_pressure_beyond_half_the_modulus_is_doubted(part, told):
+def test_a_pressure_beyond_half_the_modulus_is_warned_of(part, told):
     """On a single cell, whose pressure is force over area."""
     surface = rc.Surface(np.eye(1, 64, 27).reshape(8, 8), rc.Grid((8, 8), 0.5))
     solution = rc.press(surface, 4.0, force=part * 4.0 * 0.25)

@@ -33,7 +33,7 @@ def surface(body, n):
 def peak(run):
     """Return the largest memory of a run [bytes] that begins with nothing kept, by one thread."""
     gc.collect()  # or what others have left is kept meanwhile
-    buffers.give_back()
+    buffers.release()
     tracemalloc.start()
     try:
         with limit_threads(1):

@@ -82,7 +82,7 @@ def test_missing_points_and_free_edges_are_no_obstacle(wide):
 
 
 @pytest.mark.parametrize(
-    ("names", "knowns", "message"),
+    ("names", "given", "message"),
     [
         ("person", {}, "no law named"),
         ("hertz", {}, "radius missing"),
@@ -90,9 +90,9 @@ def test_missing_points_and_free_edges_are_no_obstacle(wide):
         ("gw", {"colour": "red"}, "no law asks for colour"),
     ],
 )
-def test_nonsense_is_refused(wide, names, knowns, message):
+def test_nonsense_is_refused(wide, names, given, message):
     with pytest.raises(ValueError, match=message):
-        rc.loading_laws(wide, MODULUS, names, **knowns)
+        rc.loading_laws(wide, MODULUS, names, **given)
 
 
 def test_a_line_is_refused():

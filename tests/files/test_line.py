@@ -107,10 +107,10 @@ def test_what_is_no_line_is_refused(put, content, message):
         read_line(put("a.txt", content), unit="um")
 
 
-@pytest.mark.parametrize(("announced", "doubt"), [("19.5 um", False), ("19.6 um", False), ("30 um", True)])
-def test_an_announced_length_is_compared(put, announced, doubt):
+@pytest.mark.parametrize(("announced", "warning"), [("19.5 um", False), ("19.6 um", False), ("30 um", True)])
+def test_an_announced_length_is_compared(put, announced, warning):
     path = put("a.csv", f"Length,{announced}\nx [um],z [um]\n" + rows())
-    if doubt:
+    if warning:
         with pytest.warns(SurfaceWarning, match="announces a length of 3e-05 m and covers 1.95e-05 m"):
             read_line(path)
     else:

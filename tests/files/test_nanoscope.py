@@ -82,7 +82,7 @@ def test_sizes_that_contradict_each_other_are_asked_about(put, shape, size, aspe
 
 
 @pytest.mark.parametrize("spare", [b"\0", b"\0" * 63])
-def test_a_byte_more_is_doubted(put, spare):
+def test_a_byte_more_is_warned_of(put, spare):
     """A byte that came in before the heights moves them all, and the file ends a byte later."""
     with pytest.warns(SurfaceWarning, match=f"{len(spare)} bytes at its end belong to no channel"):
         rc.read(put("a.001", nanoscope(counts(32, 32), size="2 2 ~m", aspect="1:1", spare=spare)))

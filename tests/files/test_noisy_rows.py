@@ -28,7 +28,7 @@ def test_a_lone_row_is_not_enough():
 
 
 @pytest.mark.parametrize("hurst", [0.05, 0.5, 0.95])
-def test_self_affine_maps_are_not_doubted(hurst):
+def test_self_affine_maps_are_not_warned_of(hurst):
     for seed in range(20):
         surface = rc.self_affine(rc.Grid((64, 96), 1e-6), hurst, 0.1, np.random.default_rng(seed))
         assert noisy_rows(surface.heights) == 0

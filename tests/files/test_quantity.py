@@ -4,7 +4,7 @@ from types import ModuleType
 import pytest
 
 from roughcontact.files import quantity
-from roughcontact.files.quantity import AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
+from roughcontact.files.quantity import AREA, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
 
 
 def test_a_quantity_becomes_its_number_in_si():
@@ -24,6 +24,14 @@ def test_prefixes_are_those_of_the_library_of_units_without_it(monkeypatch, kind
 
 def test_a_prefix_belongs_to_the_unit_that_is_raised():
     assert parse("3 mm^2", AREA) == pytest.approx(3e-6, rel=1e-15)
+
+
+def test_a_digit_behind_a_unit_is_its_power():
+    assert parse("3 mm2", AREA) == pytest.approx(3e-6, rel=1e-15)
+    assert parse("50mJ/m2", ENERGY_PER_AREA) == parse("50mJ/m^2", ENERGY_PER_AREA)
+    assert parse("5N/mm2", PRESSURE) == pytest.approx(5e6, rel=1e-15)
+    with pytest.raises(ValueError, match="is not a force"):
+        parse("5N2", FORCE)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The keywords of `read`, its errors and its doubts."""
+"""The keywords of `read`, its errors and its warnings."""
 
 import hashlib
 import os
@@ -119,7 +119,7 @@ def test_a_file_with_one_map_has_one_channel(put):
         ("cm", 1e-4, "an rms height of 0.0229 m on 5e-05 m is unusual"),
     ],
 )
-def test_absurd_sizes_and_heights_are_doubted_not_refused(put, unit, size, message):
+def test_absurd_sizes_and_heights_are_warned_of_not_refused(put, unit, size, message):
     with pytest.warns(SurfaceWarning, match=f"a.txt: {message}") as caught:
         surface = rc.read(put("a.txt", TEXT), unit=unit, size=size)
     assert caught[0].filename == __file__
@@ -127,7 +127,7 @@ def test_absurd_sizes_and_heights_are_doubted_not_refused(put, unit, size, messa
 
 
 @pytest.mark.filterwarnings("ignore::roughcontact.files.file_errors.SurfaceWarning")
-def test_heights_beyond_all_measure_are_doubted_or_refused_without_noise(put):
+def test_heights_beyond_all_measure_are_warned_of_or_refused_without_noise(put):
     assert rc.read(put("a.txt", "1e5 2\n3 4\n"), unit="m", size=1e-3).grid.shape == (2, 2)
     with pytest.raises(rc.ReadError, match=r"a\.txt: it holds heights up to 1e\+300 m.*unit="):
         rc.read(put("a.txt", "1e300 2\n3 4\n"), unit="m", size=1e-3)
@@ -135,7 +135,7 @@ def test_heights_beyond_all_measure_are_doubted_or_refused_without_noise(put):
         rc.read(put("a.txt", "1e308 2\n3 4\n"), unit="km", size=1e-3)
 
 
-def test_a_sane_surface_raises_no_doubt(put):
+def test_a_sane_surface_raises_no_warning(put):
     rc.read(put("a.txt", TEXT), unit="um", size=1e-3)  # a warning would be an error here
 
 

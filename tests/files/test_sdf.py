@@ -91,7 +91,7 @@ def test_bad_in_a_text_is_missing(put):
 
 
 @pytest.mark.parametrize(("kind", "end"), [(0, 255), (4, -128)])
-def test_the_end_of_a_byte_is_a_height_and_doubted(put, kind, end):
+def test_the_end_of_a_byte_is_a_height_and_warned_of(put, kind, end):
     counts = counts_for(kind)
     place = np.unravel_index(np.argmax(counts if end > 0 else -counts), counts.shape)
     counts[place] = end
@@ -121,7 +121,7 @@ def test_a_text_may_follow_its_heights(put, trailer):
 
 
 @pytest.mark.parametrize("spare", [b"x", b"\0" * 8, b"\xff" * 100])
-def test_other_bytes_behind_its_heights_are_doubted(put, spare):
+def test_other_bytes_behind_its_heights_are_warned_of(put, spare):
     with pytest.warns(SurfaceWarning, match=f"{len(spare)} bytes at its end belong to no height"):
         rc.read(put("a.sdf", sdf_binary(counts_for(7), 7, trailer=spare)))
 
@@ -137,7 +137,7 @@ def test_a_single_profile_is_a_line(put):
             rc.read(path)
 
 
-def test_a_text_that_ends_within_its_last_number_is_doubted(put):
+def test_a_text_that_ends_within_its_last_number_is_warned_of(put):
     whole = sdf_text(counts_for(5), 5, end="")
     with pytest.warns(SurfaceWarning, match="its last number may lack digits"):
         rc.read(put("a.sdf", whole[:-2]))

@@ -117,7 +117,7 @@ def test_units_in_either_encoding(put, encoding, packed):
 
 @pytest.mark.parametrize("packed", [0, 2])
 @pytest.mark.parametrize("spare", [b"x", b"\0" * 8])
-def test_bytes_behind_its_heights_are_doubted(put, packed, spare):
+def test_bytes_behind_its_heights_are_warned_of(put, packed, spare):
     with pytest.warns(SurfaceWarning, match=f"{len(spare)} bytes at its end belong to no height"):
         surface = rc.read(put("a.sur", sur(packed=packed) + spare))
     np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)

@@ -154,7 +154,7 @@ def places_within(row):
 
 
 def told(path):
-    """Whether a doubt is spoken, or the file refused."""
+    """Whether a warning is spoken, or the file refused."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         try:

@@ -122,7 +122,7 @@ def test_the_remedy_keeps_them(put, npz):
 def test_slopes_are_heights(put, npy, values):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            "roughcontact.files.assemble.doubts_about", lambda *_: ()
+            "roughcontact.files.assemble.height_warnings", lambda *_: ()
         )  # one point on a slope is a spike
         surface = rc.read(put("a.npy", npy(values)), unit="um", size="1 mm")
     assert surface.heights.shape == values.shape

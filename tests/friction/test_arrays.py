@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 from libraries import LIBRARIES
-from roughcontact.friction.coulomb import under_force
+from roughcontact.friction.coulomb import projected_to_force
 
 MU = 0.3
 BODIES = (rc.Solid(1e11, 0.1), rc.Solid(3e11, 0.3))
@@ -143,9 +143,9 @@ def test_forces_within_limits(library, k):
     rng = np.random.default_rng(k)
     limit = 10 ** rng.normal(0, 1, 200)
     traction, total = 2 * limit * rng.standard_normal((k, 200)), 0.6 * limit.sum() * np.ones(k)
-    found = under_force(library.put(traction), library.put(limit), total)
+    found = projected_to_force(library.put(traction), library.put(limit), total)
     assert library.is_there(found)
-    equal(library.get(found), under_force(traction, limit, total), 1e-12)
+    equal(library.get(found), projected_to_force(traction, limit, total), 1e-12)
 
 
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])

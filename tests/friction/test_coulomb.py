@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughcontact.friction.coulomb import at_limit, lengths, under_force, violations, within
+from roughcontact.friction.coulomb import at_limit, lengths, projected, projected_to_force, violations
 
 
 def draw(seed):
@@ -20,36 +20,36 @@ def draw(seed):
 def test_the_nearest_traction_that_holds():
     limit = np.array([1.0, 2.0, 0.0])
     np.testing.assert_allclose(
-        within(np.array([[3.0, 0.6, 1.0], [4.0, 0.8, 0.0]]), limit), [[0.6, 0.6, 0], [0.8, 0.8, 0]]
+        projected(np.array([[3.0, 0.6, 1.0], [4.0, 0.8, 0.0]]), limit), [[0.6, 0.6, 0], [0.8, 0.8, 0]]
     )
-    np.testing.assert_array_equal(within(np.array([[-3.0, 0.6, 0.0]]), limit), [[-1.0, 0.6, 0.0]])
+    np.testing.assert_array_equal(projected(np.array([[-3.0, 0.6, 0.0]]), limit), [[-1.0, 0.6, 0.0]])
 
 
 @pytest.mark.parametrize("seed", range(60))
 def test_the_nearest_traction_under_a_force(seed):
     """It holds, has the force, and is that of a common shift: the condition of a projection."""
     traction, limit, total = draw(seed)
-    found = under_force(traction, limit, total)
+    found = projected_to_force(traction, limit, total)
     rounding = 1e-14 * (limit.sum() + np.abs(traction).sum())
     np.testing.assert_allclose(found.sum(axis=1), total, rtol=0, atol=2 * rounding)
     assert (lengths(found) <= limit * (1 + 1e-15)).all()
     free = ~at_limit(found, limit)
     if free.any():
         shift = (traction - found)[:, free].mean(axis=1, keepdims=True)
-        np.testing.assert_allclose(found, within(traction - shift, limit), rtol=0, atol=100 * rounding)
+        np.testing.assert_allclose(found, projected(traction - shift, limit), rtol=0, atol=100 * rounding)
 
 
 def test_a_traction_under_its_force_stays():
     traction, limit, _ = draw(3)
-    traction = within(traction, limit)
-    np.testing.assert_array_equal(under_force(traction, limit, traction.sum(axis=1)), traction)
+    traction = projected(traction, limit)
+    np.testing.assert_array_equal(projected_to_force(traction, limit, traction.sum(axis=1)), traction)
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_large_tractions_meet_the_force_as_well(seed):
     """To what the sum of the limits allows, whatever the size of what is projected."""
     traction, limit, total = draw(seed)
-    found = under_force(1e6 * traction, limit, total)
+    found = projected_to_force(1e6 * traction, limit, total)
     np.testing.assert_allclose(found.sum(axis=1), total, rtol=0, atol=3e-14 * limit.sum())
 
 

@@ -112,7 +112,7 @@ def test_a_path_is_refused_before_its_first_load(solution, loads, message):
 
 
 def test_nothing_is_no_load(solution):
-    """Without force nothing moves, and there is nothing to doubt."""
+    """Without force nothing moves, and there is nothing to warn of."""
     for rest in ({"force": 0.0}, {"displacement": (0, 0)}):
         answer = slide(solution, BODY, friction=0.3, **rest)
         assert not answer.traction.any()

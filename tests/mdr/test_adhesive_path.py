@@ -35,10 +35,10 @@ class TestSphere:
 
     def test_it_tells_where_it_let_go(self):
         path = adhesive_path(SPHERE, forces=[1.0, -0.5 * PULL, -2 * PULL, -3 * PULL, 1.0])
-        assert path.released.tolist() == [False, False, True, True, False]
+        assert path.detached.tolist() == [False, False, True, True, False]
         assert path.force[2:4].tolist() == [0, 0]
         # Before first touch it has not let go.
-        assert not adhesive_path(SPHERE, depths=[-1.0, -0.5]).released.any()
+        assert not adhesive_path(SPHERE, depths=[-1.0, -0.5]).detached.any()
 
     def test_it_sticks_at_first_touch_and_holds_on_below(self):
         lowest = SPHERE.pull_off(math.inf).depth

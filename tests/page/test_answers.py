@@ -14,9 +14,9 @@ from roughcontact.cli.app import app
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.recipe import as_recipe
-from roughcontact.page.server.order import Order
+from roughcontact.page.server.page_request import PageRequest
 
 LOADS = {"control": "force", "start": "50 mN", "end": "2 N", "count": 7}
 BODIES = {"materials": ["steel", "aluminium"]}
@@ -37,13 +37,13 @@ def file(tmp_path, monkeypatch):
 @pytest.fixture
 def ask(file):
     """Do a job, and return its messages with their bytes."""
-    bench = Workbench()
+    cache = SessionCache()
 
     def asked(job, load=None, loads=None, bodies=BODIES, **more):
         recipe = {"source": {"kind": "file", "file": "key"}, "bodies": bodies, "load": load, "loads": loads}
         said = []
-        order = Order(as_recipe(recipe), {"key": file}, more)
-        job(order, bench, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
+        request = PageRequest(as_recipe(recipe), {"key": file}, more)
+        job(request, cache, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
         return said
 
     return asked
@@ -151,8 +151,8 @@ def test_without_a_curve_there_is_nothing_to_export(ask):
 
 def test_a_load_that_the_grid_does_not_resolve_has_a_remedy(ask):
     light = ask(press, load={"control": "force", "text": "1 uN"})
-    assert "larger load" in of(light, "state")[0]["advice"]
-    assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["advice"] == ""
+    assert "larger load" in of(light, "state")[0]["warning"]
+    assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["warning"] == ""
 
 
 def test_reduced_maps_keep_the_highest_pressure_and_the_lowest_gap(ask, file):

@@ -74,12 +74,12 @@ class Tab:
             """(name) => {
               const by = (id) => document.getElementById(id);
               if (by("name").textContent !== name) return false;
-              if ((by("map").dataset.holds || "").includes("heights")) return true;
+              if ((by("map").dataset.fields || "").includes("heights")) return true;
               return by("view").getAttribute("aria-busy") === "false" && by("said").textContent !== "";
             }""",
             name,
         )
-        return "heights" in (self.page.get_attribute("#map", "data-holds") or "")
+        return "heights" in (self.page.get_attribute("#map", "data-fields") or "")
 
     def example(self, name):
         """Choose an example by the beginning of its name."""
@@ -91,7 +91,7 @@ class Tab:
         """Wait until the maps and numbers of the load are there."""
         self.wait(
             """() => document.getElementById("view").getAttribute("aria-busy") === "false"
-              && (document.getElementById("map").dataset.holds || "").includes("gap")"""
+              && (document.getElementById("map").dataset.fields || "").includes("gap")"""
         )
 
     @property

@@ -9,10 +9,10 @@ import pytest
 pytest.importorskip("starlette", reason="the page needs the extra 'page'")
 pytest.importorskip("uvicorn", reason="the page needs the extra 'page'")
 
-from roughcontact.page.server.crew import Crew
 from roughcontact.page.server.guard import Guard
 from roughcontact.page.server.page_app import PageServer, application
 from roughcontact.page.server.serve import _bound, _web
+from roughcontact.page.server.worker_pool import WorkerPool
 
 PATIENCE = 60.0  # seconds
 SILENT = 1.0  # seconds that a new connection is given here
@@ -21,7 +21,7 @@ SILENT = 1.0  # seconds that a new connection is given here
 @pytest.fixture
 def serving(tmp_path, monkeypatch):
     """Return a function that has a coroutine function speak to the page, which starts no workers."""
-    monkeypatch.setattr(Crew, "prepare", lambda _: None)
+    monkeypatch.setattr(WorkerPool, "prepare", lambda _: None)
 
     async def served(speak):
         with _bound(0) as listening:

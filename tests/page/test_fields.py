@@ -5,11 +5,11 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.page.jobs.bodies_job import bodies
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.jobs.surface_jobs import look, study
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
 from roughcontact.page.recipe import FileSource, as_recipe
 from roughcontact.page.refusal import refusal
-from roughcontact.page.server.order import Order
+from roughcontact.page.server.page_request import PageRequest
 
 WRONG = [
     ("short_cutoff", {"preparation": {"short_cutoff": "10"}}),
@@ -39,10 +39,10 @@ def files(tmp_path):
 
 
 def ordered(job, files, recipe):
-    """Return the messages that answer an order, by their type."""
+    """Return the messages that answer a request, by their type."""
     source = {"kind": "file", "file": "key"} | recipe.get("source", {})
-    order, heard = Order(as_recipe({**recipe, "source": source}), files, {}), {}
-    job(order, Workbench(), lambda header, _=b"": heard.update({header["type"]: header}))
+    request, heard = PageRequest(as_recipe({**recipe, "source": source}), files, {}), {}
+    job(request, SessionCache(), lambda header, _=b"": heard.update({header["type"]: header}))
     return heard
 
 
@@ -58,7 +58,7 @@ def test_what_is_wrong_belongs_to_a_field(field, recipe, files):
 
 def test_a_study_shows_the_numbers_of_the_library(files):
     heard = ordered(study, files, {"preparation": {"level": "plane", "despike": "filled"}})
-    raw, _ = Workbench().read(FileSource("file", "key"), files)
+    raw, _ = SessionCache().read(FileSource("file", "key"), files)
     surface = raw.despiked("filled").levelled("plane")
     histogram = rc.height_histogram(surface, bins=80)
     assert heard["heights"]["x"] == histogram.centres.tolist()
@@ -69,9 +69,9 @@ def test_a_study_shows_the_numbers_of_the_library(files):
     assert shown["rms slope"] == f"{rc.surface_moments(surface).rms_slope:.4g}"
 
 
-def test_doubts_are_those_of_the_file_and_name_the_step_that_mends_them(files):
+def test_warnings_are_those_of_the_file_and_name_the_step_that_mends_them(files):
     heard = ordered(study, files, {"preparation": {"despike": "filled", "fill": True}})
-    steps = {doubt["kind"]: doubt["step"] for doubt in heard["doubts"]["doubts"]}
+    steps = {warning["kind"]: warning["step"] for warning in heard["warnings"]["warnings"]}
     assert steps["spikes"] == ("despike", "filled")
     assert steps["missing points"] == ("fill", "")
 

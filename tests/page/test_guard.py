@@ -16,7 +16,7 @@ def status(*headers, method="GET", path="/", query=""):
 def test_the_key_in_the_address_or_in_the_cookie_is_enough():
     assert status(HOST, query="token=key") is None
     assert status(HOST, COOKIE) is None
-    assert status(HOST, COOKIE, (b"origin", b"http://127.0.0.1:8765"), method="POST", path="/order") is None
+    assert status(HOST, COOKIE, (b"origin", b"http://127.0.0.1:8765"), method="POST", path="/request") is None
 
 
 @pytest.mark.parametrize(
@@ -54,12 +54,12 @@ def test_two_hosts_and_none_are_refused():
     ],
 )
 def test_another_site_is_refused(header):
-    assert status(HOST, COOKIE, header, method="POST", path="/order") == 403
+    assert status(HOST, COOKIE, header, method="POST", path="/request") == 403
 
 
 def test_without_the_key_there_is_nothing():
     assert status(HOST) == status(HOST, query="token=other") == 403
-    assert status(HOST, query="token=key", path="/order", method="POST") == 403
+    assert status(HOST, query="token=key", path="/request", method="POST") == 403
     assert status(HOST, (b"cookie", b"roughcontact-8765=other")) == 403
 
 

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("starlette", reason="the page needs the extra 'page'")
 
 from asgi import answer
-from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server import uploads
 from roughcontact.page.server.guard import HEADERS, Guard
 from roughcontact.page.server.page_app import PageServer, application
@@ -62,7 +62,7 @@ def test_every_answer_bears_the_headers_of_safety(server):
         ("GET", "/", "", (HOST,)),
         ("GET", "/nothing", "", KNOWN),
         ("GET", "/session", "", KNOWN),
-        post("/order", "session=none"),
+        post("/request", "session=none"),
         post("/session"),
     ]
     found = asked(server, *requests)
@@ -219,21 +219,21 @@ def test_a_disk_that_takes_nothing_is_said(server, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "body", ["", "[]", "{", '{"lane": NaN}', '{"more": []}', "[" * 100_000, '{"load": 1e999}', "9" * 9999]
+    "body", ["", "[]", "{", '{"queue": NaN}', '{"more": []}', "[" * 100_000, '{"load": 1e999}', "9" * 9999]
 )
 def test_an_order_that_is_none_is_refused(server, body):
     session = begun(server)
-    [found] = asked(server, post("/order", f"session={session}", [body.encode()]))
+    [found] = asked(server, post("/request", f"session={session}", [body.encode()]))
     assert found.status == 400
 
 
 def test_an_endless_order_is_refused(server):
     session = begun(server)
-    [found] = asked(server, post("/order", f"session={session}", [b" " * 2**16] * 17 + [None]))
+    [found] = asked(server, post("/request", f"session={session}", [b" " * 2**16] * 17 + [None]))
     assert found.status == 413
 
 
-@pytest.mark.parametrize("path", ["/order", "/stop", "/alive"])
+@pytest.mark.parametrize("path", ["/request", "/stop", "/alive"])
 def test_a_session_answers_to_its_key_alone(server, path):
     session = begun(server)
     for key in ("", "x", session[:-1], session + "0"):

@@ -1,4 +1,4 @@
-"""How a worker ends an order: done, refused, or with a mistake of this program, and never with a crash."""
+"""How a worker ends a request: done, refused, or with a mistake of this program, and never with a crash."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from roughcontact.page import page_worker
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.stopping import Stopping
 
 MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}
@@ -24,11 +24,13 @@ except MemoryError:
 """
 
 
-def end_of(job, recipe=None, bench=None):
-    """Return the last message that answers an order."""
+def end_of(job, recipe=None, cache=None):
+    """Return the last message that answers a request."""
     sent = []
-    order = {"number": 1, "job": job, "recipe": recipe or {"source": MADE}, "files": {}, "more": {}}
-    page_worker.perform(order, bench or Workbench(), lambda header, data=b"": sent.append(header), Stopping())
+    request = {"number": 1, "job": job, "recipe": recipe or {"source": MADE}, "files": {}, "more": {}}
+    page_worker.perform(
+        request, cache or SessionCache(), lambda header, data=b"": sent.append(header), Stopping()
+    )
     return sent[-1]
 
 
@@ -57,20 +59,20 @@ def test_what_cannot_be_done_is_refused_with_the_reason(job, recipe, words):
 
 
 def test_a_lack_of_memory_is_refused_and_what_was_kept_is_let_go_of(monkeypatch):
-    def look(order, bench, send):
-        bench.kept["surface"] = {"key": "large"}
+    def look(request, cache, send):
+        cache.kept["surface"] = {"key": "large"}
         raise MemoryError
 
     monkeypatch.setattr(page_worker, "_job", lambda name: look)
-    bench = Workbench()
-    end = end_of("look", bench=bench)
+    cache = SessionCache()
+    end = end_of("look", cache=cache)
     assert end["how"] == "refused"
     assert "memory" in end["message"]
-    assert bench.kept == {}
+    assert cache.kept == {}
 
 
 def test_a_mistake_of_ours_is_said_and_its_traceback_shown(monkeypatch, capfd):
-    def look(order, bench, send):
+    def look(request, cache, send):
         np.zeros(3).reshape(2)
 
     monkeypatch.setattr(page_worker, "_job", lambda name: look)

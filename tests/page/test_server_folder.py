@@ -10,7 +10,7 @@ import pytest
 from roughcontact.page.server.server_folder import SCRATCH, server_folder
 
 RUNNING = f"""
-from roughcontact.page.server_folder import server_folder
+from roughcontact.page.server.server_folder import server_folder
 with server_folder() as folder:
     (folder / {SCRATCH!r}).mkdir()
     (folder / "session").mkdir()

@@ -8,7 +8,7 @@ import pytest
 import roughcontact as rc
 from served import PATIENCE, ended, started
 
-WAITING = """() => ["view", "holds"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
+WAITING = """() => ["view", "surface"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
   || document.querySelector("main").inert || document.getElementById("slider").disabled"""
 # Names that a screen reader would say, and ids that stand twice.
 NAMELESS = """() => {
@@ -147,12 +147,12 @@ def test_what_a_file_leaves_open_is_asked_for(person, bare):
     assert person.page.locator(".trouble").count() == 0
 
 
-def test_a_doubt_is_mended_by_its_button_and_undone(person, part):
+def test_a_warning_is_mended_by_its_button_and_undone(person, part):
     person.open(part)
     before = person.command
     person.page.get_by_role("button", name="Fill them smoothly").click()
     assert "--despike filled" in person.command
-    assert "mended by the preparation" in person.text("doubts")
+    assert "mended by the preparation" in person.text("warnings")
     person.page.keyboard.press("Control+z")
     assert person.command == before
     person.page.keyboard.press("Control+y")
@@ -203,9 +203,9 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
     person.open(tmp_path / "flat.npz")
     said = person.page.locator("#said", has_text="flat")
     said.wait_for(timeout=1000 * PATIENCE)
-    person.page.locator("#holds[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
+    person.page.locator("#surface[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
     assert person.text("roughness") == ""
-    assert "16 x 16" in person.text("held_facts")
+    assert "16 x 16" in person.text("surface_facts")
 
 
 def test_what_is_being_typed_outlives_an_answer(person, part):

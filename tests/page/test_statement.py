@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import roughcontact as rc
 from roughcontact.cli.app import app
 from roughcontact.page.jobs.reduced import as_seen, factor_for
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.recipe import as_recipe
 from roughcontact.page.statement import stated
 
@@ -39,7 +39,7 @@ def check(source, preparation, bodies, file="part.npz"):
     """Compare the numbers of the page with those of the commands and of the program that it states."""
     load = {"control": "force", "text": "1.23 mN"}
     recipe = as_recipe({"source": source, "preparation": preparation, "bodies": bodies, "load": load})
-    shown = Workbench().solution(recipe, {"key": UploadedFile(Path(file).resolve(), file)})
+    shown = SessionCache().solution(recipe, {"key": UploadedFile(Path(file).resolve(), file)})
     statement = stated(recipe, file)
     space = {}
     exec(statement.python, space)

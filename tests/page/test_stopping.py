@@ -1,4 +1,4 @@
-"""An order is left where it is stopped, and nowhere else."""
+"""A request is left where it is stopped, and nowhere else."""
 
 import signal
 import sys

@@ -1,5 +1,7 @@
 """Pictures of surfaces that stick: what is drawn is what was computed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
@@ -34,8 +36,18 @@ def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
     for ends, jump in zip(dashed, loop.jumps, strict=True):
         np.testing.assert_allclose(ends[:, 0], np.array([jump.depth, jump.depth_after]) * NM)
         np.testing.assert_allclose(ends[:, 1], np.array([jump.force_before, jump.force_after]) * UN)
-    largest = max(loop.jumps, key=lambda jump: jump.lost)
-    assert written(largest.lost, "J") in [text.get_text() for text in axes.texts]
+    # Words stand at the middle of each jump that spans a twentieth of either axis.
+    spans = np.ptp(loop.depth), np.ptp(loop.force)
+    ends = [
+        np.array([(jump.depth, jump.force_before), (jump.depth_after, jump.force_after)])
+        for jump in loop.jumps
+    ]
+    large = [(np.abs(np.diff(each, axis=0)[0]) > 0.05 * np.array(spans)).any() for each in ends]
+    assert 0 < sum(large) < len(large)
+    told = [(jump, each) for jump, each, some in zip(loop.jumps, ends, large, strict=True) if some]
+    for text, (jump, each) in zip(axes.texts, told, strict=True):
+        assert text.get_text() == written(jump.lost, "J")
+        np.testing.assert_allclose(text.xy, each.mean(axis=0) * (NM, UN))
     # Between jumps lines are whole: no piece leads from before one to after it.
     depths = np.concatenate(
         [loop.depth, [each for jump in loop.jumps for each in (jump.depth, jump.depth_after)]]
@@ -49,19 +61,25 @@ def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
     pieces = [line.get_xydata()[:, 1] / UN for line in axes.lines if line.get_linestyle() == "-"][1:]
     for jump in (each for each in loop.jumps if abs(each.force_after - each.force_before) > 1e-7):
         assert not any(jump.force_before in piece and jump.force_after in piece for piece in pieces)
-    assert "pull-off" in axes.get_title()
+    lost = written(sum(jump.lost for jump in loop.jumps), "J")
+    pull_off = written(loop.pull_off_force, "N")
+    assert axes.get_title() == f"pull-off {pull_off}, {lost} lost in {len(loop.jumps)} jumps (unresolved)"
 
 
 def test_the_contact_area_breaks_at_jumps(loop):
     axes = rc.plot.jump_area(loop, Figure().subplots())
-    assert axes.get_xlabel() == "depth [nm]"
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [nm]", "relative real contact area A/A0 [%]")
     names = {line.get_label(): line.get_xydata() for line in axes.lines}
     for name, way in (("approach", True), ("retreat", False)):
         drawn = names[name]
         expected = np.stack([loop.depth * NM, 100 * loop.contact_area / loop.nominal_area], 1)
-        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[loop.approach == way])
-        breaks = {at for at in loop.jumped if loop.approach[at] == way}
-        assert np.isnan(drawn).any(axis=1).sum() == len(breaks) > 0
+        turn = [] if way else [np.flatnonzero(loop.approach)[-1]]  # where the retreat begins
+        points = np.concatenate([turn, np.flatnonzero(loop.approach == way)]).astype(int)
+        np.testing.assert_allclose(drawn[np.isfinite(drawn).all(axis=1)], expected[points])
+        breaks = sorted({at for at in loop.jumped if loop.approach[at] == way})
+        [gaps] = np.isnan(drawn[:, 1]).nonzero()
+        # Before each point that jumps led to, counted without the gaps before it.
+        assert [*gaps - np.arange(len(gaps))] == [*np.searchsorted(points, breaks)] != []
 
 
 def test_what_a_force_pulls_off_has_no_point(loop):
@@ -73,6 +91,8 @@ def test_what_a_force_pulls_off_has_no_point(loop):
     [off] = [jump for jump in path.jumps if np.isinf(jump.lost)]
     *_, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == "--")
     np.testing.assert_allclose(last[0], (off.depth * NM, off.force_before * UN))
+    assert last[1, 0] < last[0, 0]  # it leaves, under the force that pulls it
+    assert last[1, 1] == last[0, 1]
     rc.plot.jump_figure(path).canvas.draw()
 
 
@@ -85,9 +105,16 @@ def test_a_map_has_zero_in_the_middle_and_outlines_the_contact(state):
     axes = state.plot(Figure().subplots())
     image = axes.images[0]
     assert image.norm(0.0) == 0.5
+    assert not axes.patch.get_hatch()
     assert image.norm(image.norm.vmin) == 0.0
-    scale = np.asarray(image.get_array())[0, 0] / state.pressure[0, 0]
-    np.testing.assert_allclose(image.get_array(), state.pressure * scale)
+    np.testing.assert_allclose(image.get_array(), state.pressure * 1e3, rtol=1e-12)
+    assert image.colorbar.ax.get_ylabel().startswith("pressure, tension negative [mPa]")
+    assert image.norm.vmin == pytest.approx(state.pressure.min() * 1e3, rel=1e-12)
+    # The largest pressures, at the edges of spots, do not take the colours for themselves.
+    pressed = state.pressure[state.pressure > 0]
+    usual = np.quantile(pressed, 0.95)
+    highest = usual if pressed.max() > 1.5 * usual else pressed.max()
+    assert image.norm.vmax == pytest.approx(highest * 1e3, rel=1e-12)
     [outline] = [each for each in axes.collections if isinstance(each, LineCollection)]
     ringed = np.pad(state.contact, 1)
     edges = sum(int((np.diff(ringed, axis=axis) != 0).sum()) for axis in (0, 1))
@@ -134,21 +161,45 @@ def test_a_profile_is_pressed_above_and_pulled_below_zero():
     np.testing.assert_allclose(ends, np.stack([RINGS.edges[touched], RINGS.edges[touched + 1]], 1) * NM)
 
 
+def test_of_cells_that_share_a_pixel_the_largest_is_shown_pressure_or_tension():
+    """Blocks of two rows by one column, on a map of 1500 rows."""
+    grid = rc.Grid((1500, 4), (1.0, 2.0), periodic=True)
+    heights = np.zeros(grid.shape)
+    heights[10, 1] = 1.0
+    tower = rc.Surface(heights, grid)
+    (state,) = rc.detachment_path(rc.press(tower, 1.0, depth=0.1), 1e-3, depths=[0.05])
+    pressure = np.zeros(grid.shape)
+    pressure[10, 1], pressure[11, 1] = 0.2, -0.3
+    pressure[20, 2], pressure[21, 2] = 0.2, -0.1
+    image = rc.plot.tension_map(replace(state, pressure=pressure), Figure().subplots()).images[0]
+    drawn = np.asarray(image.get_array())
+    assert drawn.shape == (750, 4)
+    assert drawn[5, 1] == pytest.approx(-300)  # mPa
+    assert drawn[10, 2] == pytest.approx(200)
+    assert np.count_nonzero(drawn) == 2
+    assert (image.norm.vmin, image.norm.vmax) == pytest.approx((-300, 200))
+
+
 def test_missing_cells_are_left_out():
     surface = rough(16, periodic=False, slope=0.2, seed=1)
     heights = surface.heights.copy()
     heights[2:5, 3:9] = np.nan
     state = rc.adhesive_state(rc.Surface(heights, surface.grid), 1.0, sticky(2.0), depth=0.3)
-    image = rc.plot.tension_map(state, Figure().subplots()).images[0]
-    np.testing.assert_array_equal(np.ma.getmaskarray(image.get_array()), np.isnan(heights))
+    axes = rc.plot.tension_map(state, Figure().subplots())
+    np.testing.assert_array_equal(np.ma.getmaskarray(axes.images[0].get_array()), np.isnan(heights))
+    assert axes.patch.get_hatch()
 
 
 def test_whole_figures_are_drawn(loop, state):
     on_rings = rc.adhesive_state(BALL, 1e9, STRONG, depth=0.0)
     for figure in (rc.plot.jump_figure(loop), rc.plot.state_figure(state), rc.plot.state_figure(on_rings)):
         figure.canvas.draw()
-    assert "stability" in rc.plot.state_figure(state).axes[0].get_title()
-    assert "(unresolved)" in rc.plot.state_figure(on_rings).axes[0].get_title()
+    force, area = rc.plot.jump_figure(loop).axes
+    assert (force.get_ylabel(), area.get_ylabel()) == ("force [µN]", "relative real contact area A/A0 [%]")
+    for each, unresolved in ((state, ""), (on_rings, " (unresolved)")):
+        loads = f"force {written(each.force, 'N')},  depth {written(each.depth, 'm')}"
+        answers = f"contact {100 * each.contact_fraction:.3g} %,  stability {each.stability:.2f}"
+        assert rc.plot.state_figure(each).axes[0].get_title() == f"{loads},  {answers}{unresolved}"
 
 
 def test_a_state_without_contact_is_drawn():
@@ -207,6 +258,10 @@ def test_the_map_of_stuck_cells_is_theirs():
     ringed = np.pad(state.contact, 1)
     count = sum(int((np.diff(ringed.astype(int), axis=axis) != 0).sum()) for axis in (0, 1))
     assert len(edges.get_segments()) == count > 0
-    title = rc.plot.state_figure(state).axes[0].get_title()
+    figure = rc.plot.state_figure(state)
+    assert tuple(figure.get_size_inches()) == pytest.approx(
+        (6.2, 1.2 + 3.6 * 16 / 24)
+    )  # as wide as any, lower
+    title = figure.axes[0].get_title()
     assert "stability" not in title
     assert written(state.force, "N") in title

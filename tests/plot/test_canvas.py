@@ -71,10 +71,42 @@ def test_no_text_overlaps_on_curves(periodic):
     assert overlaps(areal_figure(curve, law)) == []
 
 
+def test_the_picture_of_a_surface_rings_its_spikes_beside_its_distribution():
+    heights = rough((20, 64)).heights.copy()
+    heights[7, 11] += 1e-4
+    surface = rc.Surface(heights, rc.Grid((20, 64), (2e-7, 1e-7)))
+    heights_drawn, distribution = surface_figure(surface, rc.find_spikes(surface)).axes
+    (rings,) = heights_drawn.collections
+    np.testing.assert_allclose(rings.get_offsets(), [(1.15, 1.5)], rtol=1e-12)  # um
+    assert len(distribution.patches[0].get_data().values) == 22  # Rice: twice the cube root of 1280
+    trace = np.random.default_rng(2).normal(0.0, 1e-9, 500)
+    trace[11] += 1e-6
+    scan = rc.Surface(trace, rc.Grid(500, 1e-7))
+    profile, _ = surface_figure(scan, rc.find_spikes(scan)).axes
+    _, marks = profile.lines
+    np.testing.assert_allclose(marks.get_xdata(), [1.15], rtol=1e-12)
+
+
+@pytest.mark.parametrize(("shape", "beside"), [((40, 48), True), ((48, 20), True), ((20, 48), False)])
+def test_two_wide_maps_lie_above_one_another_under_a_summary(shape, beside):
+    solution = rc.press(rough(shape), MODULUS, force=2e-3)
+    figure = solution_figure(solution)
+    figure.canvas.draw()
+    first, second = (axes.get_position() for axes in figure.axes[:2])
+    assert (first.x1 <= second.x0) == beside
+    assert (first.y0 >= second.y1) != beside
+    stiffness = written(solution.stiffness, "N m-1")
+    assert stiffness != written(solution.interfacial_stiffness, "N m-1")
+    assert figure.get_suptitle() == (
+        f"force 2 mN,  depth {written(solution.depth, 'm')},  stiffness {stiffness},  "
+        f"contact {100 * solution.contact.mean():.3g} % in {solution.spots.count} spots"
+    )
+
+
 def test_the_frame_shows_what_is_enlarged():
-    heights = np.zeros((128, 128))
+    heights = np.zeros((128, 160))
     heights[20, 30] = 1e-6
-    solution = rc.press(rc.Surface(heights, rc.Grid((128, 128), 1e-6)), MODULUS, force=1e-3)
+    solution = rc.press(rc.Surface(heights, rc.Grid((128, 160), (2e-6, 1e-6))), MODULUS, force=1e-3)
     figure = solution_figure(solution)
     whole, enlarged = figure.axes
     frame = whole.lines[0]
@@ -82,25 +114,29 @@ def test_the_frame_shows_what_is_enlarged():
     assert (max(frame.get_ydata()), min(frame.get_ydata())) == enlarged.get_ylim()
     low, high = enlarged.get_xlim()
     assert low < 30.5 < high
-    assert "0.0061 %" in figure.get_suptitle()
+    high, low = enlarged.get_ylim()
+    assert low < 41 < high
+    assert figure.get_suptitle() == (
+        f"force 1 mN,  depth {written(solution.depth, 'm')},  stiffness {written(solution.stiffness, 'N m-1')},  "
+        "contact 0.00488 % in 1 spot"  # one of 20480 cells
+    )
 
 
 def test_the_largest_pressure_is_told_where_it_lies_beside_the_frame():
     """A lone tower, higher than the many that carry the most load."""
-    heights = np.zeros((128, 128))
+    heights = np.zeros((128, 160))
     heights[20:41:5, 20:41:5] = 1e-6
     heights[100, 110] = 1.2e-6
-    solution = rc.press(rc.Surface(heights, rc.Grid((128, 128), 1e-6)), MODULUS, depth=4e-7)
-    assert solution.pressure.argmax() == 100 * 128 + 110
+    solution = rc.press(rc.Surface(heights, rc.Grid((128, 160), (2e-6, 4e-6))), MODULUS, depth=4e-7)
+    assert solution.pressure.argmax() == 100 * 160 + 110
     figure = solution_figure(solution)
     low, high = figure.axes[1].get_xlim()
-    assert not low < 110.5 < high
+    assert not low < 442 < high
     inside, beside = figure.axes[1].get_title().split("\n")
     shown = solution.pressure[:64, :64].max()
     assert inside == f"pressure in the frame, at most {written(float(shown), 'Pa')}"
-    assert beside.startswith(
-        f"on the map at most {written(float(solution.pressure.max()), 'Pa')}, at x = 110 µm"
-    )
+    most = written(float(solution.pressure.max()), "Pa")
+    assert beside == f"on the map at most {most}, at x = 442 µm, y = 201 µm"
     assert overlaps(figure) == []
 
 

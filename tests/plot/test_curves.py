@@ -13,6 +13,7 @@ from roughcontact.plot.canvas import curve_figure
 from roughcontact.plot.curves import areal_curve, force_curve
 from roughcontact.plot.drawing.engineering_units import Scale
 from roughcontact.plot.drawing.ticks import readable_ticks
+from roughcontact.theory.law import LoadingLaw
 
 MODULUS = 1e11
 
@@ -61,6 +62,7 @@ def test_limits_are_drawn_and_lie_on_the_axes(axes, curve):
     factor = line(axes, "resolved").get_ydata()[0] / curve.stiffness[curve.resolved][0]
     expected = [20 * curve.cell_stiffness * factor, curve.full_contact_stiffness * factor]
     assert level(axes) == pytest.approx(expected, rel=1e-12)
+    assert [text.xy[1] for text in axes.texts] == pytest.approx(expected, rel=1e-12)
     low, high = axes.get_ylim()
     assert low < expected[0] < expected[1] < high
 
@@ -78,6 +80,10 @@ def test_the_law_is_drawn_over_its_window_with_its_exponent(axes, curve):
     np.testing.assert_allclose(drawn.get_ydata(), law.stiffness(np.array(law.window)) * y, rtol=1e-12)
     assert f"{law.exponent:.3f}" in drawn.get_label()
     assert drawn.get_label() in [text.get_text() for text in axes.get_legend().get_texts()]
+    (thin,) = [each for each in axes.lines if each.get_linewidth() == 0.8]
+    beyond = curve.force[[0, -1]]  # of all points, also those before the window
+    np.testing.assert_allclose(thin.get_xdata(), beyond * x, rtol=1e-12)
+    np.testing.assert_allclose(thin.get_ydata(), law.stiffness(beyond) * y, rtol=1e-12)
 
 
 def test_the_outer_axes_have_no_dimension(curve):
@@ -200,8 +206,6 @@ def test_no_point_lies_under_words(lowest, highest):
 @pytest.mark.parametrize("periodic", [False, True])
 def test_no_line_lies_under_words_where_there_is_room(periodic):
     """Laws that cross the levels at either end; on a large picture there is always a place between."""
-    from roughcontact.theory.law import LoadingLaw
-
     grid = rc.Grid((48, 48), (1e-7, 1e-7), periodic)
     surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=np.random.default_rng(3))
     scale = MODULUS * 1e-7 * 48e-7
@@ -268,8 +272,6 @@ def test_what_belongs_to_k_is_drawn_with_the_interface_only_where_the_two_are_on
 @pytest.mark.parametrize("name", AREAL)
 def test_theories_pass_through_what_they_say_per_area(axes, curve, name):
     """A theory that says what was computed goes through the points."""
-    from roughcontact.theory.law import LoadingLaw
-
     given = {"interfacial_stiffness": 1e3, "contact_area": 1e-13, "mean_gap": 1e-8}
     law = LoadingLaw("straight", "", {each: lambda f, c=c: c * f for each, c in given.items()})
     areal_curve(curve, axes, quantity=name, theories=[law])

@@ -114,3 +114,61 @@ def test_the_legend_covers_no_bar():
     [drawn] = axes.patches
     top = axes.transData.transform((0.0, drawn.get_data().values.max()))[1]
     assert axes.get_legend().get_window_extent().y0 > top
+
+
+def test_theories_of_pressure_are_drawn_in_the_unit_of_the_axis():
+    """Of a map that is not square: per MPa, at MPa, with the pressure over the whole map in the title."""
+    grid = rc.Grid((40, 61), (2e-6, 1e-6))
+    y, x = (c - length / 2 for c, length in zip(grid.coordinates, grid.lengths, strict=True))
+    solution = rc.press(rc.Surface(-(y[:, None] ** 2 + x**2) / 2e-3, grid), 1e11, force=0.1)
+    peak, part = solution.pressure.max(), solution.contact_fraction
+    figure = rc.plot.pressure_distribution_figure(
+        solution, {"rising": lambda p: 2 * part * p / peak**2, "even": lambda p: part / peak + 0 * p}
+    )
+    [axes] = figure.axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("pressure [MPa]", "part of the nominal area [1/MPa]")
+    [drawn] = axes.patches
+    values, edges, _ = drawn.get_data()
+    shares, places = np.histogram(solution.pressure[solution.contact] / 1e6, len(values), (0, peak / 1e6))
+    np.testing.assert_allclose(edges, places, rtol=1e-12)
+    np.testing.assert_allclose(values, shares / grid.size / np.diff(places), rtol=1e-12)
+    rising, even = (each.get_xydata() for each in axes.lines)
+    expected = 2 * part * rising[:, 0] / (peak / 1e6) ** 2
+    np.testing.assert_allclose(rising[:, 1], expected, rtol=1e-12)
+    np.testing.assert_allclose(even[:, 1], part / (peak / 1e6), rtol=1e-12)
+    assert axes.get_xlim() == pytest.approx((0, peak / 1e6), rel=1e-12)
+    assert rising[-1, 0] == even[-1, 0] == pytest.approx(peak / 1e6, rel=1e-12)
+    assert [text.get_text() for text in axes.get_legend().get_texts()][1:] == ["rising", "even"]
+    assert axes.get_title() == f"nominal pressure {written(0.1 / (80e-6 * 61e-6), 'Pa')}"
+
+
+def test_of_rings_the_area_beyond_the_axis_is_told_and_not_their_number(axes):
+    """Under a flat punch the outermost rings, of which the widest is wider than all others, carry many times more."""
+    grid = rc.RadialGrid(np.r_[np.linspace(0, 0.9, 120), 1 - 0.1 * 0.5 ** np.arange(1, 9), 1.0])
+    solution = rc.press(rc.RadialProfile(np.zeros(grid.shape), grid), 1e3, depth=0.1)
+    pressure_distribution(solution, axes)
+    end = axes.patches[0].get_data().edges[-1]
+    areas, pressure = np.diff(np.pi * grid.edges**2), solution.pressure
+    assert axes.get_xlabel() == "pressure [Pa]"
+    share = areas[pressure > end].sum() / np.pi
+    assert share > 2 * (pressure > end).mean() > 0
+    assert f"{100 * share:.2g} % of it beyond" in axes.get_legend().get_texts()[0].get_text()
+
+
+def test_heights_and_their_normal_distribution_are_drawn_in_the_unit_of_the_axis(axes):
+    grid = rc.Grid((40, 61), (2e-6, 1e-6))
+    heights = np.random.default_rng(5).normal(3e-8, 1e-8, grid.shape)
+    height_distribution(rc.Surface(heights, grid), axes, bins=20)
+    assert axes.get_xlabel() == "height above the mean [nm]"
+    assert axes.get_ylabel() == "probability density [1/nm]"
+    about = (heights - heights.mean()) * 1e9
+    values, edges, _ = axes.patches[0].get_data()
+    counts, places = np.histogram(about, 20)
+    np.testing.assert_allclose(edges, places, rtol=1e-9)
+    np.testing.assert_allclose(values, counts / about.size / np.diff(places), rtol=1e-9)
+    [normal] = axes.lines
+    z, density = normal.get_data()
+    assert axes.get_xlim() == pytest.approx((about.min(), about.max()), rel=1e-9)
+    assert (z[0], z[-1]) == pytest.approx((about.min(), about.max()), rel=1e-9)
+    expected = np.exp(-(z**2) / about.var() / 2) / np.sqrt(2 * np.pi * about.var())
+    np.testing.assert_allclose(density, expected, rtol=1e-9)

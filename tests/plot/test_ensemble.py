@@ -61,7 +61,7 @@ class TestMeanCurves:
         dotted = [line for line in axes.lines if line.get_linestyle() == ":"]
         whole = [line for line in axes.lines if line.get_linestyle() == "-"]
         assert (len(dotted), len(whole)) == (2, 2)
-        assert len(dotted[0].get_xdata()) == 6
+        np.testing.assert_array_equal(dotted[0].get_xydata(), np.stack([FORCE, mean[0]], 1))
         np.testing.assert_array_equal(whole[0].get_xdata(), FORCE[FORCE > 1e-3])
 
     def test_zeros_and_what_is_missing_have_no_place(self, axes):
@@ -75,6 +75,11 @@ class TestMeanCurves:
         factors = xarray.DataArray([1.0, 2.0], dims="hurst", coords={"hurst": HURST})
         mean_curves((factors * FORCE).rename("force"), stiffness(), axes)
         np.testing.assert_array_equal(axes.lines[1].get_xdata(), 2 * FORCE)
+
+    def test_each_axis_names_its_unit(self, axes):
+        force = FORCE.rename("force").assign_attrs(units="N")
+        mean_curves(force, stiffness().rename("stiffness").assign_attrs(units="N m-1"), axes)
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [N]", "stiffness [N/m]")
 
     def test_many_groups_take_shades(self, axes):
         mean_curves(FORCE, stiffness(np.linspace(0, 2, 24)), axes)
@@ -108,6 +113,13 @@ class TestFittedValues:
         np.testing.assert_array_equal(arms.get_segments()[1][:, 1], [0.5, 0.5])
         assert drawn.get_label() == "513 x 513"
         assert (axes.get_xlabel(), axes.get_ylabel()) == ("hurst", "exponent")
+
+    def test_each_axis_names_its_unit(self, axes):
+        fits = self.FITS.rename(hurst="long_cutoff")
+        fits["long_cutoff"].attrs["units"] = "µm"
+        fits["exponent"].attrs["units"] = "N m-1"
+        fitted_values(fits, ax=axes, along="long_cutoff")
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("long cutoff [µm]", "exponent [N/m]")
 
     def test_more_dimensions_are_refused(self, axes):
         with pytest.raises(ValueError, match="not along 'hurst' alone: select first"):

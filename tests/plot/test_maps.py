@@ -52,7 +52,24 @@ def test_row_zero_is_on_top_and_cells_lie_where_they_are():
     assert axes.get_ylim()[0] > axes.get_ylim()[1]
     shown = np.argwhere(~np.ma.getmaskarray(np.ma.masked_invalid(image.get_array())))
     assert shown.tolist() == [[4, 25]]
-    assert axes.get_xlabel() == "x [µm]"
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_aspect()) == ("x [µm]", "y [µm]", 1.0)
+    peak = 1e-5 / 2e-14  # all of the force on the one cell
+    assert image.get_array()[4, 25] == pytest.approx(peak * 1e-6, rel=1e-9)
+    assert image.colorbar.ax.get_ylabel() == "pressure [MPa]"
+    heights = axes.images[0]  # in grey, behind
+    assert heights.get_extent() == image.get_extent()
+    np.testing.assert_allclose(heights.get_array(), solution.problem.surface.heights * 1e6, rtol=1e-12)
+
+
+def test_the_axes_have_the_unit_of_the_longer_side():
+    """Of a strip of 2 mm by 5 um; the unit of a height is its own."""
+    grid = rc.Grid((5, 400), (1e-6, 5e-6))
+    heights = np.random.default_rng(2).normal(0.0, 1e-9, grid.shape)
+    axes = height_map(rc.Surface(heights, grid), Figure().subplots())
+    assert axes.images[0].get_extent() == pytest.approx((0.0, 2.0, 0.005, 0.0), rel=1e-12)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [mm]", "y [mm]")
+    np.testing.assert_allclose(axes.images[0].get_array(), heights * 1e9, rtol=1e-12)
+    assert axes.images[0].colorbar.ax.get_ylabel() == "height [nm]"
 
 
 @pytest.mark.parametrize("draw", [pressure_map, contact_map])
@@ -98,6 +115,19 @@ def test_marks_and_cells_are_drawn_where_they_are(draw, window):
         np.testing.assert_allclose(np.sort(marks.get_array()), np.sort(drawn), rtol=1e-14)
 
 
+def test_a_larger_load_has_a_larger_ring():
+    """Areas of rings from 14 to 94 square points, in proportion to the loads beyond 14."""
+    heights = np.zeros((128, 160))
+    heights[30, 100], heights[90, 20], heights[110, 140] = 1e-6, 1.1e-6, 1.2e-6
+    solution = rc.press(rc.Surface(heights, rc.Grid(heights.shape, (2e-7, 1e-7))), MODULUS, depth=4e-7)
+    (rings,) = contact_map(solution, Figure().subplots()).collections
+    loads = {cell: solution.pressure[cell] for cell in ((30, 100), (90, 20), (110, 140))}
+    assert len(loads) == len(rings.get_sizes()) == solution.spots.count
+    for (x, y), size in zip(rings.get_offsets(), rings.get_sizes(), strict=True):
+        share = loads[int(y / 0.2), int(x / 0.1)] / max(loads.values())
+        assert size == pytest.approx(14 + 80 * share, rel=1e-6)
+
+
 def test_a_frame_lies_on_the_edges_of_its_cells():
     solution = pressed((512, 512), [(100, 400)])
     _, axes = single()
@@ -137,6 +167,17 @@ def test_marks_stand_on_their_spots_and_not_on_one_another():
     assert faint_spots(solution, window)[0].size == 0
 
 
+@pytest.mark.parametrize("heavier", [(10, 20), (11, 22)])
+def test_of_neighbours_the_one_that_carries_more_is_marked(heavier):
+    heights = np.zeros((400, 512))
+    heights[10, 20] = heights[11, 22] = heights[300, 40] = 1e-6
+    heights[heavier] = 1.1e-6
+    solution = rc.press(rc.Surface(heights, rc.Grid(heights.shape, (2e-7, 1e-7))), MODULUS, depth=4e-7)
+    assert solution.spots.count == 3
+    _, places = faint_spots(solution, part(solution.problem.grid, None))
+    assert sorted(tuple(place) for place in places.tolist()) == [heavier, (300, 40)]
+
+
 def test_the_window_holds_compact_contact_and_keeps_the_shape_of_the_map():
     solution = pressed((200, 400), [(30, 100), (50, 110)])
     y, x = contact_window(solution)
@@ -148,11 +189,12 @@ def test_the_window_holds_compact_contact_and_keeps_the_shape_of_the_map():
 
 def test_the_window_goes_to_the_heaviest_part_of_scattered_contact():
     cluster = [(100 + 2 * i, 50 + 2 * j) for i in range(3) for j in range(3)]
-    solution = pressed((256, 256), [(5, 250), (250, 5), (250, 250), *cluster])
+    solution = pressed((256, 320), [(5, 310), (250, 5), (250, 310), *cluster])
     y, x = contact_window(solution)
     assert y.start <= 100 < 105 <= y.stop
     assert x.start <= 50 < 55 <= x.stop
     assert y.stop - y.start <= 256 / 6 + 1
+    assert x.stop - x.start <= 320 / 6 + 1
 
 
 @pytest.mark.parametrize("cell", [(0, 0), (0, 63), (63, 0), (63, 63)])
@@ -236,13 +278,14 @@ def test_large_maps_are_pooled_without_losing_a_cell():
 
 def test_pooled_cells_lie_where_they_are():
     _, axes = single()
-    slope = np.repeat(np.arange(2500.0)[:, None], 2500, axis=1)
-    surface = rc.Surface(slope, rc.Grid((2500, 2500), 1e-6))
+    slope = np.repeat(np.arange(2500.0)[:, None], 1301, axis=1)
+    surface = rc.Surface(slope, rc.Grid(slope.shape, (1e-6, 2e-6)))
     height_map(surface, axes)
     _, right, bottom, _ = axes.images[0].get_extent()
-    # 2500 cells in blocks of three are 834 blocks, 2502 cells; the axes end with the map.
-    assert (right, bottom) == pytest.approx((2.502, 2.502), rel=1e-14)
-    assert axes.get_xlim() == pytest.approx((0.0, 2.5), rel=1e-14)
+    # 2500 rows in blocks of three are 834 blocks, 2502 rows; 1301 columns in pairs are 1302. The axes end with the map.
+    assert (right, bottom) == pytest.approx((2.604, 2.502), rel=1e-14)
+    assert axes.get_xlim() == pytest.approx((0.0, 2.602), rel=1e-14)
+    assert axes.get_ylim() == pytest.approx((2.5, 0.0), rel=1e-14)
 
 
 def test_a_few_great_pressures_do_not_darken_the_rest():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
 from roughcontact.plot.study_picture import study_figure
@@ -57,12 +58,21 @@ def test_means_laws_and_exponents_are_drawn(averaged):
     for line, values in zip(lines, expected, strict=True):
         np.testing.assert_array_equal(line.get_xdata(), FORCE[FORCE > 1e-3])
         np.testing.assert_array_equal(line.get_ydata(), values[FORCE > 1e-3])
+    errors = averaged["dimensionless_stiffness_standard_error"].to_numpy().reshape(6, 12)
+    bands = [each for each in left.collections if isinstance(each, PolyCollection)]
+    for band, values, error in zip(bands, expected, errors, strict=True):
+        corners = band.get_paths()[0].vertices
+        ends = [(np.min(y), np.max(y)) for y in (corners[corners[:, 0] == force, 1] for force in FORCE)]
+        np.testing.assert_allclose(ends, np.stack([values - error, values + error], 1), rtol=1e-12)
+    assert (left.get_xlabel(), left.get_ylabel()) == ("force / (E* L h)", "stiffness / (E* L)")
     assert left.get_legend().get_title().get_text() == "hurst, points"
     assert [text.get_text() for text in left.get_legend().get_texts()][:2] == ["0.2, 64", "0.2, 256"]
     laws = [line for line in left.lines if line.get_linestyle() == "--"]
-    for law, alpha, zeta in zip(
-        laws, averaged["exponent"].values.flat, averaged["prefactor"].values.flat, strict=True
+    names = ("exponent", "prefactor", "window_low", "window_high")
+    for law, alpha, zeta, low, high in zip(
+        laws, *(averaged[name].values.flat for name in names), strict=True
     ):
+        np.testing.assert_array_equal(law.get_xdata(), (low, high))
         np.testing.assert_allclose(law.get_ydata(), zeta * law.get_xdata() ** alpha, rtol=1e-14)
 
     # There are three numbers of points and two Hurst exponents: the former stand on the axis, by their logarithm.
@@ -96,6 +106,32 @@ def test_a_number_without_loads_stands_against_what_varies(averaged):
         np.testing.assert_allclose(limits, np.transpose([mean - error, mean + error]), rtol=1e-14)
     assert axes.get_ylabel() == "rms height [m]"
     assert axes.get_title() == "means and their standard errors"
+
+
+def test_axes_name_the_units_of_the_study(averaged):
+    """Newtons and metres of a study without numbers free of dimension, against lengths in micrometres."""
+    renamed = averaged.rename(
+        {
+            "dimensionless_force": "force",
+            "dimensionless_stiffness_mean": "depth_mean",
+            "dimensionless_stiffness_standard_error": "depth_standard_error",
+            "points": "long_cutoff",
+        }
+    )
+    for name, unit in (("force", "N"), ("depth_mean", "m"), ("long_cutoff", "µm")):
+        renamed[name].attrs["units"] = unit
+    [axes] = study_figure(renamed, "depth").axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [N]", "depth [m]")
+    np.testing.assert_array_equal(means_drawn(axes)[0].get_xdata(), FORCE[FORCE > 1e-3])
+    [axes] = study_figure(renamed, "rms", "long_cutoff").axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("long cutoff [µm]", "rms height [m]")
+
+
+def test_a_study_is_drawn_against_force_without_dimension_where_it_has_both(averaged):
+    both = averaged.assign(force=("load", 1e3 * FORCE, {"units": "N"}))
+    axes = study_figure(both, "dimensionless_stiffness").axes[0]
+    assert axes.get_xlabel() == "force / (E* L h)"
+    np.testing.assert_array_equal(means_drawn(axes)[0].get_xdata(), FORCE[FORCE > 1e-3])
 
 
 def test_of_one_combination_there_is_one_curve(averaged):

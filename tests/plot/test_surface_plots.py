@@ -191,6 +191,38 @@ def test_a_view_shows_the_heights_with_the_first_row_at_the_back():
     assert (axes.get_xlabel(), axes.get_zlabel()) == ("x [µm]", "height [µm]")
 
 
+def test_a_view_has_each_point_at_its_place_and_its_colour():
+    """On a map of 6 um by 4 um that falls to the front and to the right; heights in nanometres."""
+    nm = np.arange(12.0)[::-1].reshape(3, 4) ** 1.5
+    axes = surface_view(rc.Surface(nm * 1e-9, rc.Grid((3, 4), (2e-6, 1e-6))), single(projection="3d")[1])
+    assert (axes.get_ylabel(), axes.get_zlabel()) == ("y [µm]", "height [nm]")
+    [drawn] = axes.collections
+    # Corners in space: Matplotlib before 3.10 keeps them as rows x, y, z and 1.
+    corners = drawn._faces.reshape(-1, 3) if hasattr(drawn, "_faces") else drawn._vec[:3].T
+    assert len(corners) == 4 * 6  # of each quadrilateral, in space
+    for x, y, z in corners:
+        column, row = x - 0.5, (y - 1) / 2
+        assert (row, column) == pytest.approx((round(row), round(column)), abs=1e-12)
+        assert z == pytest.approx(nm[round(row), round(column)], rel=1e-12)
+    sides = np.asarray(axes.get_box_aspect())
+    np.testing.assert_allclose(sides / sides[1], (4 / 6, 1, 0.3), rtol=1e-12)
+    # Viridis in whatever light, from the back to the front: the highest is yellow, the lowest violet.
+    colours = drawn.get_facecolor()[:, :3]
+    assert colours[0, 2] < colours[0, 0]
+    assert colours[-1, 2] > colours[-1, 0]
+
+
+def test_the_light_on_a_bent_sheet_knows_the_side_along_which_it_bends():
+    """Its slopes, and so its colours, are the same however far apart the rows lie."""
+    heights = np.tile(np.arange(12.0) ** 2, (3, 1)) * 1e-9
+    one, two = (
+        surface_view(rc.Surface(heights, rc.Grid((3, 12), (step, 1e-6))), single(projection="3d")[1])
+        for step in (1e-6, 2e-6)
+    )
+    colours = (np.unique(axes.collections[0].get_facecolor().round(9), axis=0) for axes in (one, two))
+    np.testing.assert_allclose(*colours, atol=2e-9)
+
+
 def test_a_view_averages_a_large_surface_over_blocks_even_one_whose_period_they_do_not_fit():
     grid = rc.Grid((403, 402), 1e-6, periodic=True)
     surface = rc.self_affine(grid, 1.0, 1e-6, np.random.default_rng(3))

@@ -5,6 +5,7 @@ import pytest
 
 import roughcontact as rc
 from followed import LINE, MODULUS, PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, row
+from roughcontact.theory.law import LoadingLaw
 
 STEEL = rc.Solid(205e9, 0.29)
 PAIR = (STEEL, STEEL)
@@ -74,9 +75,11 @@ ADHESION = [
     ),
     row(
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9), force=1e-9),
-        "cells of at most 1.69e-08 m or a range of at least 1.54e-08 m, or give the adhesion allow_unresolved=True",
+        "cells of at most 1.69e-08 m or a range of at least 1.54e-08 m, use detachment_path, which needs no range, "
+        "or give the adhesion allow_unresolved=True",
         lambda: stuck(heights(rc.Grid((16, 16), 1.69e-8)), rc.Adhesion(0.05, 2e-9), force=1e-9),
         lambda: stuck(adhesion=rc.Adhesion(0.05, 1.54e-8), force=1e-9),
+        lambda: detached(work=0.05, depths=[0.0]),
         lambda: stuck(adhesion=rc.Adhesion(0.05, 2e-9, allow_unresolved=True), force=1e-9),
     ),
     row(
@@ -258,8 +261,11 @@ ANSWERS = [
     ),
     row(
         lambda: curve(forces=RISING).compare("gw"),
-        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0]",
+        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own",
         lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "gw")[0]),
+        lambda: curve(forces=RISING).compare(
+            LoadingLaw("own", "notes", {"depth": lambda force: force / 1e5})
+        ),
     ),
     row(
         lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, 2 * MODULUS, "gw")[0]),

@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from followed import heights, row
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.page_worker import perform
 from roughcontact.page.stopping import Stopping
 
@@ -27,13 +27,13 @@ def asked(job, source, more=None, **parts):
     def ask(files):
         sent, recipe = [], {"source": source} | parts
         given = {"number": 1, "job": job, "recipe": recipe, "files": files, "more": more or {}}
-        perform(given, Workbench(), lambda header, data=b"": sent.append(header), Stopping())
+        perform(given, SessionCache(), lambda header, data=b"": sent.append(header), Stopping())
         return sent[-1]
 
     return ask
 
 
-def order(job, changed=None, **parts):
+def request(job, changed=None, **parts):
     return asked(job, MADE | (changed or {}), **parts)
 
 
@@ -46,27 +46,39 @@ def prepared(**steps):
 
 
 def bodies(**given):
-    return order("bodies", bodies=given)
+    return request("bodies", bodies=given)
 
 
 def press(text, control="force", source=None, **given):
-    return order("press", source, load={"control": control, "text": text}, bodies={"modulus": "1GPa"} | given)
+    return request(
+        "press", source, load={"control": control, "text": text}, bodies={"modulus": "1GPa"} | given
+    )
 
 
 def curve(**loads):
-    return order("curve", loads=loads)
+    return request("curve", loads=loads)
 
 
 SHEET = [
-    row(order("look", {"hurst": "some"}), "expected a number such as 0.8", order("look", {"hurst": "0.8"})),
-    row(order("look", {"hurst": "5"}), "must lie between -1 and 3", order("look", {"hurst": "2"})),
-    row(order("look", {"rms": "much"}), "expected a length such as 5um", order("look", {"rms": "5um"})),
-    row(order("look", {"points": 1}), "A surface has 3 to 4096 points a side", order("look", {"points": 3})),
-    row(order("look", {"seed": -1}), "The seed must be a whole number from 0 up", order("look", {"seed": 0})),
     row(
-        order("look", {"points": "many"}),
+        request("look", {"hurst": "some"}), "expected a number such as 0.8", request("look", {"hurst": "0.8"})
+    ),
+    row(request("look", {"hurst": "5"}), "must lie between -1 and 3", request("look", {"hurst": "2"})),
+    row(request("look", {"rms": "much"}), "expected a length such as 5um", request("look", {"rms": "5um"})),
+    row(
+        request("look", {"points": 1}),
+        "A surface has 3 to 4096 points a side",
+        request("look", {"points": 3}),
+    ),
+    row(
+        request("look", {"seed": -1}),
+        "The seed must be a whole number from 0 up",
+        request("look", {"seed": 0}),
+    ),
+    row(
+        request("look", {"points": "many"}),
         "wrong at source.MadeSource.points: Input should be a valid integer",
-        order("look", {"points": 8}),
+        request("look", {"points": 8}),
     ),
 ]
 
@@ -193,18 +205,18 @@ LOADS = [
         curve(start="1mN", end="2mN", count=1), "has 2 to 1000 loads", curve(start="1mN", end="2mN", count=2)
     ),
     row(
-        order("export", more={"kind": "docx"}),
+        request("export", more={"kind": "docx"}),
         "Files are exported as csv, nc, png, svg, zip",
         *(
-            order("export", more={"kind": kind, "of": "load"}, load={"control": "force", "text": "1mN"})
+            request("export", more={"kind": kind, "of": "load"}, load={"control": "force", "text": "1mN"})
             for kind in ("csv", "nc", "png", "svg", "zip")
         ),
     ),
     row(
-        order("export", more={"kind": "csv"}),
+        request("export", more={"kind": "csv"}),
         "nothing to export yet: press the surface, or start the curve",
-        order("export", more={"kind": "csv", "of": "load"}, load={"control": "force", "text": "1mN"}),
-        order(
+        request("export", more={"kind": "csv", "of": "load"}, load={"control": "force", "text": "1mN"}),
+        request(
             "export", more={"kind": "csv", "of": "curve"}, loads={"start": "1mN", "end": "2mN", "count": 2}
         ),
     ),

@@ -228,9 +228,10 @@ $ {FAR}
 > {FAR} --mean-gap 100nm --periodic
 
 $ {NEAR} --force 1uN --range 2nm
-! take cells of at most 1.69e-08 m or a range of at least 2.18e-08 m, or give --allow-unresolved
+! at most 16.9 nm or a range of at least 21.8 nm, use 'roughcontact adhesion detach', which needs no range, or give
 > {NEAR} --force 1nN --range 2nm --size '405.6nm x 540.8nm'
-> {NEAR} --force 1uN --range 2.18e-08m
+> {NEAR} --force 1uN --range 21.8nm
+> {DETACH} --force 1uN
 > {NEAR} --force 1uN --range 2nm --allow-unresolved
 
 $ {FAR} --force -1nN

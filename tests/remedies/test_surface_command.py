@@ -81,11 +81,11 @@ $ {PREPARE} --short-cutoff 10
 > {PREPARE} --short-cutoff 10um
 
 $ {PREPARE} --short-cutoff 1nm
-! too short for cells of 2e-06 m: give at least 8e-06 m
-> {PREPARE} --short-cutoff 8e-06m
+! too short for cells of 2 um: give at least 8 um
+> {PREPARE} --short-cutoff 8um
 
 $ {PREPARE} --short-cutoff 20um --long-cutoff 10um
-! short_cutoff 2e-05 m must be below long_cutoff 1e-05 m
+! short_cutoff 20 um must be below long_cutoff 10 um
 > {PREPARE} --short-cutoff 10um --long-cutoff 20um
 
 $ {PREPARE} --average 0
@@ -132,8 +132,8 @@ $ surface spectrum rough.npz --shortest 1mm --longest 1um
 > surface spectrum rough.npz --shortest 1um --longest 1mm
 
 $ surface spectrum rough.npz --shortest 1nm --longest 2nm
-! the spectrum has 130900 to 1.55573e+06 rad/m, waves from 4.8e-05 down to 4.04e-06 m
-> surface spectrum rough.npz --longest 4.8e-05m --shortest 4.04e-06m
+! the spectrum has 130900 to 1.55573e+06 rad/m, waves from 48 um down to 4.04 um
+> surface spectrum rough.npz --longest 48um --shortest 4.04um
 
 $ thesis fig1
 ! choose one of fig4, fig5

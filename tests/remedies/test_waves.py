@@ -165,7 +165,7 @@ MEASURED = [
     ),
     row(
         lambda: rc.profile_parameters(PROFILE, section_length=1.0),
-        "all together 7: give a section_length of 2e-06 to 3.2e-05 m, or a longer profile",
+        "all together 7: give a section_length of 2e-06 m to 3.2e-05 m, or a longer profile",
         *each(lambda length: rc.profile_parameters(PROFILE, section_length=length), 2e-6, 3.2e-5),
         lambda: rc.profile_parameters(heights(rc.Grid(64, 0.25)), section_length=1.0),
     ),

@@ -68,7 +68,7 @@ def test_a_file_is_read_as_by_one_process(size, name, tmp_path):
         assert (grid, provenance, digest) == (whole.grid, whole.provenance, surface_hash(whole))
 
 
-def test_what_one_process_doubts_is_doubted_here(tmp_path):
+def test_what_one_process_warns_of_is_warned_of_here(tmp_path):
     heights = np.random.default_rng(1).standard_normal((40, 40)) * 1e-7
     rc.write(rc.Surface(heights, rc.Grid((40, 40), 1e-6)), tmp_path / "map.npz")
     with pytest.warns(rc.SurfaceWarning):

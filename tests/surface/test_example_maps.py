@@ -1,4 +1,4 @@
-"""The example maps: the same on every call, as described, and read back from every file without a doubt."""
+"""The example maps: the same on every call, as described, and read back from every file without a warning."""
 
 import warnings
 
@@ -64,7 +64,7 @@ def test_grooves_of_the_tool_repeat_with_the_feed():
 
 @MAPS
 @pytest.mark.parametrize("kind", [".x3p", ".npz", ".nc"])
-def test_a_written_map_is_read_without_a_doubt(name, kind, tmp_path):
+def test_a_written_map_is_read_without_a_warning(name, kind, tmp_path):
     surface = rc.examples.surface(name)
     rc.write(surface, tmp_path / f"map{kind}")
     with warnings.catch_warnings():

@@ -63,7 +63,7 @@ def test_is_the_law_of_the_theory(name):
         assert values == pytest.approx(direct.predict(quantity, forces), rel=1e-9)
 
 
-# What follows from the other facts that the law needs.
+# What follows from the other inputs that the law needs.
 IMPLIED = {("finite-size", "rms"), ("finite-size", "rolloff")}
 MISSING = [
     (name, need) for name, law in laws.LAWS.items() for need in law.needs if (name, need) not in IMPLIED
@@ -79,12 +79,12 @@ def test_what_is_missing_is_named(name, need):
 
 
 def test_defaults_follow_from_other_facts():
-    facts = laws.SurfaceFacts(modulus=MODULUS, length=LENGTH, spectrum=SPECTRUM).completed()
-    assert facts.area == pytest.approx(AREA, rel=1e-15)
-    assert facts.rolloff == LENGTH
-    assert facts.rms == pytest.approx(1e-6, rel=1e-12)
-    assert facts.moments.m2 == pytest.approx(MOMENTS.m2, rel=1e-12)
-    assert laws.SurfaceFacts(area=AREA).completed().length == pytest.approx(math.sqrt(AREA), rel=1e-15)
+    inputs = laws.LawInputs(modulus=MODULUS, length=LENGTH, spectrum=SPECTRUM).completed()
+    assert inputs.area == pytest.approx(AREA, rel=1e-15)
+    assert inputs.rolloff == LENGTH
+    assert inputs.rms == pytest.approx(1e-6, rel=1e-12)
+    assert inputs.moments.m2 == pytest.approx(MOMENTS.m2, rel=1e-12)
+    assert laws.LawInputs(area=AREA).completed().length == pytest.approx(math.sqrt(AREA), rel=1e-15)
 
 
 def test_unknown_names_are_refused():

@@ -4,17 +4,28 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, Protocol, get_args
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
+from roughcontact.adhesion.dugdale_law import DugdaleLaw
+from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
 
-__all__ = ["Adhesion", "Attraction", "Law"]
+if TYPE_CHECKING:
+    from roughcontact.adhesion.elastic_form import ElasticForm
+
+__all__ = ["LAWS", "Adhesion", "Attraction", "Law"]
 
 REACH = 40.0  # ranges, beyond which an exponential attraction is below the rounding of its largest value
 
-Law = Literal["exponential", "dugdale"]
+# The laws by name. Whoever checks a name, offers a choice of names or computes with a law reads this table.
+LAWS: dict[str, type[Attraction]] = {"exponential": ExponentialLaw, "dugdale": DugdaleLaw}
+
+if TYPE_CHECKING:
+    Law = str
+else:
+    Law = Literal[tuple(LAWS)]  # the parameters of studies and commands are checked against it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,8 +72,8 @@ class Adhesion:
             raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
         object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
-        if self.law not in get_args(Law):
-            names = ", ".join(map(repr, get_args(Law)))
+        if self.law not in tuple(LAWS):  # it may be anything, what has no hash too
+            names = ", ".join(map(repr, LAWS))
             raise ValueError(f"the law of adhesion must be one of {names}, not {shown(self.law)}")
 
     @property
@@ -114,7 +125,16 @@ class Adhesion:
 
 
 class Attraction(Protocol):
-    """A law on the cells of a computation: `ExponentialLaw` or `DugdaleLaw`."""
+    """A law on the cells of a computation: one of `LAWS`."""
+
+    @classmethod
+    def on_cells(
+        cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
+    ) -> Attraction:
+        """Return the law on the cells of a computation.
+
+        Work [J/m^2] of each cell, range [m] and strength [Pa] of the adhesion; the rest as of `law_on`.
+        """
 
     @property
     def work(self) -> float | Array:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.validation import Array
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.elastic_form import ElasticForm
 
 __all__ = ["ExponentialLaw"]
 
@@ -25,6 +29,13 @@ class ExponentialLaw:
 
     work: float | Array
     range: float
+
+    @classmethod
+    def on_cells(
+        cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
+    ) -> ExponentialLaw:
+        """Return the law on the cells of a computation: it is evaluated at the gap of each cell."""
+        return cls(work, length)
 
     @property
     def strength(self) -> float:

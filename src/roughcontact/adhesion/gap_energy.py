@@ -79,19 +79,19 @@ class GapEnergy:
 
     def feasible(self, trial: Array) -> Array:
         """Return the nearest displacement above the obstacle, of zero mean where it has none."""
-        lifted = np.maximum(trial, self.obstacle)
+        projected = np.maximum(trial, self.obstacle)
         if not self.form.mean_free:
-            return lifted
+            return projected
         shift = 0.0
         for _ in range(60):  # piecewise linear and convex: Newton's method ends
-            excess = float(lifted.mean())
-            above = lifted > self.obstacle
+            mean = float(projected.mean())
+            above = projected > self.obstacle
             count = int(np.count_nonzero(above))
-            if count == 0 or abs(excess) <= 1e-16 * float(np.abs(lifted).max()):
+            if count == 0 or abs(mean) <= 1e-16 * float(np.abs(projected).max()):
                 break
-            shift += excess * lifted.size / count
-            lifted = np.maximum(trial - shift, self.obstacle)
-        return lifted
+            shift += mean * projected.size / count
+            projected = np.maximum(trial - shift, self.obstacle)
+        return projected
 
     def at_depth(self, point: Point) -> Point:
         """Return a point of another depth moved to this one: cells stay at the wall, or keep their displacement."""

@@ -86,8 +86,9 @@ def flow(
         Whether all cells have the same damping: the flow is then down the gradient in the gap.
     """
     counter.products += 1
+    # E17
     point = energy.at(energy.feasible(start))
-    damping, lost, wait = FIRST, 0.0, 0  # E17
+    damping, lost, wait = FIRST, 0.0, 0
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
         # E18: at rest, though a cell that the wall hardly holds may make the Hessian indefinite.

@@ -53,9 +53,10 @@ def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> 
         finest = _three_digits(zone / CELLS, math.floor)
         longest = _three_digits(adhesion.range * math.sqrt(CELLS * cell / zone), math.ceil)
         raise ValueError(
-            f"the attraction varies over {zone / cell:.2g} cells beside a contact (Irwin's length E* w/(pi s^2)), and "
-            f"the lattice would trap every state: take cells of at most {finest:g} m or a range of at least "
-            f"{longest:g} m, or give the adhesion allow_unresolved=True"
+            f"the attraction varies over {_three_digits(zone / cell, math.floor):g} cells beside a contact (Irwin's "
+            f"length E* w/(pi s^2)), and below {CELLS:g} the lattice would trap every state: take cells of at most "
+            f"{finest:g} m or a range of at least {longest:g} m, use detachment_path, which needs no range, or give "
+            "the adhesion allow_unresolved=True"
         )
 
 

@@ -27,7 +27,7 @@ INNER = 300
 HALVINGS = 12
 ARMIJO = 1e-4
 SHIFT = 0.05  # the first shift of an indefinite Hessian, of the largest curvature of the attraction
-STIFFEST = 100.0  # shift, of the same, at which a step that lowers no energy tells of rounding
+STIFFEST = 100.0  # shift, of the same, beyond which a step that lowers no energy ends the minimisation
 FORCING = 0.1
 ENOUGH = 0.1  # of the tolerance, to which the last linear system is solved
 
@@ -89,13 +89,13 @@ def minimise(
     shift, lost = 0.0, 0.0
     residual = math.inf
     for _ in range(iterations):
-        residual = energy.residual(point) / energy.scale(point)
-        if residual <= tolerance:  # E3
+        residual = energy.residual(point) / energy.scale(point)  # E3
+        if residual <= tolerance:
             return Equilibrium(point, residual, True, lost)
-        free = point.free
-        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)  # E4
+        free = point.free  # E4
+        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
         most = float(np.max(curvature))
-        # E5. No closer than what is wanted: the last system need not be solved beyond the tolerance.
+        # E5: the last system need not be solved beyond the tolerance.
         forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
         step, negative = conjugate_gradients(  # E6
             energy.form, free, curvature - shift, -point.reaction, forcing, counter
@@ -107,6 +107,7 @@ def minimise(
             continue
         found = line_search(energy, point, step, counter)  # E8
         if found is None:
+            # Not even a step that the shift makes short lowers the energy: rounding.
             if shift > STIFFEST * most:
                 break
             shift = max(4 * shift, SHIFT * most)
@@ -118,12 +119,12 @@ def minimise(
 
 
 def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) -> tuple[Point, float] | None:
-    """Return the first point along the projected step whose energy is lower, and by how much it changed [J]."""
+    """Return the first point along the projected step whose energy is lower, and by how much it changed [J] (E8)."""
     length = 1.0
     for _ in range(HALVINGS):
         trial = energy.feasible(point.displacement + length * step)
         counter.products += 1
-        new = energy.at(trial)
+        new = energy.at(trial)  # E2, of the trial: the next iteration has it at hand
         change = energy.change(point, new)
         slope = energy.form.dot(point.reaction, trial - point.displacement)
         if slope < 0 and change <= ARMIJO * slope:
@@ -133,11 +134,12 @@ def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) 
 
 
 def conjugate_gradients(
-    form: ElasticForm, free: Mask, curvature: Array, load: Array, forcing: float, counter: Counter
+    form: ElasticForm, free: Mask, diagonal: Array, load: Array, forcing: float, counter: Counter
 ) -> tuple[Array, bool]:
-    """Solve ``(K - curvature) s = load`` on the free cells; say whether a direction of negative curvature was met.
+    """Solve ``(K - diagonal) x = load`` on the free cells; say whether a direction of negative curvature was met.
 
-    Where the mean of a displacement is prescribed, that of the answer is zero.
+    The diagonal is D - sigma, or D - theta W in the flow. Where the mean of a displacement is prescribed, that of x is
+    zero.
     """
     mask = free.astype(np.float64)
     number = max(1.0, float(mask.sum()))
@@ -158,32 +160,33 @@ def conjugate_gradients(
         counter.products += 1
         along = form.compliance(mask) * mask
         total = float(along.sum())
-    residual = np.where(free, load, 0.0)
+    # E10
+    r = np.where(free, load, 0.0)
     if constrained:
-        residual -= mask * (residual.sum() / number)
-    step = np.zeros_like(residual)
-    z = precondition(residual)
-    direction, rho = z, form.dot(residual, z)  # E10
-    if rho <= 0:
-        return step, False
-    goal = rho * forcing**2
-    free_curvature = curvature * mask
+        r -= mask * (r.sum() / number)
+    x = np.zeros_like(r)
+    z = precondition(r)
+    direction, rz = z, form.dot(r, z)
+    if rz <= 0:
+        return x, False
+    goal = rz * forcing**2
+    free_diagonal = diagonal * mask
     for _ in range(INNER):
         counter.products += 1
         image = form.stiffness(direction) * mask  # E11
-        image -= free_curvature * direction
-        quadratic = form.dot(direction, image)
-        if quadratic <= 0:
-            return step, True  # E12
-        alpha = rho / quadratic
-        step += alpha * direction
-        residual -= alpha * image  # E13
+        image -= free_diagonal * direction
+        curvature = form.dot(direction, image)
+        if curvature <= 0:  # E12
+            return x, True
+        alpha = rz / curvature  # E13
+        x += alpha * direction
+        r -= alpha * image
         if constrained:
-            residual -= mask * (residual.sum() / number)
-        z = precondition(residual)  # E14
-        new = form.dot(residual, z)
+            r -= mask * (r.sum() / number)
+        z = precondition(r)  # E14
+        new = form.dot(r, z)
         if new <= goal:  # E15
             break
-        direction = z + (new / rho) * direction  # E16
-        rho = new
-    return step, False
+        direction = z + (new / rz) * direction  # E16
+        rz = new
+    return x, False

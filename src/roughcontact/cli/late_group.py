@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
@@ -65,33 +65,42 @@ def late_group(
 
 
 class _Command(TyperCommand):
-    """A command that names those of its name in other groups where they have an option that it lacks."""
+    """A command that names those that have an option which it lacks, and shows how an option that is missing looks."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         try:
             return super().parse_args(ctx, args)
-        except Exception as told:
-            error: Any = told
+        except Exception as raised:
+            error: Any = raised
             # No such option: typers differ in the class.
             if hasattr(error, "possibilities") and (others := _elsewhere(ctx, error.option_name)):
                 error.message, error.possibilities = f"{error.message}; {others}", None
+            if type(error).__name__ == "MissingParameter" and error.param.metavar and not error.message:
+                error.message = f"Give one such as {error.param.opts[0]} {error.param.metavar}"
             raise
 
 
 def _elsewhere(ctx: Any, option: str) -> str:
-    """Return which commands of the same name in other groups take an option, if any do."""
+    """Return which commands of the same name in other groups take an option, else which of the same nested group do."""
     root = ctx.find_root()
     groups = {root.info_name: root.command} | {
         f"{root.info_name} {name}": group
         for name, group in root.command.commands.items()
         if isinstance(group, TyperGroup)
     }
+
+    def taking(path: str, names: Iterable[str]) -> list[str]:
+        known = [(name, groups[path].get_command(ctx, name)) for name in names]
+        return [f"'{path} {name}'" for name, each in known if any(option in one.opts for one in each.params)]
+
     found = [
-        f"'{path} {ctx.info_name}'"
-        for path, group in groups.items()
-        if ctx.info_name in group.commands
-        and any(option in each.opts for each in group.get_command(ctx, ctx.info_name).params)
+        word
+        for path in groups
+        if ctx.info_name in groups[path].commands
+        for word in taking(path, [ctx.info_name])
     ]
+    if not found and ctx.parent is not root:
+        found = taking(ctx.parent.command_path, ctx.parent.command.commands)
     return f"use {' or '.join(found)} for it" if found else ""
 
 

@@ -55,8 +55,8 @@ def _run() -> None:
             sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
             sys.exit(BAD_INPUT)
         # A misspelt option and its like; typers differ in the class.
-        if (told := getattr(error, "format_message", None)) is not None:
-            message = told()
+        if (format_message := getattr(error, "format_message", None)) is not None:
+            message = format_message()
             sys.stderr.write(f"Error: {message}\n")
             emit_error("usage", message, BAD_INPUT)
             sys.exit(BAD_INPUT)

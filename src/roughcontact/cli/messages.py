@@ -9,6 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -33,10 +34,13 @@ _OPTIONS = (
     (re.compile(r"\b(mask)ed\(\)"), r"'surface prepare --\1'"),
     (re.compile(r"Grid\(\.\.\., periodic=True\)"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
+    (re.compile(r"\buse detachment_path\b"), "use 'roughcontact adhesion detach'"),
     (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
     (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
+
+_METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
 class UsageError(ValueError):
@@ -132,7 +136,14 @@ def _line(text: str) -> str:
     """Return `text` in one line, with the library's keywords turned into the options of the same name."""
     for keyword, option in _OPTIONS:
         text = keyword.sub(option, text)
-    return " ".join(text.split())
+    return " ".join(_METRES.sub(_with_prefix, text).split())
+
+
+def _with_prefix(metres: re.Match[str]) -> str:
+    """Return a small length as people write it, digit by digit: 1.86 um of 1.86e-06 m."""
+    length = Decimal(metres[1])
+    steps = -(length.adjusted() // 3)
+    return f"{length.scaleb(3 * steps):f} {'munpfa'[steps - 1]}m"
 
 
 def _showwarning(original: Any) -> Any:

@@ -81,8 +81,8 @@ class PathAnswer:
     found : AdhesiveCurve or DetachmentCurve
     whole : bool
         Whether it has all its loads.
-    stem, event : str
-        How its files are called: ``curve`` and ``jump``.
+    stem, events : str
+        How its files are called: ``adhesive_loop``, and the table of its jumps ``adhesive_loop_jumps``.
     converged : bool
         Whether the tolerance was met.
     """
@@ -93,7 +93,7 @@ class PathAnswer:
     found: AdhesiveCurve | DetachmentCurve
     whole: bool
     stem: str
-    event: str
+    events: str
     converged: bool
 
     def record(self) -> dict[str, Any]:
@@ -120,7 +120,8 @@ class PathAnswer:
         with doing("Writing files"), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
             write_csv(dataset, aside / f"{self.stem}.csv", source)
-            write_csv(dataset, aside / f"{self.event}s.csv", source, dimension=self.event)
+            event = self.events.rpartition("_")[2].removesuffix("s")
+            write_csv(dataset, aside / f"{self.events}.csv", source, dimension=event)
             save(drawn(self.found), aside / f"{self.stem}.{ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 
@@ -145,7 +146,7 @@ class PathAnswer:
 
     def end(self, folder: Path | None, ending: str, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
-        names = (f"{self.stem}.csv", f"{self.event}s.csv", f"{self.stem}.json", f"{self.stem}.nc")
+        names = (f"{self.stem}.csv", f"{self.events}.csv", f"{self.stem}.json", f"{self.stem}.nc")
         note_files(folder, (*names, f"{self.stem}.{ending}"))
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"

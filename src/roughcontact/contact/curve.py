@@ -29,7 +29,7 @@ from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, Mask, number, numeric
 
 if TYPE_CHECKING:
-    from roughcontact.theory.law import Basis
+    from roughcontact.theory.law import Scope
 
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
@@ -290,13 +290,14 @@ class Curve:
         """
         if not hasattr(theory, "quantities"):
             raise ValueError(
-                f"a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0], not {theory!r}"
+                "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own, "
+                f"not {theory!r}"
             )
         if self.geometry is Geometry.LINE:
             raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
-        basis = getattr(theory, "made_for", None)  # laws of the user's own need not say
-        if basis is not None and not other_surface:
-            self._require_alike(theory.name, basis)
+        scope = getattr(theory, "made_for", None)  # laws of the user's own need not say
+        if scope is not None and not other_surface:
+            self._require_alike(theory.name, scope)
         names = list(theory.quantities if quantities is None else quantities)
         if quantities is None:
             hidden = self.hardness < math.inf and getattr(theory, "plastic", False)
@@ -321,12 +322,12 @@ class Curve:
         span = self.force[light].max() / self.force[light].min()
         return light if span >= DECADE else self.resolved
 
-    def _require_alike(self, name: str, basis: Basis) -> None:
+    def _require_alike(self, name: str, scope: Scope) -> None:
         """Refuse a law that was made for another contact than that of this curve."""
         pairs = {
-            "reduced modulus": (basis.modulus, self.modulus, "Pa"),
-            "nominal area": (basis.area, self.nominal_area, "m^2"),
-            "rms height": (basis.rms, self.rms, "m"),
+            "reduced modulus": (scope.modulus, self.modulus, "Pa"),
+            "nominal area": (scope.area, self.nominal_area, "m^2"),
+            "rms height": (scope.rms, self.rms, "m"),
         }
         for what, (theirs, ours, unit) in pairs.items():
             if not math.isclose(theirs, ours, rel_tol=ROUNDING):

@@ -107,8 +107,8 @@ def require_memory_for(surface: Body, operator: Operator | None = None, *, curve
         return
     # Several processes may share a machine: all of them refuse what does not fit one machine.
     communicator, machine = heights.functions.communicator, platform.node()
-    told = communicator.allgather((machine, light, full))
-    here = [needed for name, *needed in told if name == machine]
+    needed_by_all = communicator.allgather((machine, light, full))
+    here = [needed for name, *needed in needed_by_all if name == machine]
     light, full = (sum(needed) for needed in zip(*here, strict=True))
-    what = f"{what}, held by {len(told)} processes of which {len(here)} share this machine,"
+    what = f"{what}, held by {len(needed_by_all)} processes of which {len(here)} share this machine,"
     by_each(communicator, lambda: require_memory(light, full, what, remedy))

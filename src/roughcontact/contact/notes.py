@@ -1,4 +1,4 @@
-"""What a reader of the numbers of a contact should know, and what an engineer would doubt in them, in sentences."""
+"""What a reader of the numbers of a contact should know: notes, and warnings of what an engineer would question."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def notes_on(solution: Solution) -> tuple[str, ...]:
     touching = int(count(solution.touching))
     if in_contact and touching:
         notes.extend(_of_two_sides(solution, touching))
-    return (*notes, *_doubts(solution))
+    return (*notes, *_warnings(solution))
 
 
 def _of_flow(solution: Solution) -> tuple[str, ...]:
@@ -82,25 +82,25 @@ def _of_two_sides(solution: Solution, touching: int) -> tuple[str, ...]:
     )
 
 
-def _doubts(solution: Solution) -> tuple[str, ...]:
-    """Return what an engineer would doubt in these numbers."""
-    problem, doubts = solution.problem, []
+def _warnings(solution: Solution) -> tuple[str, ...]:
+    """Return warnings of what an engineer would question in these numbers."""
+    problem, warnings = solution.problem, []
     modulus, surface = problem.modulus, problem.surface
     largest = float(solution.problem.measure.xp.max(solution.pressure))
     springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
     if largest > STRAINED * modulus and not springs:
-        doubts.append(
+        warnings.append(
             f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
             "bodies yield or break before, and the theory of small strains ends."
         )
     if solution.depth > max(problem.grid.lengths):
-        doubts.append(
+        warnings.append(
             f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus."
         )
     summit = problem.mean_separation - problem.first_touch
     if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
-        doubts.append(
+        warnings.append(
             f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
             "if it is an outlier of the measurement, it carries the load; despiked() and --despike find spikes."
         )
-    return tuple(doubts)
+    return tuple(warnings)

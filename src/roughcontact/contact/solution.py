@@ -28,7 +28,7 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import UNITS
+from roughcontact.solver.optimality import ROUNDING_FLOOR
 from roughcontact.statistics.fit_window import CELLS, is_resolved
 from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
@@ -199,7 +199,7 @@ class Solution:
 
         Only at a knife edge is there any; a further load brings them into contact.
         """
-        allowed = (UNITS + min(self.residual, self.problem.tolerance)) * max_abs(self.displacement)
+        allowed = (ROUNDING_FLOOR + min(self.residual, self.problem.tolerance)) * max_abs(self.displacement)
         gap = self.displacement + self.problem.separation - self.depth
         return weakly_active(self.pressure, gap, allowed)
 

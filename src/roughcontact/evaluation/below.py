@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,7 @@ from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid
 from roughcontact.solver.subdomain import bounding_box
-from roughcontact.validation import Array, numeric, scalar
+from roughcontact.validation import Array, numeric, require, scalar
 
 __all__ = [
     "StressPeak",
@@ -222,7 +223,11 @@ def half_space_grid(solution: Solution) -> Grid:
 
 def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
-    return solid.poisson_ratio if isinstance(solid, Solid) else scalar(solid, "Poisson's ratio")
+    if isinstance(solid, Solid):
+        return solid.poisson_ratio
+    one = "give one of the two bodies: both carry the same pressure, and each has a stress of its own"
+    require(not isinstance(solid, Sequence), one)
+    return scalar(solid, "Poisson's ratio")
 
 
 def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:

@@ -105,7 +105,7 @@ def conductance(
     Parameters
     ----------
     contact : Curve, Solution or Dataset
-        Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that give way conduct like the
+        Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that yield conduct like the
         others: the stiffness is that of unloading. A dataset is that of a curve, ``curve.to_dataset()`` or as it was
         read from a file.
     resistivities, conductivities : tuple of float

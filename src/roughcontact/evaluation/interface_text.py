@@ -100,8 +100,10 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
     yield "law of a rough interface, per nominal area; the compliance of the bodies is not in it: the model has it"
     yield f"valid from {low:.6g} to {high:.6g} {unit}, {len(table)} resolved loads; below: a straight line to zero"
     kind = "periodic map" if table.periodic else "free patch, which is not pressed evenly (docs/joints.md)"
-    yield f"computed on a {kind}; elastic, normal load, no friction, no adhesion"
-    if math.isfinite(table.hardness):
+    flows = math.isfinite(table.hardness)
+    body = "elastic and perfectly plastic" if flows else "elastic"
+    yield f"computed on a {kind}; {body}, normal load, no friction, no adhesion"
+    if flows:
         limit = f"{table.hardness * stress:.6g} {unit}"
         yield f"no cell bears more than {limit}: for loading only, on unloading it is another law"
 

@@ -20,12 +20,12 @@ from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.theory import laws
 from roughcontact.theory.asperity_models import interaction
-from roughcontact.theory.law import Basis, LoadingLaw
+from roughcontact.theory.law import LoadingLaw, Scope
 from roughcontact.theory.persson_theory import persson
 from roughcontact.theory.random_surfaces.waves import Waves
 from roughcontact.validation import Array, numeric
 
-__all__ = ["facts_for", "loading_laws", "persson_pressures"]
+__all__ = ["inputs_for", "loading_laws", "persson_pressures"]
 
 
 @numeric(modulus="Pa")
@@ -34,7 +34,7 @@ def loading_laws(
     surface: Surface,
     modulus: float | Solid | tuple[Solid, Solid],
     names: str | Sequence[str],
-    **knowns: Unpack[laws.Knowns],
+    **given: Unpack[laws.GivenValues],
 ) -> list[LoadingLaw]:
     """Return theories of the contact of a surface, to be compared with its loading curve by `Curve.compare`.
 
@@ -46,9 +46,9 @@ def loading_laws(
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
         Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
-    **knowns : dict
+    **given : dict
         What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
-        ``radius``, ``hardness``, see `roughcontact.theory.laws.SurfaceFacts`.
+        ``radius``, ``hardness``, see `roughcontact.theory.laws.LawInputs`.
 
     Returns
     -------
@@ -82,19 +82,19 @@ def loading_laws(
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
         raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
-    known = {"modulus": value, "area": surface.grid.area} | facts_for(surface, wanted, **knowns)
+    known = {"modulus": value, "area": surface.grid.area} | inputs_for(surface, wanted, **given)
     found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
-    basis = Basis(value, surface.grid.area, surface.rms, known.get("spectrum"))
-    return [replace(law, made_for=basis) for law in found]
+    scope = Scope(value, surface.grid.area, surface.rms, known.get("spectrum"))
+    return [replace(law, made_for=scope) for law in found]
 
 
-def facts_for(surface: Surface, names: Sequence[str], **knowns: Unpack[laws.Knowns]) -> dict[str, Any]:
-    """Return what theories of these names need to know of a surface: the `knowns`, and the rest from its heights.
+def inputs_for(surface: Surface, names: Sequence[str], **given: Unpack[laws.GivenValues]) -> dict[str, Any]:
+    """Return what theories of these names need to know of a surface: the `given` values, and the rest from its heights.
 
-    The keys are those of `roughcontact.theory.laws.SurfaceFacts`.
+    The keys are those of `roughcontact.theory.laws.LawInputs`.
     """
-    needs = {need for name in names if name in laws.LAWS for need in laws.LAWS[name].needs} - knowns.keys()
-    found = dict(knowns)
+    needs = {need for name in names if name in laws.LAWS for need in laws.LAWS[name].needs} - given.keys()
+    found = dict(given)
     if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
         found.setdefault("spectrum", _waves(surface))
     if "rms" in needs:

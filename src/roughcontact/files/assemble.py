@@ -13,10 +13,10 @@ import numpy as np
 from roughcontact.arrays import is_numpy
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
+from roughcontact.files.height_warnings import IMPOSSIBLE, height_warnings, highest
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.missing_marks import without_fills
-from roughcontact.files.sanity import IMPOSSIBLE, doubts_about, highest
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
@@ -42,13 +42,13 @@ def assemble(
     size: Size | None,
     periodic: bool | tuple[bool, ...] | None,
 ) -> tuple[Surface, tuple[str, ...]]:
-    """Return the surface of `found` and the doubts to warn of; what the user states overrides the file."""
+    """Return the surface of `found` and its warnings; what the user states overrides the file."""
     _require(found, unit, size)
     looked_at = is_numpy(found.heights)  # what lies on several processes is not, for spikes and noise
     if looked_at:
         require_memory(BYTES_TO_LOOK * found.heights.size)
         heights, filled = without_fills(found.heights)
-        found = replace(found, heights=heights, doubts=(*found.doubts, *filled))
+        found = replace(found, heights=heights, warnings=(*found.warnings, *filled))
     factor, unit_note = _factor(found, unit)
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)
@@ -75,9 +75,9 @@ def assemble(
     except ValueError as error:
         problem, _, remedy = str(error).partition("; ")
         raise ContentError(problem, remedy or "pass unit= with the right unit") from error
-    doubts = (*contradictions, *found.doubts)
+    warnings = (*contradictions, *found.warnings)
     if looked_at:
-        doubts += doubts_about(surface.heights, grid.spacing)
+        warnings += height_warnings(surface.heights, grid.spacing)
     channel = "" if found.channel is None else f", channel {found.channel!r}"
     provenance = (
         *found.history,
@@ -85,9 +85,9 @@ def assemble(
         *(remark.text for remark in remarks if not remark.contradicts),
         *periodic_note,
         *found.notes,
-        *doubts,
+        *warnings,
     )
-    return replace(surface, provenance=provenance), doubts
+    return replace(surface, provenance=provenance), warnings
 
 
 def _require(found: HeightMap, unit: Length | None, size: object) -> None:

@@ -35,7 +35,9 @@ def heights_alone(found: HeightMap) -> HeightMap:
     if (points := points_in(values)) is not None:
         return _on_grid(found, points)
     axes = axes_of(values)
-    return found if axes is None else replace(found, heights=axes.heights, doubts=(*found.doubts, axes.doubt))
+    if axes is None:
+        return found
+    return replace(found, heights=axes.heights, warnings=(*found.warnings, axes.warning))
 
 
 def points_in(values: Array) -> Array | None:
@@ -74,11 +76,11 @@ def _on_grid(found: HeightMap, points: Array) -> HeightMap:
             f"save the heights as a matrix, rows by columns, or {_NARROW}",
         ) from None
     ny, nx = grid.heights.shape
-    doubt = f"its {len(points)} rows of 3 are points x, y, z, and are put on their grid of {ny} x {nx}"
+    warning = f"its {len(points)} rows of 3 are points x, y, z, and are put on their grid of {ny} x {nx}"
     return replace(
         found,
         heights=grid.heights,
         format=f"{found.format} of points",
         unclear=f"steps of {grid.steps[1]:g} along x and {grid.steps[0]:g} along y, without a unit",
-        doubts=(*found.doubts, doubt, *grid.doubts),
+        warnings=(*found.warnings, warning, *grid.warnings),
     )

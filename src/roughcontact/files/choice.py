@@ -39,10 +39,10 @@ def _is_map(channel: Channel) -> bool:
 
 
 def choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, tuple[str, ...]]:
-    """Return the position of the channel to read, and a doubt where another would do as well."""
+    """Return the position of the channel to read, and a warning where another would do as well."""
     if wanted is not None:
         index = pick(channels, wanted)
-        return index, _doubts(channels[index])
+        return index, _warnings(channels[index])
     if not any(map(_is_map, channels)):
         raise ContentError(
             f"it holds no map but {describe(channels)}",
@@ -70,8 +70,8 @@ def holds_a_profile(channels: Sequence[Channel]) -> bool:
     return len(channels) == 1 and channels[0].shape[0] == 1
 
 
-def _doubts(channel: Channel) -> tuple[str, ...]:
-    """Return a doubt about a map that the user chose and whose name or unit is not that of heights."""
+def _warnings(channel: Channel) -> tuple[str, ...]:
+    """Return a warning about a map that the user chose and whose name or unit is not that of heights."""
     other_unit = channel.unit is not None and not is_length(channel.unit)
     if not _is_map(channel) or not (other_unit or names_something_else(channel.name)):
         return ()

@@ -16,7 +16,7 @@ import numpy as np
 
 from roughcontact.files.choice import marked
 from roughcontact.files.file_bounds import require_memory
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.foreign import without_reader
 from roughcontact.files.heightmap import Channel, HeightMap, pick
 from roughcontact.files.length_units import is_length, length_factor
@@ -99,15 +99,9 @@ def _read(archive: zipfile.ZipFile, measurement: _Measurement, reader: Reader) -
 @contextmanager
 def _opened(data: bytes) -> Iterator[tuple[zipfile.ZipFile, list[_Measurement]]]:
     """Give the archive and its measurements; damage becomes a ContentError."""
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            yield archive, list(_measurements(_index(archive)))
-    except ContentError:
-        raise
-    except _DAMAGED as error:
-        raise ContentError(
-            f"it is damaged ({error})", "download it from contact.engineering again"
-        ) from error
+    again = "download it from contact.engineering again"
+    with damage("it is damaged", again, _DAMAGED), zipfile.ZipFile(io.BytesIO(data)) as archive:
+        yield archive, list(_measurements(_index(archive)))
 
 
 def _index(archive: zipfile.ZipFile) -> Any:

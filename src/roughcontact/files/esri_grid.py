@@ -27,7 +27,7 @@ def read_esri(text: str) -> HeightMap:
         stated[line[1].casefold()] = [number_of(word.strip()) for word in words]
         place = line.end()
     nx, ny = (_count(stated, name) for name in ("ncols", "nrows"))
-    heights, notes, doubts = grid_of(text[place:].split(), (ny, nx))
+    heights, notes, warnings = grid_of(text[place:].split(), (ny, nx))
     mark = next(
         (stated[name][0] for name in ("nodata_value", "nodata", "no_data_value") if name in stated), _MARK
     )
@@ -36,9 +36,9 @@ def read_esri(text: str) -> HeightMap:
         notes = (*notes, f"not measured where it is {mark:g}")
     steps = _steps(stated)
     if steps is not None and min(steps) < 0:
-        doubts = (*doubts, f"its cells are {steps[1]:g} x {steps[0]:g}: the sign is left out")
+        warnings = (*warnings, f"its cells are {steps[1]:g} x {steps[0]:g}: the sign is left out")
         steps = (abs(steps[0]), abs(steps[1]))
-    return HeightMap(as_heights(heights), "ESRI grid", steps=steps, notes=notes, doubts=doubts)
+    return HeightMap(as_heights(heights), "ESRI grid", steps=steps, notes=notes, warnings=warnings)
 
 
 def _count(stated: dict[str, list[float]], name: str) -> int:

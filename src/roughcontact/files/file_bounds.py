@@ -7,7 +7,7 @@ from collections.abc import Callable
 from io import BytesIO
 from typing import Any
 
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.memory import require_free
 
 __all__ = ["BYTES_PER_POINT", "BYTES_TO_LOOK", "BoundedStream", "require_memory", "unzip"]
@@ -44,17 +44,12 @@ def require_memory(need: int) -> None:
 
 def unzip(data: bytes, wanted: Callable[[str], bool]) -> dict[str, bytes]:
     """Return the members whose name is `wanted`, by name, each checked against its size and checksum."""
-    try:
-        with zipfile.ZipFile(BytesIO(data)) as archive:
-            members = [member for member in archive.infolist() if wanted(member.filename)]
-            require_memory(sum(member.file_size for member in members))
-            return {member.filename: _content(archive, member) for member in members}
-    except ContentError:
-        raise
-    except Exception as error:  # a damaged archive fails in a dozen ways, from struct.error to zlib.error
-        raise ContentError(
-            f"its zip archive is damaged or cut short ({error})", "copy or export the file again"
-        ) from error
+    # A damaged archive fails in a dozen ways, from struct.error to zlib.error.
+    problem, remedy = "its zip archive is damaged or cut short", "copy or export the file again"
+    with damage(problem, remedy), zipfile.ZipFile(BytesIO(data)) as archive:
+        members = [member for member in archive.infolist() if wanted(member.filename)]
+        require_memory(sum(member.file_size for member in members))
+        return {member.filename: _content(archive, member) for member in members}
 
 
 def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:

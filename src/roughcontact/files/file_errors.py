@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 __all__ = ["ContentError", "ReadError", "SurfaceWarning"]
@@ -13,6 +15,28 @@ class ContentError(ValueError):
 
     problem: str
     remedy: str
+
+
+@contextmanager
+def damage(
+    problem: str,
+    remedy: str,
+    kinds: tuple[type[Exception], ...] = (Exception,),
+    said: Callable[[Exception], str] = str,
+) -> Iterator[None]:
+    """Turn errors of some kinds into a ContentError, with what they say behind the problem.
+
+    Raises
+    ------
+    ContentError
+        If the block fails in such a way, or ends in one itself.
+    """
+    try:
+        yield
+    except ContentError:
+        raise
+    except kinds as error:
+        raise ContentError(f"{problem} ({said(error)})", remedy) from error
 
 
 @dataclass(eq=False, repr=False)

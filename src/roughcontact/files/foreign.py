@@ -18,7 +18,7 @@ from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.block_ends import left_behind_blocks
 from roughcontact.files.choice import AS_TEXT, choose, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.hdf5 import is_hdf5, opened_hdf5
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
@@ -72,13 +72,13 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
     """
     with _opened(kind, data) as (reader, stream):
         channels = _channels(reader, stream)
-        index, doubts = choose(channels, channel)
+        index, warnings = choose(channels, channel)
         found = _map(reader, index, channels[index])
         if isinstance(factor := _factor(reader, stream, index), str):
             found = replace(found, unclear=factor)
         if reader.format() in _MATRICES:
             found = heights_alone(found)
-        return replace(found, doubts=(*doubts, *found.doubts, *_left_over(reader, stream)))
+        return replace(found, warnings=(*warnings, *found.warnings, *_left_over(reader, stream)))
 
 
 def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:
@@ -101,7 +101,8 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
         raise without_reader("SurfaceTopography", error) from error
     # Bytes in memory leave no open file behind when a reader gives up half-way.
     stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
-    try:
+    hint = "" if b"\0" in data else "name a text of numbers .txt; "
+    with damage("it cannot be read", hint + _REMEDY, said=brief):  # any reader of forty may fail in any way
         require_whole(data)
         if is_hdf5(data):
             with opened_hdf5(data):
@@ -114,11 +115,6 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
         ):
             _accept(str(reader.format()), kind)
             yield reader, stream
-    except ContentError:
-        raise
-    except Exception as error:  # any reader of forty may fail in any way on a damaged file
-        hint = "" if b"\0" in data else "name a text of numbers .txt; "
-        raise ContentError(f"it cannot be read ({_brief(error)})", hint + _REMEDY) from error
 
 
 def without_reader(package: str, error: Exception, otherwise: str = "") -> ContentError:
@@ -140,7 +136,8 @@ def unlogged() -> Iterator[None]:
         _READING.reset(reading)
 
 
-def _brief(error: Exception) -> str:
+def brief(error: Exception) -> str:
+    """Return the kind of an error and the first line of what it says."""
     if type(error).__name__ == "CannotDetectFileFormat":
         return "its format is not recognised"
     lines = str(error).strip().splitlines()
@@ -200,7 +197,7 @@ def _units(info: Any) -> tuple[str | None, str | None]:
 
 
 def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
-    """Return a doubt where the channels that the header announces do not end where the file ends."""
+    """Return a warning where the channels that the header announces do not end where the file ends."""
     if left := left_behind_blocks(reader.format(), stream.getvalue()):
         where = f"{left} bytes before" if left > 0 else "beyond"
         return (f"its blocks end {where} the end of the file: it may be damaged",)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.files.choice import choose, holds_a_profile, marked
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, line_if_one_row
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.validation import Array
@@ -39,7 +39,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
     """Return the height channel of the file; points under its mask are missing, as Gwyddion leaves them out."""
     fields = _fields(data)
     channels = marked([field.channel for field in fields])
-    index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
+    index, warnings = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
     chosen, field = channels[index], fields[index]
     heights = field.heights
     notes: tuple[str, ...] = ()
@@ -58,7 +58,7 @@ def read_gwy(data: bytes, channel: str | int | None) -> HeightMap:
             spacing=spacing,
             unclear=field.sides,
             notes=notes,
-            doubts=doubts,
+            warnings=warnings,
         )
     )
 
@@ -71,7 +71,7 @@ def list_gwy(data: bytes) -> tuple[Channel, ...]:
 def _fields(data: bytes) -> list[_Field]:
     if not data.startswith(_MARK):
         raise ContentError("it does not begin as a file of Gwyddion", "check its extension")
-    try:
+    with damage("its tree of values is damaged", _AGAIN, (ValueError, KeyError, TypeError, struct.error)):
         name, start, end = _object(data, len(_MARK), len(data))
         if name != "GwyContainer" or end != len(data):
             raise ValueError(f"a {name} of {end - start} bytes in a file of {len(data)}")
@@ -79,8 +79,6 @@ def _fields(data: bytes) -> list[_Field]:
         found = [
             _field(data, items, match[0], match[1]) for key in items if (match := _CHANNEL.fullmatch(key))
         ]
-    except (ValueError, KeyError, TypeError, struct.error) as error:
-        raise ContentError(f"its tree of values is damaged ({error})", _AGAIN) from error
     if not found:
         raise ContentError("it holds no channel", "give a file of Gwyddion with a channel of heights")
     return found

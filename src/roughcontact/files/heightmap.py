@@ -78,8 +78,8 @@ class HeightMap:
         Whether the file says that the surface repeats itself.
     history : tuple of str
         The provenance that the file itself carries.
-    notes, doubts : tuple of str
-        Lines for the provenance; doubts are warned of as well.
+    notes, warnings : tuple of str
+        Lines for the provenance; of the warnings the user is warned as well.
     """
 
     heights: Array
@@ -92,7 +92,7 @@ class HeightMap:
     periodic: bool | tuple[bool, ...] = False
     history: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def as_channel(self) -> Channel:
         """Describe the heights as the only channel of a file."""

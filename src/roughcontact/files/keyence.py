@@ -40,7 +40,7 @@ def read_keyence(text: str) -> HeightMap:
             raise ContentError(
                 f"{found} {name} are there where it states {stated}", "copy or export it again"
             )
-    values, notes, doubts = grid_of([field for row in heights for field in row], shape)
+    values, notes, warnings = grid_of([field for row in heights for field in row], shape)
     cell = next((row for row in header if len(row) == 3 and is_length(row[2]) and _is_number(row[1])), None)
     side = None if cell is None else number_of(cell[1].replace(",", ".")) * length_factor(cell[2])
     titles = [row[0] for row in header if len(row) == 1 and row[0]]
@@ -54,7 +54,7 @@ def read_keyence(text: str) -> HeightMap:
         unit=units[-1] if units else None,
         spacing=None if side is None else (side, side),
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )
 
 

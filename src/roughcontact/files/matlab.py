@@ -7,7 +7,7 @@ import struct
 import zlib
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import damage
 
 __all__ = ["require_whole"]
 
@@ -33,7 +33,7 @@ def require_whole(data: bytes) -> None:
     if order is None:
         return
     place = _HEADER
-    try:
+    with damage("its arrays are damaged", _AGAIN, (struct.error, zlib.error, ValueError, IndexError)):
         while place < len(data):
             kind, size = struct.unpack_from(order + "2I", data, place)
             if place + _TAG + size > len(data):
@@ -44,10 +44,6 @@ def require_whole(data: bytes) -> None:
             elif kind == _MATRIX:
                 _require_numbers(body, order, size)
             place += _TAG + size + (0 if kind == _COMPRESSED else -size % 8)
-    except (struct.error, zlib.error, ValueError, IndexError) as error:
-        if isinstance(error, ContentError):
-            raise
-        raise ContentError(f"its arrays are damaged ({error})", _AGAIN) from error
 
 
 def _require_packed(packed: bytes, order: str) -> None:

@@ -32,7 +32,7 @@ def holds_mark(values: Array, marks: tuple[float, ...]) -> Mask:
 
 
 def without_marks(values: Array, marks: tuple[float, ...]) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return heights without the marks that a file states, a note, and doubts.
+    """Return heights without the marks that a file states, a note, and warnings.
 
     A mark that stands nowhere, while an extreme height that is found more than once is close to it, is doubtful.
     """
@@ -44,21 +44,21 @@ def without_marks(values: Array, marks: tuple[float, ...]) -> tuple[Array, tuple
             (f"not measured where it is {stated}, as its header states",),
             (),
         )
-    doubts = []
+    warnings = []
     known = values[np.isfinite(values)]
     for mark in marks if known.size else ():
         for extreme in (float(known.min()), float(known.max())):
             count = int(np.count_nonzero(known == extreme))
             if count > 1 and 0 < abs(extreme - mark) <= _NEAR * abs(mark):
-                doubts.append(
+                warnings.append(
                     f"it states that {mark:g} marks missing points, and {count} of its heights are {extreme:g}; "
                     f"state {extreme:g} if they are missing"
                 )
-    return values, (), tuple(doubts)
+    return values, (), tuple(warnings)
 
 
 def without_fills(values: Array) -> tuple[Array, tuple[str, ...]]:
-    """Return heights without the numbers that programs store for missing ones, and a doubt where there were any."""
+    """Return heights without the numbers that programs store for missing ones, and a warning where there were any."""
     with np.errstate(invalid="ignore"):
         far = np.abs(values) > _BEYOND
     if not far.any():
@@ -67,7 +67,7 @@ def without_fills(values: Array) -> tuple[Array, tuple[str, ...]]:
     if not found.any():
         return values, ()
     number = float(values[found][0])
-    doubt = (
+    warning = (
         f"{np.count_nonzero(found)} points hold {number:g}, a mark of missing points, and are read as missing"
     )
-    return np.where(found, np.nan, values), (doubt,)
+    return np.where(found, np.nan, values), (warning,)

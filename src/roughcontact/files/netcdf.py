@@ -26,6 +26,7 @@ from roughcontact.files.heightmap import (
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.missing_marks import holds_mark
 from roughcontact.files.table_axes import counts
+from roughcontact.units import word_of
 
 __all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
@@ -49,8 +50,7 @@ class StoredVariable:
         for name in names:
             value = self.attributes.get(name)
             if value is not None:
-                text = value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
-                return text.strip() or None
+                return word_of(value).strip() or None
         return None
 
     def numbers(self) -> npt.NDArray[np.float64]:
@@ -139,7 +139,7 @@ def height_map_of(
     spacing = _spacing(variables, axes, heights.shape, unit)
     silent = [axis for axis in axes if axis in variables and not variables[axis].word("unit", "units")]
     borrowed = spacing is not None and "spacing" not in variables and silent
-    doubt = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
+    warning = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
     down = chosen.word("positive") == "down"  # CF's word for depths
     depths = "it states that its values count downwards: they are read with the other sign"
     return HeightMap(
@@ -150,7 +150,7 @@ def height_map_of(
         spacing=spacing,
         periodic=_periodic(variables, axes),
         history=_history(attributes),
-        doubts=(*((doubt,) if borrowed else ()), *((depths,) if down else ())),
+        warnings=(*((warning,) if borrowed else ()), *((depths,) if down else ())),
     )
 
 
@@ -317,6 +317,4 @@ def _periodic(variables: Mapping[str, StoredVariable], axes: tuple[str, ...]) ->
 
 def _history(attributes: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the provenance that our own writers leave."""
-    text = attributes.get("input_surface", "")
-    text = text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
-    return tuple(line for line in text.split("\n") if line)
+    return tuple(line for line in word_of(attributes.get("input_surface", "")).split("\n") if line)

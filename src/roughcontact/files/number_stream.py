@@ -15,7 +15,7 @@ __all__ = ["grid_of"]
 
 
 def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return the heights (rows, columns) in the fields of a text, notes and doubts about the marks among them.
+    """Return the heights (rows, columns) in the fields of a text, notes and warnings about the marks among them.
 
     Raises
     ------
@@ -38,4 +38,4 @@ def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple
         raise ContentError(
             f"{error.args[0]!r} is not a number", "write nan where a point was not measured"
         ) from None
-    return np.array(values).reshape(shape), *marks.told()
+    return np.array(values).reshape(shape), *marks.notes_and_warnings()

@@ -45,7 +45,7 @@ _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, notes and doubts.
+    """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, notes and warnings.
 
     `statements` says whether some of these lines had no ``#``.
     """
@@ -54,7 +54,7 @@ class Table:
     comments: tuple[str, ...]
     statements: bool
     notes: tuple[str, ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
     corner: Corner | None
 
 
@@ -93,14 +93,14 @@ class Marks:
             self.counts[text] += 1
         return number
 
-    def told(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return notes, and doubts about marks so short that damage may have left them."""
+    def notes_and_warnings(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return notes, and warnings about marks so short that damage may have left them."""
         notes: list[str] = []
-        doubts: list[str] = []
+        warnings: list[str] = []
         for text, count in self.counts.items():
             what = "empty" if text == EMPTY else f"that hold {text!r}"
-            (notes if len(text) > 1 else doubts).append(f"fields read as missing points: {count} {what}")
-        return tuple(notes), tuple(doubts)
+            (notes if len(text) > 1 else warnings).append(f"fields read as missing points: {count} {what}")
+        return tuple(notes), tuple(warnings)
 
 
 def parse_table(text: str, *, points: bool = False) -> Table:
@@ -152,7 +152,7 @@ def parse_table(text: str, *, points: bool = False) -> Table:
         (*comments, *table.comments),
         statements or table.statements,
         table.notes,
-        (*unended(text), *table.doubts),
+        (*unended(text), *table.warnings),
         table.corner,
     )
 
@@ -183,7 +183,7 @@ def stated_rows(comments: Iterable[str]) -> int | None:
 
 
 def unended(text: str) -> tuple[str, ...]:
-    """Return a doubt where the last line has no end: its last number may lack digits."""
+    """Return a warning where the last line has no end: its last number may lack digits."""
     last = text.rpartition("\n")[2].strip()
     if not last or last.startswith("#"):
         return ()
@@ -240,10 +240,10 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
             raise ContentError(f"{place} holds {len(row)} numbers, the first row {len(table[0])}", _HOLE)
     lines = [line for _, line in rows[bool(names) :]]
     require_one_separator(lines[corner is not None :], where[corner is not None :])
-    notes, doubts = marks.told()
+    notes, warnings = marks.notes_and_warnings()
     if names:
         notes = (f"its first line, {names[0][:60]!r}, names the columns", *notes)
-    return Table(np.array(table, dtype=np.float64), names, bool(names), notes, doubts, corner)
+    return Table(np.array(table, dtype=np.float64), names, bool(names), notes, warnings, corner)
 
 
 def _are_names(fields: list[list[str]]) -> bool:

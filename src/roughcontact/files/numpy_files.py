@@ -21,6 +21,7 @@ from roughcontact.files.heightmap import Channel, HeightMap, as_heights, pick
 from roughcontact.slabs.agreement import by_each, by_first, entered_by_first
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.surface import Surface
+from roughcontact.units import word_of
 
 __all__ = [
     "list_npz",
@@ -133,7 +134,7 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
         spacing=_spacing(arrays, heights.shape),
         periodic=_periodic(arrays, heights.ndim),
         history=_history(arrays),
-        doubts=(masked,) if covered.any() else (),
+        warnings=(masked,) if covered.any() else (),
     )
     return found if chosen == "heights" else heights_alone(found)
 
@@ -209,8 +210,7 @@ def _channels(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[Channel, ...]:
 def _unit(value: npt.NDArray[Any]) -> str | float:
     """Return the unit that the file states: a name, or metres per unit."""
     if value.size == 1 and value.dtype.kind in "US":
-        text = value.reshape(-1)[0]
-        return text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
+        return word_of(value.reshape(-1)[0])
     if value.size == 1 and value.dtype.kind in "fiu":
         return float(value.reshape(-1)[0])
     raise ContentError(

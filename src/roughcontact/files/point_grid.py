@@ -23,7 +23,7 @@ _REMEDY = "give points on a regular grid, one a place; interpolate scattered poi
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointGrid:
-    """Heights (ny, nx), the row of the smallest y first, the steps (dy, dx) between them, and doubts.
+    """Heights (ny, nx), the row of the smallest y first, the steps (dy, dx) between them, and warnings.
 
     `numbered` says whether the coordinates number the places, 0, 1, 2, ... or from 1, along both axes.
     """
@@ -31,7 +31,7 @@ class PointGrid:
     heights: Array
     steps: tuple[float, float]
     numbered: bool
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
 
 
 def grid_of_points(points: Array) -> PointGrid:
@@ -64,7 +64,7 @@ def grid_of_points(points: Array) -> PointGrid:
 def _cut_short(
     rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], shape: tuple[int, int]
 ) -> tuple[str, ...]:
-    """Return a doubt where points in the order of a scan end within its last line."""
+    """Return a warning where points in the order of a scan end within its last line."""
     ny, nx = shape
     for places in (rows * nx + columns, columns * ny + rows):
         if len(places) < ny * nx and np.array_equal(places, np.arange(len(places))):

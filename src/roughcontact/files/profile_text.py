@@ -41,16 +41,16 @@ def read_profile(data: bytes) -> HeightMap:
     text = decode(data)
     if dialect_of(text) is not None:
         raise ContentError("it is a text of a map, by its first line", "use read")
-    words, rows, doubts = _without_name(*_split(text))
+    words, rows, warnings = _without_name(*_split(text))
     require_rows(words, len(rows))
     columns = len(rows[0])
     header = header_of(words, (0, 0))
     marks = Marks()
     order = list(column_order(words, columns)) if columns == 2 else list(range(columns))
     values = np.array([marks.numbers(row) for row in rows])[:, order]
-    notes, of_marks = marks.told()
+    notes, of_marks = marks.notes_and_warnings()
     heights, stated, near = without_marks(values[:, min(columns - 1, 1)], header.missing)
-    notes, doubts = (*notes, *stated), (*unended(text), *doubts, *of_marks, *header.doubts, *near)
+    notes, warnings = (*notes, *stated), (*unended(text), *warnings, *of_marks, *header.warnings, *near)
     if columns == 3:
         heights = np.where(values[:, 2] == 0, np.nan, heights)
     units = column_units(words, min(columns, 2))
@@ -65,7 +65,7 @@ def read_profile(data: bytes) -> HeightMap:
         notes = (*notes, *of_places)
         if is_length(lateral):
             spacing = (step * length_factor(lateral or ""),)
-            doubts += _announced(words, spacing[0] * (len(values) - 1))
+            warnings += _announced(words, spacing[0] * (len(values) - 1))
         else:
             unclear = _unclear(lateral, unit or header.unit_unknown, values[:, 0])
             steps = (step,) if unclear is None else None
@@ -77,7 +77,7 @@ def read_profile(data: bytes) -> HeightMap:
         steps=steps,
         unclear=unclear,
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )
 
 
@@ -169,7 +169,7 @@ def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
 
 
 def _announced(words: list[str], span: float) -> tuple[str, ...]:
-    """Return a doubt where a line of words announces another length [m] than the places cover."""
+    """Return a warning where a line of words announces another length [m] than the places cover."""
     for line in words:
         parts = re.fullmatch(rf"(?:scan )?length\s*[,:;=\t]\s*([\d.]+\s*{_UNIT})", line, re.IGNORECASE)
         if parts is None:

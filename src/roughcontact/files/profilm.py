@@ -26,7 +26,7 @@ def read_profilm(text: str) -> HeightMap:
     if not (1 <= nx <= 1e9 and 1 <= ny <= 1e9):
         raise ContentError(f"it states {ny:g} rows of {nx:g} heights", "copy or export it again")
     fields = [field for line in lines[3:] for field in fields_of(line)]
-    heights, notes, doubts = grid_of(fields, (int(ny), int(nx)))
+    heights, notes, warnings = grid_of(fields, (int(ny), int(nx)))
     lateral, unit = (found[1] if (found := _UNIT.search(line)) else None for line in (lines[0], lines[2]))
     step = cell * length_factor(lateral or "") if is_length(lateral) else None
     return HeightMap(
@@ -36,5 +36,5 @@ def read_profilm(text: str) -> HeightMap:
         spacing=None if step is None else (step, step),
         unclear=lines[0].strip() if step is None else None,
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )

@@ -89,8 +89,8 @@ def surface_hash(surface: Body) -> str:
     if isinstance(heights, SlabArray):
         for _, rows in gather_to_first(heights):
             digest.update(b"" if rows is None else _bytes_of_heights(rows))
-        told: list[str] = heights.functions.communicator.allgather(digest.hexdigest())
-        return told[0]
+        digests: list[str] = heights.functions.communicator.allgather(digest.hexdigest())
+        return digests[0]
     digest.update(_bytes_of_heights(heights))
     return digest.hexdigest()
 

@@ -29,7 +29,7 @@ __all__ = [
 # A number in the way programs write it, then whatever is left as the unit.
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 # A product or quotient of names with small powers; arithmetic beyond it could take for ever.
-_NAME = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d|[²³])?"
+_NAME = r"[^\W\d_]+(?:(?:\*\*|\^)?-?\d|[²³])?"
 _PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
 _UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
 # Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.

@@ -205,31 +205,31 @@ def _read(
 
     with named(path) as file:
         if slabs is None:
-            surface, doubts = whole()
+            surface, messages = whole()
         elif Path(path).suffix.casefold() == ".npy" and channel is None:
             found, digest = _npy_rows(path, slabs)
-            surface, doubts = assemble(found, file, digest, **stated)
+            surface, messages = assemble(found, file, digest, **stated)
         else:
-            surface, doubts = _dealt(slabs, whole)
-    for doubt in doubts:
-        warnings.warn(f"{file}: {doubt}", SurfaceWarning, stacklevel=3)
+            surface, messages = _dealt(slabs, whole)
+    for message in messages:
+        warnings.warn(f"{file}: {message}", SurfaceWarning, stacklevel=3)
     return surface
 
 
 def _dealt(
     slabs: Slabs, read: Callable[[], tuple[Surface, tuple[str, ...]]]
 ) -> tuple[Surface, tuple[str, ...]]:
-    """Return a surface in slabs, which the first process reads and deals out, and its doubts."""
+    """Return a surface in slabs, which the first process reads and deals out, and its warnings."""
     whole: list[Array] = []
 
     def read_here() -> tuple[Any, ...]:
-        surface, doubts = read()
+        surface, messages = read()
         whole.append(surface.heights)
-        return surface.grid, surface.provenance, doubts
+        return surface.grid, surface.provenance, messages
 
-    grid, provenance, doubts = by_first(slabs.communicator, read_here)
+    grid, provenance, messages = by_first(slabs.communicator, read_here)
     heights: Any = scatter_from_first(slabs, whole[0] if whole else None, grid.shape)
-    return Surface(heights, grid, provenance), doubts
+    return Surface(heights, grid, provenance), messages
 
 
 def _npy_rows(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, str]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 import numpy as np
 
 from roughcontact.adhesion.adhesive_curve import CURVE_POINTS, AdhesiveCurve
-from roughcontact.adhesion.attraction import Adhesion, Law
+from roughcontact.adhesion.attraction import LAWS, Adhesion
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.adhesion.state_dataset import jump_columns
 from roughcontact.files.content import content
@@ -22,8 +22,8 @@ from roughcontact.files.stored_columns import (
     require_columns,
     sizes_of,
     statuses_of,
-    word_of,
 )
+from roughcontact.units import word_of
 from roughcontact.validation import Array
 
 __all__ = ["read_adhesive_curve"]
@@ -109,7 +109,7 @@ def _adhesion(
     variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any], scalars: Mapping[str, float]
 ) -> Adhesion:
     law: Any = word_of(attributes.get("law", ""))
-    if law not in get_args(Law):
+    if law not in LAWS:
         raise ContentError(f"its law of adhesion is {law!r}", REMEDY)
     work = variables["work_of_adhesion"]
     values: Array = numbers_of(variables, "work_of_adhesion", work.shape)

@@ -21,8 +21,8 @@ from roughcontact.files.stored_columns import (
     require_columns,
     sizes_of,
     statuses_of,
-    word_of,
 )
+from roughcontact.units import word_of
 
 __all__ = ["read_detachment_curve"]
 

@@ -41,7 +41,7 @@ def read_sdf(data: bytes) -> HeightMap:
     shape, steps = _checked(header)
     dtype = np.dtype(_TYPES[int(header["DataType"])])
     require_memory(BYTES_PER_POINT * math.prod(shape))
-    values, doubts = _binary(data, start, shape, dtype) if binary else _listed(text, shape)
+    values, warnings = _binary(data, start, shape, dtype) if binary else _listed(text, shape)
     missing, remarks = _not_measured(values, dtype, old)
     with np.errstate(all="ignore"):
         heights = np.where(missing, np.nan, values * steps[2])
@@ -51,7 +51,7 @@ def read_sdf(data: bytes) -> HeightMap:
             f"SDF {mark[0].decode()}",
             unit="m",
             spacing=(steps[1], steps[0]) if shape[0] > 1 else (steps[0], steps[0]),
-            doubts=(*doubts, *remarks),
+            warnings=(*warnings, *remarks),
         )
     )
 
@@ -113,7 +113,7 @@ def _checked(header: dict[str, float]) -> tuple[tuple[int, int], tuple[float, fl
 def _binary(
     data: bytes, start: int, shape: tuple[int, int], dtype: np.dtype[np.generic]
 ) -> tuple[Array, tuple[str, ...]]:
-    """Return the numbers behind a binary header, and a doubt where other bytes than a text follow them."""
+    """Return the numbers behind a binary header, and a warning where other bytes than a text follow them."""
     size = math.prod(shape) * dtype.itemsize
     if data[start:].startswith(_OLYMPUS) and len(data) - start == size + len(_OLYMPUS):
         start += len(_OLYMPUS)
@@ -122,12 +122,12 @@ def _binary(
         raise ContentError(
             f"{len(data) - start} of {size} bytes of heights are there: it is cut short", _AGAIN
         )
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     if rest and not (rest.isascii() and re.match(rb"\s*[*<\w]", rest) and len(rest) > dtype.itemsize):
-        doubts = (f"{len(rest)} bytes at its end belong to no height: its header may be damaged",)
+        warnings = (f"{len(rest)} bytes at its end belong to no height: its header may be damaged",)
     with np.errstate(all="ignore"):
         values = np.frombuffer(data, dtype, math.prod(shape), start).reshape(shape).astype(np.float64)
-    return values, doubts
+    return values, warnings
 
 
 def _listed(text: str, shape: tuple[int, int]) -> tuple[Array, tuple[str, ...]]:
@@ -150,7 +150,7 @@ def _listed(text: str, shape: tuple[int, int]) -> tuple[Array, tuple[str, ...]]:
 def _not_measured(
     values: Array, dtype: np.dtype[np.generic], old: bool
 ) -> tuple[npt.NDArray[np.bool_], tuple[str, ...]]:
-    """Return the points that carry the mark of their type, and a doubt where that mark is a height to other readers.
+    """Return the points that carry the mark of their type, and a warning where that mark is a height to other readers.
 
     ISO 25178-71 takes the lowest number, for unsigned ones the highest; the BCR proposal takes the highest, but files
     with its mark and the lowest exist. A range of 256 steps leaves no room for a mark that all readers know.
@@ -174,5 +174,5 @@ def _not_measured(
     if not old:
         return missing | lowest, ()
     count = int(np.count_nonzero(lowest | highest))
-    doubt = f"{count} points hold the lowest or highest number of their type and count as not measured"
-    return missing | lowest | highest, (doubt,) if count else ()
+    warning = f"{count} points hold the lowest or highest number of their type and count as not measured"
+    return missing | lowest | highest, (warning,) if count else ()

@@ -12,6 +12,7 @@ from roughcontact.files.file_errors import ContentError
 from roughcontact.files.netcdf import StoredVariable
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.control import Status
+from roughcontact.units import word_of
 
 __all__ = ["REMEDY", "numbers_of", "require_columns", "sizes_of", "statuses_of", "word_of"]
 
@@ -69,8 +70,3 @@ def sizes_of(
         for name in ("lengths", "spacing", "periodic")
     }
     return geometry, sizes | {"periodic": tuple(bool(value) for value in sizes["periodic"])}
-
-
-def word_of(value: Any) -> str:
-    """Return a word, which some files hold as bytes."""
-    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
 from roughcontact.files.numbers import decode
@@ -55,15 +55,15 @@ def read_sur(data: bytes) -> HeightMap:
     header = _header(data)
     counts, unread = _counts(data, header)
     notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     if unread:
-        doubts = (f"{unread} bytes at its end belong to no height: its header may be damaged",)
+        warnings = (f"{unread} bytes at its end belong to no height: its header may be damaged",)
     missing = np.zeros(counts.shape, dtype=np.bool_)
     if header["special_points"] == 1:
         missing = counts == int(header["lowest"]) - 2
     outside = ~missing & ((counts < header["lowest"]) | (counts > header["highest"]))
     if outside.any():
-        doubts = (*doubts, f"{int(outside.sum())} heights lie outside the range that its header states")
+        warnings = (*warnings, f"{int(outside.sum())} heights lie outside the range that its header states")
     heights: Array = np.where(missing, np.nan, counts * float(header["dz"]))
     if (inversion := int(header["inversion"])) in (1, 2, 3):
         # 2 and 3 mirror as well; the same reading as that of Gwyddion.
@@ -86,7 +86,7 @@ def read_sur(data: bytes) -> HeightMap:
         unit=_text(header["dz_unit"]) or None,
         spacing=spacing,
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )
 
 
@@ -136,7 +136,7 @@ def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
 
     Each stream is checked by its checksum.
     """
-    try:
+    with damage("its compressed heights are damaged", _AGAIN, (struct.error, zlib.error, ValueError)):
         (streams,) = struct.unpack_from("<I", packed)
         lengths = struct.unpack_from(f"<{2 * streams}I", packed, 4) if streams <= expected else ()
         place, parts, left = 4 + 8 * streams, [], expected
@@ -147,8 +147,6 @@ def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
                 raise ValueError(f"a stream holds {len(parts[-1])} bytes where its table states {whole}")
             place += part
             left -= min(whole, left)
-    except (struct.error, zlib.error, ValueError) as error:
-        raise ContentError(f"its compressed heights are damaged ({error})", _AGAIN) from error
     unpacked = b"".join(parts)
     return unpacked, len(packed) - place + max(0, len(unpacked) - expected)
 

@@ -117,9 +117,9 @@ def surface_of(
     with named(f"DataArray {str(array.name or 'heights')!r}") as label:
         found = height_map_of(variables, {}, "heights", "xarray")
         digest = hashlib.sha256(np.ascontiguousarray(found.heights).tobytes()).hexdigest()[:16]
-        surface, doubts = assemble(found, label, digest, unit=unit, size=size, periodic=periodic)
-    for doubt in doubts:
-        warnings.warn(f"{label}: {doubt}", SurfaceWarning, stacklevel=2)
+        surface, messages = assemble(found, label, digest, unit=unit, size=size, periodic=periodic)
+    for message in messages:
+        warnings.warn(f"{label}: {message}", SurfaceWarning, stacklevel=2)
     return surface
 
 

@@ -25,18 +25,18 @@ def read_surfer(text: str) -> HeightMap:
         raise ContentError(
             "its header is damaged", "write columns and rows, and the ranges of x, y and z, below DSAA"
         )
-    heights, notes, doubts = grid_of(fields[_HEAD:], (int(ny), int(nx)))
+    heights, notes, warnings = grid_of(fields[_HEAD:], (int(ny), int(nx)))
     found = holds_mark(heights, (_BLANK,))
     heights = np.where(found, np.nan, heights)[::-1]
     west, east, south, north, low, high = ends
     slack = _ROUNDING * max(abs(low), abs(high))
     outside = np.count_nonzero((heights < low - slack) | (heights > high + slack))
     if outside:
-        doubts = (
-            *doubts,
+        warnings = (
+            *warnings,
             f"{outside} heights lie outside the range {low:g} to {high:g} that its header states",
         )
     if found.any():
         notes = (*notes, f"not measured where it is {_BLANK:g}")
     steps = abs(north - south) / (ny - 1), abs(east - west) / (nx - 1)
-    return HeightMap(as_heights(heights), "Surfer grid", steps=steps, notes=notes, doubts=doubts)
+    return HeightMap(as_heights(heights), "Surfer grid", steps=steps, notes=notes, warnings=warnings)

@@ -40,7 +40,7 @@ class Axes:
     y: Array | None
 
     @property
-    def doubt(self) -> str:
+    def warning(self) -> str:
         """What was left out, and how to keep it."""
         rows = (("row", self.x), ("column", self.y))
         parts = [f"its first {name} ({_shown(places)})" for name, places in rows if places is not None]

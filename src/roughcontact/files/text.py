@@ -32,11 +32,11 @@ def read_text(data: bytes) -> HeightMap:
     table = parse_table(text)
     _require_no_points(table)
     axes = axes_of(table.values)
-    doubts = table.doubts
+    warnings = table.warnings
     if axes is None and table.corner is not None:
         if table.corner.error is not None:
             raise table.corner.error
-        doubts = (*doubts, "its first field is empty, and is read as a missing point")
+        warnings = (*warnings, "its first field is empty, and is read as a missing point")
     heights = table.values if axes is None else axes.heights
     ny, nx = heights.shape
     header = header_of(table.comments, (ny, nx))
@@ -45,19 +45,20 @@ def read_text(data: bytes) -> HeightMap:
             f"its rows hold {nx} numbers where it states {header.columns}",
             "copy or export it again, or take out that line if it says something else",
         )
-    notes, doubts = table.notes, (*doubts, *header.doubts)
+    notes, warnings = table.notes, (*warnings, *header.warnings)
     if axes is not None:
-        doubts = (*doubts, axes.doubt)
+        warnings = (*warnings, axes.warning)
     heights, stated, near = without_marks(heights, header.missing)
+    missing = () if stated_rows(table.comments) else _rows_missing(header, (ny, nx))
     return HeightMap(
         as_heights(heights),
-        "text" if header == TextHeader(doubts=header.doubts) else "text with a header",
+        "text" if header == TextHeader(warnings=header.warnings) else "text with a header",
         channel=header.channel,
         unit=header.unit or column_units(table.comments, 3)[2],
         spacing=header.spacing((ny, nx)) or _cell_of(axes, header.lateral or _lateral(table)),
         unclear=header.unclear,
         notes=(*notes, *stated),
-        doubts=(*doubts, *near, *(() if stated_rows(table.comments) else _rows_missing(header, (ny, nx)))),
+        warnings=(*warnings, *near, *missing),
     )
 
 
@@ -91,7 +92,7 @@ def _cell_of(axes: Axes | None, lateral: str | None) -> tuple[float, float] | No
 
 
 def _rows_missing(header: TextHeader, shape: tuple[int, int]) -> tuple[str, ...]:
-    """Return a doubt where the height in the header has room for more rows of square cells than there are."""
+    """Return a warning where the height in the header has room for more rows of square cells than there are."""
     if header.width is None or header.height is None:
         return ()
     ny, nx = shape

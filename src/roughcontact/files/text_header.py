@@ -71,7 +71,7 @@ class TextHeader:
         Numbers that stand where nothing was measured.
     unclear : str, optional
         A side of the map or of a cell in words that are not understood here.
-    doubts : tuple of str
+    warnings : tuple of str
         What was read and may be otherwise.
     """
 
@@ -86,7 +86,7 @@ class TextHeader:
     lateral: str | None = None
     missing: tuple[float, ...] = ()
     unclear: str | None = None
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     @property
     def states_a_size(self) -> bool:
@@ -118,16 +118,17 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
     """
     stated: dict[str, str] = {}
     missing: list[float] = []
-    doubts: list[str] = []
+    warnings: list[str] = []
     for line in lines:
         label, value = _parts(line)
-        name = next((name for name, words in _LABELS_OF.items() if words.fullmatch(label)), None)
+        name = next((name for name, each in _LABELS_OF.items() if each.fullmatch(label)), None)
         if name == "missing":
             missing += _numbers(value)
         elif name is not None and value:
             stated.setdefault(name, value)
         elif _SCALES.fullmatch(label) and not _is_one(value):
-            doubts.append(f"its header states {line.strip()[:60]!r}, which is not applied: check the heights")
+            words = line.strip()[:60]
+            warnings.append(f"its header states {words!r}, which is not applied: check the heights")
     for name, axis, points in (("height", "y", shape[0]), ("width", "x", shape[1])):
         if _value(stated.get(name)) == points:
             del stated[name]  # pixels
@@ -138,7 +139,7 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
         lateral = "nm"  # SPIP's
     elif lateral is None and "any" in stated and _bare(stated):
         lateral = stated["any"]
-        doubts.append(
+        warnings.append(
             f"its one unit, {lateral}, is taken for lengths along the map as for heights; else pass size="
         )
     along_y = stated.get("lateral y", lateral)
@@ -154,7 +155,7 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
         lateral=lateral,
         missing=tuple(missing),
         unclear=_unclear(stated, lengths),
-        doubts=tuple(doubts),
+        warnings=tuple(warnings),
     )
 
 

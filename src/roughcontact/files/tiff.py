@@ -15,8 +15,8 @@ import numpy.typing as npt
 from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_bounds import BYTES_PER_POINT, BoundedStream, require_memory
-from roughcontact.files.file_errors import ContentError
-from roughcontact.files.foreign import list_foreign, read_foreign, unlogged, without_reader
+from roughcontact.files.file_errors import ContentError, damage
+from roughcontact.files.foreign import brief, list_foreign, read_foreign, unlogged, without_reader
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, line_if_one_row
 
 __all__ = ["list_tiff", "read_tiff"]
@@ -58,7 +58,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
         if pages is None:
             return read_foreign(".tiff", data, channel)
         channels = _channels(pages)
-        index, doubts = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
+        index, warnings = choose(channels, 0 if channel is None and holds_a_profile(channels) else channel)
         page = pages[index]
         heights = _numbers(page, len(data))
         missing, notes = _not_measured(page, heights)
@@ -72,7 +72,7 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
                     channel=channels[index].name,
                     unclear="a resolution, which is that of a print" if 282 in page.tags else None,
                     notes=(*notes, *((f"turned upright from orientation {turn}",) if turn != 1 else ())),
-                    doubts=(*doubts, *_doubts(page)),
+                    warnings=(*warnings, *_warnings(page)),
                 )
             )
         )
@@ -93,25 +93,23 @@ def _pages(data: bytes) -> Iterator[list[Any] | None]:
         import tifffile
     except ImportError as error:
         raise without_reader("tifffile", error) from error
-    with unlogged():
-        try:
-            with np.errstate(all="ignore"), tifffile.TiffFile(BoundedStream(data, "surface.tiff")) as opened:
-                pages: list[Any] = list(opened.pages)
-                if any(map(_of_an_instrument, pages)):
-                    yield None
-                    return
-                whole = [page for page in pages if not int(page.subfiletype) & (_REDUCED | _MASK)]
-                problems = [_problem(page) for page in whole]
-                grey = [page for page, problem in zip(whole, problems, strict=True) if problem is None]
-                if not grey:
-                    problem, remedy = next(filter(None, problems), ("it holds no picture", _GREY_AGAIN))
-                    raise ContentError(problem, remedy)
-                yield grey
-        except ContentError:
-            raise
-        except Exception as error:  # a damaged file fails in any way
-            line = str(error).strip().split("\n")[0][:120]
-            raise ContentError(f"it is damaged ({type(error).__name__}: {line})", _AGAIN) from error
+    with (
+        unlogged(),
+        damage("it is damaged", _AGAIN, said=brief),
+        np.errstate(all="ignore"),
+        tifffile.TiffFile(BoundedStream(data, "surface.tiff")) as opened,
+    ):
+        pages: list[Any] = list(opened.pages)
+        if any(map(_of_an_instrument, pages)):
+            yield None
+            return
+        whole = [page for page in pages if not int(page.subfiletype) & (_REDUCED | _MASK)]
+        problems = [_problem(page) for page in whole]
+        grey = [page for page, problem in zip(whole, problems, strict=True) if problem is None]
+        if not grey:
+            problem, remedy = next(filter(None, problems), ("it holds no picture", _GREY_AGAIN))
+            raise ContentError(problem, remedy)
+        yield grey
 
 
 def _of_an_instrument(page: Any) -> bool:
@@ -189,13 +187,13 @@ def _not_measured(page: Any, values: npt.NDArray[Any]) -> tuple[npt.NDArray[np.b
     return missing, (f"not measured where it is {text}, as it states",) if missing.any() else ()
 
 
-def _doubts(page: Any) -> tuple[str, ...]:
-    doubts = []
+def _warnings(page: Any) -> tuple[str, ...]:
+    warnings = []
     if int(page.photometric) == 0:
-        doubts.append(
+        warnings.append(
             "its small numbers are the bright ones (white is zero): they are read as stored, small is low"
         )
     stated = str(page.description) + str(page.tags.valueof(_GDAL, default=""))
     if re.search(r"^c[01]=|role=.(?:scale|offset)", stated, re.MULTILINE):
-        doubts.append("it states a scale or an offset of its numbers, which is not applied")
-    return tuple(doubts)
+        warnings.append("it states a scale or an offset of its numbers, which is not applied")
+    return tuple(warnings)

@@ -27,7 +27,7 @@ def read_wyko(text: str) -> HeightMap:
     if not (1 <= ny <= 1e9 and 1 <= nx <= 1e9):
         raise ContentError("it states no X Size and Y Size", "export it again")
     fields = [field for line in lines[start + 1 : start + 1 + int(ny)] for field in line.split()]
-    heights, notes, doubts = grid_of(fields, (int(ny), int(nx)))
+    heights, notes, warnings = grid_of(fields, (int(ny), int(nx)))
     in_nanometres = lines[0].split()[-2:-1] == ["1"]  # the second of three flags
     waves = 1.0 if in_nanometres else stated.get("wavelength", math.nan) / stated.get("mult", 1.0)
     if not (math.isfinite(waves) and waves > 0):
@@ -39,5 +39,5 @@ def read_wyko(text: str) -> HeightMap:
         unit=waves * _NANOMETRE,
         spacing=None if math.isnan(side) else (side, side * stated.get("aspect", 1.0)),
         notes=(*notes, "its lines, positions along its X, are the rows"),
-        doubts=doubts,
+        warnings=warnings,
     )

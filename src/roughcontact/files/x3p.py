@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.files.file_bounds import unzip
-from roughcontact.files.file_errors import ContentError
+from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
@@ -42,7 +42,7 @@ def read_x3p(data: bytes) -> HeightMap:
     for axis in ("CX", "CY") if kind == "SUR" else ("CX",):
         if axes.text(f"{axis}/AxisType", "I") != "I":
             raise ContentError(f"its axis {axis} is not incremental", f"{_AGAIN} on a regular grid")
-    values, notes, doubts = _values(data, folder, main, root, shape)
+    values, notes, warnings = _values(data, folder, main, root, shape)
     # An absolute axis needs no increment, but writers of whole numbers put their scale there.
     with np.errstate(all="ignore"):
         heights = values * axes.number("CZ/Increment", 1.0) + axes.number("CZ/Offset", 0.0)
@@ -52,7 +52,7 @@ def read_x3p(data: bytes) -> HeightMap:
     if kind == "PRF":
         line = as_heights(heights[0])
         return HeightMap(
-            line, "X3P", unit="m", spacing=(axes.number("CX/Increment"),), notes=notes, doubts=doubts
+            line, "X3P", unit="m", spacing=(axes.number("CX/Increment"),), notes=notes, warnings=warnings
         )
     return HeightMap(
         as_heights(heights),
@@ -60,7 +60,7 @@ def read_x3p(data: bytes) -> HeightMap:
         unit="m",
         spacing=(axes.number("CY/Increment"), axes.number("CX/Increment")),
         notes=notes,
-        doubts=doubts,
+        warnings=warnings,
     )
 
 
@@ -89,7 +89,7 @@ def _shape(root: _Node) -> tuple[int, int]:
 def _values(
     data: bytes, folder: str, main: bytes, root: _Node, shape: tuple[int, int]
 ) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks and doubts."""
+    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks and warnings."""
     kind = root.child("Record1/Axes").text("CZ/DataType")
     if kind not in _TYPES:
         raise ContentError(f"its heights are of the type {kind!r}, not one of I, L, F, D", _AGAIN)
@@ -176,7 +176,7 @@ def _check(content: bytes, stated: str, what: str) -> None:
 def _check_main(
     stated: bytes | None, main: bytes, points: bytes, guarded: bool
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Compare the checksum of ``main.xml``, and return a note or a doubt where it is another.
+    """Compare the checksum of ``main.xml``, and return a note or a warning where it is another.
 
     Some writers put the checksum of the heights there instead. Programs that edit ``main.xml`` leave a stale one: the
     file is read where the heights have a checksum of their own, which is right.
@@ -256,12 +256,8 @@ def parse_xml(main: bytes) -> _Node:
     target = SimpleNamespace(
         start=builder.start, end=builder.end, data=builder.data, close=builder.close, doctype=refuse
     )
-    try:
+    with damage("its main.xml is damaged", _AGAIN):  # of which its declared encoding may be a part
         return _Node(ElementTree.fromstring(main, ElementTree.XMLParser(target=target)))
-    except ContentError:
-        raise
-    except Exception as error:  # ParseError, but also LookupError and ValueError over the declared encoding
-        raise ContentError(f"its main.xml is damaged ({error})", _AGAIN) from error
 
 
 def x3p_bytes(surface: Surface) -> bytes:

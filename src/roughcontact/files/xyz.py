@@ -29,7 +29,7 @@ def read_xyz(data: bytes) -> HeightMap:
     if text.startswith(_ZYGO):
         text = text.partition("\n#\n")[2]
     table = parse_table(text, points=True)
-    order, doubts = _three_columns(table)
+    order, warnings = _three_columns(table)
     header = header_of(table.comments, (0, 0))
     grid = grid_of_points(table.values[:, order])
     heights, stated, near = without_marks(grid.heights, header.missing)
@@ -46,12 +46,12 @@ def read_xyz(data: bytes) -> HeightMap:
         steps=steps,
         unclear=unclear,
         notes=("the first row has the smallest y", *table.notes, *stated),
-        doubts=(*table.doubts, *header.doubts, *doubts, *grid.doubts, *near),
+        warnings=(*table.warnings, *header.warnings, *warnings, *grid.warnings, *near),
     )
 
 
 def _three_columns(table: Table) -> tuple[list[int], tuple[str, ...]]:
-    """Return where x, y and z stand, a column that numbers the points left out, and a doubt where there was one."""
+    """Return where x, y and z stand, a column that numbers the points left out, and a warning where there was one."""
     columns = table.values.shape[1]
     order = list(column_order(table.comments, columns))
     if columns == 4 and counts(table.values[:, 0]):

@@ -61,12 +61,12 @@ class Selection:
         """Number of cells."""
         return int(self.cells.shape[0])
 
-    def take(self, field: Values) -> Values:
+    def restrict(self, field: Values) -> Values:
         """Return the values of a field of shape ``(k, *shape of the mask)`` on the cells, shape ``(k, n)``."""
         xp = namespace(field)
         return xp.take(xp.reshape(field, (field.shape[0], -1)), self.cells, axis=1)  # type: ignore[no-any-return]
 
-    def embed(self, values: Values) -> Values:
+    def prolong(self, values: Values) -> Values:
         """Return the field of shape ``(k, *shape of the mask)`` with these values, shape (k, n), and zero elsewhere."""
         k = values.shape[0]
         if self.places is None:
@@ -165,17 +165,17 @@ class ContactCells:
         """Return a unit in each direction, the same on every cell."""
         return [self.zeros() + as_like(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
 
-    def take(self, field: Array) -> Array:
+    def restrict(self, field: Array) -> Array:
         """Return the components of a field of shape ``(2, ny, nx)`` on the cells."""
-        return self._components(self.chosen.take(field))
+        return self._components(self.chosen.restrict(field))
 
-    def embed(self, values: Array) -> Array:
+    def prolong(self, values: Array) -> Array:
         """Return values on the cells as a field of shape ``(2, ny, nx)``, zero outside the contact."""
-        return self.chosen.embed(self._vectors(values))
+        return self.chosen.prolong(self._vectors(values))
 
     def _through(self, operation: Callable[[Array], Array], values: Array) -> Array:
-        field = operation(self.region.embed(self._vectors(values)))
-        return self._components(self.region.take(field))
+        field = operation(self.region.prolong(self._vectors(values)))
+        return self._components(self.region.restrict(field))
 
     def _vectors(self, values: Array) -> Array:
         """Return components as vectors (x, y)."""

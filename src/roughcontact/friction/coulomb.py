@@ -13,7 +13,7 @@ import numpy as np
 from roughcontact.arrays import as_like, inner, namespace, numbers
 from roughcontact.validation import Array, Mask
 
-__all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "under_force", "violations", "within"]
+__all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "projected", "projected_to_force", "violations"]
 
 
 AT_LIMIT = 1e-12  # part of the limit that is rounding: a traction as near to it is at it
@@ -40,7 +40,7 @@ def at_limit(traction: Array, limit: Array) -> Mask:
     return lengths(traction) >= limit * (1 - AT_LIMIT)
 
 
-def within(traction: Array, limit: Array) -> Array:
+def projected(traction: Array, limit: Array) -> Array:
     """Return the nearest traction that friction can hold."""
     xp, size = namespace(traction), lengths(traction)
     over = size > limit
@@ -62,10 +62,10 @@ def violations(traction: Array, limit: Array, slip: Array) -> Array:
     return xp.where(lengths(traction) > limit * (1 + AT_LIMIT), np.inf, violation)  # type: ignore[no-any-return]
 
 
-def under_force(traction: Array, limit: Array, total: Array) -> Array:
+def projected_to_force(traction: Array, limit: Array, total: Array) -> Array:
     """Return the nearest traction that friction can hold and that adds up to `total` over the cells.
 
-    It is ``within(traction - shift, limit)`` with the shift that minimises a convex function, whose slope is the sum
+    It is ``projected(traction - shift, limit)`` with the shift that minimises a convex function, whose slope is the sum
     less what it exceeds `total` by: Newton's method, with a search along its steps.
 
     Parameters
@@ -75,14 +75,14 @@ def under_force(traction: Array, limit: Array, total: Array) -> Array:
     total : array, shape (k,)
         Shorter than the sum of the limits.
     """
-    nearest = _projected(traction, limit, total)
+    nearest = _nearest(traction, limit, total)
     if inner(traction, traction) <= LARGE**2 * inner(limit, limit):
         return nearest
-    return _projected(nearest, limit, total)  # without the rounding of large tractions
+    return _nearest(nearest, limit, total)  # without the rounding of large tractions
 
 
-def _projected(traction: Array, limit: Array, total: Array) -> Array:
-    """Return what `under_force` does, whose sum is as good as the rounding of `traction`."""
+def _nearest(traction: Array, limit: Array, total: Array) -> Array:
+    """Return what `projected_to_force` does, whose sum is as good as the rounding of `traction`."""
     xp = namespace(traction)
 
     def shifted(shift: Array) -> Array:
@@ -90,7 +90,7 @@ def _projected(traction: Array, limit: Array, total: Array) -> Array:
         return result
 
     def excess(shift: Array) -> Array:
-        return numbers(xp.sum(within(shifted(shift), limit), axis=1)) - total
+        return numbers(xp.sum(projected(shifted(shift), limit), axis=1)) - total
 
     shift = np.zeros(traction.shape[0])
     enough = FORCE * (float(xp.sum(limit)) + float(xp.sum(xp.abs(traction))))
@@ -103,7 +103,7 @@ def _projected(traction: Array, limit: Array, total: Array) -> Array:
         # Where the sum hardly falls any more, the direction leads far away.
         direction *= min(1.0, size / float(np.abs(direction).max()))
         shift, over = _searched(excess, shift, over, direction)
-    return within(shifted(shift), limit)
+    return projected(shifted(shift), limit)
 
 
 def _newton_direction(shifted: Array, limit: Array, over: Array) -> Array:

@@ -220,7 +220,7 @@ def advance(
     if initial is None:
         start = slipped = moved = interface.zeros()
     else:
-        start, slipped = interface.take(initial.traction), interface.take(initial.slip)
+        start, slipped = interface.restrict(initial.traction), interface.restrict(initial.slip)
         moved = slipped + as_like((interface.basis @ initial.displacement)[:, None], slipped)
     value = interface.basis @ np.array([load.x, load.y])
     step = SlipStep(
@@ -235,7 +235,7 @@ def advance(
     )
     found = _slid(step, value) if problem.slides_under(load) else SlipNewton().run(step)
     now = found.displacement - as_like(found.shift[:, None], found.displacement)
-    fields = [interface.embed(found.traction), interface.embed(now)]
+    fields = [interface.prolong(found.traction), interface.prolong(now)]
     for field in fields:
         if is_numpy(field):
             field.flags.writeable = False

@@ -89,7 +89,7 @@ class SlipProblem:
     def limit(self) -> Array:
         """Largest traction of each cell in contact, mu p [Pa], in flat order."""
         pressure = namespace(self.pressed.pressure).expand_dims(self.pressed.pressure, axis=0)
-        return self.friction * self.interface.chosen.take(pressure)[0, :]
+        return self.friction * self.interface.chosen.restrict(pressure)[0, :]
 
     @property
     def capacity(self) -> float:

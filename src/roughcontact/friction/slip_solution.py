@@ -92,8 +92,8 @@ class TangentialSolution:
     def slipping(self) -> Mask:
         """Mask of the cells in contact whose traction is all that friction holds."""
         interface = self.problem.interface
-        held = at_limit(interface.take(self.traction), self.problem.limit)
-        return interface.chosen.embed(held[None, :])[0, ...]
+        held = at_limit(interface.restrict(self.traction), self.problem.limit)
+        return interface.chosen.prolong(held[None, :])[0, ...]
 
     @property
     def sticking(self) -> Mask:
@@ -185,7 +185,7 @@ class TangentialSolution:
     to_record = methods.tangential_record
 
     def _on_cells(self, field: Array) -> Array:
-        return self.problem.interface.chosen.take(field)
+        return self.problem.interface.chosen.restrict(field)
 
 
 def _count(mask: Mask) -> int:

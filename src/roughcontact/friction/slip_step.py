@@ -13,12 +13,12 @@ from roughcontact.friction.coulomb import (
     at_limit,
     directions,
     lengths,
-    under_force,
+    projected,
+    projected_to_force,
     violations,
-    within,
 )
 from roughcontact.solver.control import Status
-from roughcontact.solver.optimality import UNITS
+from roughcontact.solver.optimality import ROUNDING_FLOOR
 from roughcontact.validation import Array
 
 __all__ = ["SlipState", "SlipStep", "Slipped"]
@@ -71,8 +71,8 @@ class SlipStep:
     def admitted(self, traction: Array) -> Array:
         """Return the nearest traction that friction can hold, under the force if one is given."""
         if self.force is None:
-            return within(traction, self.limit)
-        return under_force(traction, self.limit, self.force / self.interface.area)
+            return projected(traction, self.limit)
+        return projected_to_force(traction, self.limit, self.force / self.interface.area)
 
     def shift_of(self, displacement: Array, normal: Array) -> Array:
         """Return the displacement of the bodies [m]: the one that is given, or that belongs to a traction.
@@ -101,8 +101,8 @@ class SlipStep:
             return 0.0
         scale = max(self.scale, float(xp.max(lengths(displacement))))
         relative = violation / scale if scale > 0 else math.inf
-        rounding = UNITS * self.interface.self_influence * float(xp.max(lengths(traction)))
-        return min(relative, UNITS) if violation <= rounding else relative
+        rounding = ROUNDING_FLOOR * self.interface.self_influence * float(xp.max(lengths(traction)))
+        return min(relative, ROUNDING_FLOOR) if violation <= rounding else relative
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -24,7 +24,7 @@ class RowScratch(NamedTuple):
     """Memory for a row, as long as all blocks of it, for each thread: so many numbers apart."""
 
     rows: Vector
-    room: Index
+    stride: Index
 
 
 class Pieces(NamedTuple):
@@ -58,7 +58,7 @@ class Pieces(NamedTuple):
 @kernel
 def sum_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
     """Sum over the blocks of a plane."""
-    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.room
+    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.stride
     across = (nx + side - 1) // side
     for block in code.shared(0, (ny + side - 1) // side):
         for k in code.range(0, across * side):
@@ -76,7 +76,7 @@ def sum_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
 @kernel
 def add_blocks(code: Code, plane: Plane, scratch: RowScratch) -> None:
     """Add to each cell what its block has."""
-    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.room
+    (ny, nx, side, x, blocks), row = plane, scratch.rows + code.thread * scratch.stride
     across = (nx + side - 1) // side
     for block in code.shared(0, (ny + side - 1) // side):
         for b in code.range(0, across):

@@ -73,15 +73,15 @@ class CompiledConvolution:
             raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
         plan, (ny, nx) = self.plan, self.shape
         convolve = functions("fft", plan.precision)["convolve"]
-        lanes, blocks, room, rows = plan.lanes, plan.blocks, plan.room, plan.padded(ny)
+        lanes, blocks, scratch, rows = plan.lanes, plan.blocks, plan.scratch, plan.padded(ny)
         given = np.ascontiguousarray(plane, dtype=plan.precision)
         answer = empty((ny, nx), plan.precision)
         workers = threads() if ny * plan.lengths[1] * given.itemsize >= LARGE else 1
         parts = PARTS * workers
-        memory = aligned(workers * room + blocks * rows * 2 * lanes, plan.precision)
-        spectrum = Operand(memory[workers * room :])
+        memory = aligned(workers * scratch + blocks * rows * 2 * lanes, plan.precision)
+        spectrum = Operand(memory[workers * scratch :])
         along = spectrum, rows, *plan.along, -(-rows // (parts * lanes)) * lanes
         pieces = spectrum, blocks, 1, self.edges, self.places
         across = *pieces, *plan.across, self.multiplier, -(-blocks // parts)
-        convolve(given, answer, ny, nx, *along, *across, memory, room, plan.raw, workers=workers)
+        convolve(given, answer, ny, nx, *along, *across, memory, scratch, plan.raw, workers=workers)
         return answer

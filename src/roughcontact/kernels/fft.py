@@ -109,15 +109,15 @@ class ColumnPieces(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Memory for each thread, so many numbers apart, and where that for what is in order begins in a thread's own."""
+    """Memory for each thread, `stride` numbers apart, and where that for what is in order begins in a thread's own."""
 
     memory: Vector
-    room: Index
+    stride: Index
     offset: Index
 
     def own(self, code: Code) -> Vector:
         """Return that of this thread."""
-        return self.memory + code.thread * self.room
+        return self.memory + code.thread * self.stride
 
 
 class RowTransform(NamedTuple):

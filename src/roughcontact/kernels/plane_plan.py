@@ -35,13 +35,13 @@ class PlanePlan:
     precision : {"float32", "float64"}
     lanes, blocks : int
         How many rows or columns go at once, and how many such blocks of columns there are.
-    raw, room : int
+    raw, scratch : int
         Numbers that a thread works in: of rows as they come from a transform, and in all, either of rows, as they come
         and in order, or of one block of columns.
     along, across : tuple
-        What kernels are told of transforms along rows, whose neighbours are taken for complex numbers and told apart by
-        twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are in
-        digit-reversed order.
+        Arguments of the kernels for transforms along rows, whose neighbours are taken for complex numbers and separated
+        by twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are
+        in digit-reversed order.
     """
 
     lengths: tuple[int, int]
@@ -49,7 +49,7 @@ class PlanePlan:
     lanes: int
     blocks: int
     raw: int
-    room: int
+    scratch: int
     along: tuple[Any, ...]
     across: tuple[Any, ...]
 
@@ -59,13 +59,13 @@ class PlanePlan:
         (ny, nx), (my, mx), lanes = shape, lengths, WIDTH // np.dtype(precision).itemsize
         half = mx // 2
         blocks, raw = half // lanes + 1, -(-half // lanes) * 2 * lanes * lanes
-        room = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
+        scratch = max(raw + blocks * 2 * lanes * lanes, my * 2 * lanes)
         rows, columns = _plan(half, -(-nx // 2), precision), _plan(my, ny, precision)
         pairs = _twiddles(np.arange(half // 2 + 1), mx, precision)
         folded = np.minimum(columns.waves, my - columns.waves)
         along = half, *rows.arguments, Operand(rows.order), Operand(pairs)
         across = my, *columns.arguments, Operand(folded)
-        return cls(lengths, precision, lanes, blocks, raw, room, along, across)
+        return cls(lengths, precision, lanes, blocks, raw, scratch, along, across)
 
     def padded(self, rows: int) -> int:
         """Return how many rows a spectrum has memory for that holds so many."""
@@ -108,7 +108,7 @@ class FourierPlan:
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What the kernel is told."""
+        """Arguments of the kernel."""
         return Operand(self.radices), len(self.radices), Operand(self.twiddles)
 
 

@@ -30,7 +30,7 @@ _NEEDED: dict[str, dict[str, tuple[str, ...]]] = {
 
 
 class Processor(NamedTuple):
-    """What LLVM is told of a processor: its name, and what it has beyond the name or lacks of it."""
+    """What LLVM is given of a processor: its name, and what it has beyond the name or lacks of it."""
 
     name: str
     features: str

@@ -175,11 +175,11 @@ def project_step(
             stays = where(~below, was, 0.0)
             m[i] = stays
             left = rounded_sum(code, base[i], change[i])
-            lifted = left * stays - left
-            projected = new * stays + lifted
+            correction = left * stays - left
+            projected = new * stays + correction
             s[i] = projected
             gone = was - stays
-            totals.add(gone, abs(lifted), projected - new, w[i] * gone)
+            totals.add(gone, abs(correction), projected - new, w[i] * gone)
 
 
 @kernel

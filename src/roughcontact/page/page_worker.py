@@ -1,4 +1,4 @@
-"""The process that computes for a page: orders in on standard input, messages out on standard output.
+"""The process that computes for a page: requests in on standard input, messages out on standard output.
 
 It ends with the server, whose end it sees at once on standard input.
 """
@@ -18,8 +18,8 @@ from queue import SimpleQueue
 from typing import Any, BinaryIO
 
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
-from roughcontact.page.server.order import Job, Order, Send
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
+from roughcontact.page.server.page_request import Job, PageRequest, Send
 from roughcontact.page.stopping import Stopped, Stopping
 
 __all__ = ["main", "perform"]
@@ -29,12 +29,12 @@ _SHARE = 0.75  # of the memory that is free when it starts
 
 def main() -> None:
     """Compute until standard input ends."""
-    orders: BinaryIO = os.fdopen(os.dup(0), "rb")
+    requests: BinaryIO = os.fdopen(os.dup(0), "rb")
     answers: BinaryIO = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what foreign readers print is no answer
-    stopping, inbox, bench = Stopping(), SimpleQueue[dict[str, Any]](), Workbench()
+    stopping, inbox, cache = Stopping(), SimpleQueue[dict[str, Any]](), SessionCache()
     stopping.install()
-    threading.Thread(target=_listen, args=(orders, stopping, inbox), daemon=True).start()
+    threading.Thread(target=_listen, args=(requests, stopping, inbox), daemon=True).start()
     logging.disable(logging.CRITICAL)
     warming = _warm_up()
     next(warming)
@@ -53,21 +53,21 @@ def main() -> None:
             if not inbox.empty():  # who asks need not wait for the rest
                 break
         while True:
-            perform(inbox.get(), bench, send, stopping)
+            perform(inbox.get(), cache, send, stopping)
 
 
-def perform(given: Mapping[str, Any], bench: Workbench, send: Send, stopping: Stopping) -> None:
+def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping: Stopping) -> None:
     """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program."""
     end: dict[str, Any] = {"type": "end", "how": "done"}
     try:
         stopping.begin(given["number"])
-        order = _order(given)
+        request = _request(given)
         with contextlib.redirect_stdout(io.StringIO()):
-            _job(given["job"])(order, bench, send)
+            _job(given["job"])(request, cache, send)
     except Stopped:
         end["how"] = "stopped"
     except MemoryError:
-        bench.kept.clear()
+        cache.kept.clear()
         end |= {
             "how": "refused",
             "message": "The memory does not suffice for that many points: crop or subsample.",
@@ -83,11 +83,11 @@ def perform(given: Mapping[str, Any], bench: Workbench, send: Send, stopping: St
     send(end)
 
 
-def _order(given: Mapping[str, Any]) -> Order:
+def _request(given: Mapping[str, Any]) -> PageRequest:
     from roughcontact.page.recipe import as_recipe
 
     files = {key: UploadedFile(Path(each["path"]), each["name"]) for key, each in given["files"].items()}
-    return Order(as_recipe(given["recipe"]), files, given.get("more") or {})
+    return PageRequest(as_recipe(given["recipe"]), files, given.get("more") or {})
 
 
 def _job(name: str) -> Job:
@@ -105,9 +105,9 @@ def _job(name: str) -> Job:
     return jobs[name]
 
 
-def _listen(orders: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str, Any]]) -> None:
-    while len(start := orders.read(LENGTHS)) == LENGTHS:
-        given = header_of(orders.read(lengths_of(start)[0]))
+def _listen(requests: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str, Any]]) -> None:
+    while len(start := requests.read(LENGTHS)) == LENGTHS:
+        given = header_of(requests.read(lengths_of(start)[0]))
         if "stop" in given:
             stopping.stop(given["stop"])
         else:
@@ -116,7 +116,7 @@ def _listen(orders: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str, A
 
 
 def _warm_up() -> Iterator[None]:
-    """Load, step by step, what orders take: modules, units, and the machine code of the solvers."""
+    """Load, step by step, what requests take: modules, units, and the machine code of the solvers."""
 
     def made(points: int, *, periodic: bool = False) -> dict[str, Any]:
         return {
@@ -133,9 +133,9 @@ def _warm_up() -> Iterator[None]:
         ("press", {"source": made(512), "load": heavy}),
         ("study", {"source": made(64)}),
     ]
-    bench = Workbench()
+    cache = SessionCache()
     for job, recipe in steps:
-        _job(job)(_order({"recipe": recipe, "files": {}}), bench, _unsent)
+        _job(job)(_request({"recipe": recipe, "files": {}}), cache, _unsent)
         yield
 
 

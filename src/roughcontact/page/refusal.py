@@ -1,4 +1,4 @@
-"""Why an order was refused, in words for a page: what is wrong, and which of its fields mends it."""
+"""Why a request was refused, in words for a page: what is wrong, and which of its fields mends it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _FIELDS = {"unit": "the unit of the heights", "size": "the width of the map", "c
 
 
 def refusal(error: Exception) -> dict[str, Any]:
-    """Return how an order ended that raised an error: refused, or with a mistake of this program."""
+    """Return how a request ended that raised an error: refused, or with a mistake of this program."""
     if isinstance(error, FieldError):
         end = refusal(error.error) | {"field": error.field}
         for keyword, words in _KEYWORDS.items():

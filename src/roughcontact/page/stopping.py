@@ -16,7 +16,7 @@ class Stopped(BaseException):
 
 @dataclass(slots=True)
 class Stopping:
-    """Which order is being worked on, and which one is no longer wanted.
+    """Which request is being worked on, and which one is no longer wanted.
 
     One thread listens and calls `stop`, the main thread computes between `begin` and `end`. The exception is raised in
     the main thread alone, and never while a message is written.
@@ -32,7 +32,7 @@ class Stopping:
         sys.unraisablehook = self._swallowed
 
     def begin(self, number: int) -> None:
-        """Begin an order."""
+        """Begin a request."""
         self.running, self.interruptible = number, True
         self.check()
 
@@ -45,18 +45,18 @@ class Stopping:
         self.interruptible = False
 
     def go_on(self) -> None:
-        """Let the order be stopped again, at once if that was asked for meanwhile."""
+        """Let the request be stopped again, at once if that was asked for meanwhile."""
         self.interruptible = True
         self.check()
 
     def stop(self, number: int) -> None:
-        """Stop an order if it is being worked on, or as soon as it is begun."""
+        """Stop a request if it is being worked on, or as soon as it is begun."""
         self.unwanted = number
         if self.running == number:
             _thread.interrupt_main()
 
     def check(self) -> None:
-        """Raise `Stopped` if the order is no longer wanted."""
+        """Raise `Stopped` if the request is no longer wanted."""
         if self.interruptible and self.running is not None and self.running == self.unwanted:
             self.unwanted = None  # said once: what was computed so far may still be sent
             raise Stopped

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
 
 ADHESIVE_COLUMNS = names_of(shown_in("path", ADHESIVE_CURVE[("load",)]))
-_JUMPS = 12  # that are told one by one: those that lost most
+_JUMPS = 12  # that are listed one by one: those that lost most
 
 
 def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
@@ -95,9 +95,9 @@ def jump_facts(jumps: Sequence[Jump], kind: Geometry) -> list[tuple[str, str]]:
     """Return one line for each of the jumps that lost most, in their order, and how many others there are."""
     if not jumps:
         return [("jumps", "none")]
-    told = sorted(sorted(range(len(jumps)), key=lambda k: -jumps[k].lost)[:_JUMPS])
-    lines = [_jump_line(jumps[k], kind) for k in told]
-    if others := len(jumps) - len(told):
+    listed = sorted(sorted(range(len(jumps)), key=lambda k: -jumps[k].lost)[:_JUMPS])
+    lines = [_jump_line(jumps[k], kind) for k in listed]
+    if others := len(jumps) - len(listed):
         lines.append(f"{others} that lost less")
     return [
         ("" if k else f"{len(jumps)} jump{'s' if len(jumps) > 1 else ''}", line)

@@ -90,9 +90,11 @@ def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
 def detachment_facts(curve: DetachmentCurve) -> list[tuple[str, str]]:
     """Return what a curve of stuck surfaces is worth telling, line by line."""
     kind = curve.geometry
+    depth, force = min(_line(curve), key=lambda point: point[1], default=(0.0, 0.0))
+    at = f" at a depth of {quantity('depth', depth)}" if force < 0 else ""
     return [
         *_of_the_bodies(curve.work, curve.modulus),
-        (_pull_off(curve), quantity("pull_off_force", curve.pull_off_force, kind)),
+        (_pull_off(curve), quantity("pull_off_force", curve.pull_off_force, kind) + at),
         (_count(len(curve.detachments), "detachment"), f"{quantity('lost_energy', curve.lost, kind)} lost"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
         *(("note", line) for line in curve.notes),

@@ -108,12 +108,13 @@ def jump_area(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     axes, finite = axes_for(ax), np.isfinite(loop.depth)
     x = scale(float(np.abs(loop.depth[finite]).max(initial=0.0)), VARIABLES["depth"].unit)
     for way, style in _STYLES.items():
-        points = (loop.approach == way) & finite
-        if points.any():
-            # No line leads across a jump.
-            broken = np.isin(np.flatnonzero(points), loop.jumped).nonzero()[0]
+        along = loop.approach == way
+        line = np.flatnonzero((along | np.append(along[1:], False)) & finite)  # from where the path turned
+        if along[line].any():
+            # No line leads across a jump, or from one branch to the next of its way.
+            broken = np.flatnonzero(np.isin(line, loop.jumped) | (np.diff(line, prepend=line[0]) > 1))
             depth, area = (
-                np.insert(values[points], broken, np.nan) for values in (loop.depth, loop.contact_fraction)
+                np.insert(values[line], broken, np.nan) for values in (loop.depth, loop.contact_fraction)
             )
             axes.plot(depth * x.factor, 100 * area, linewidth=1.0, markersize=3.5, **style)
     label_axes(axes, f"depth [{x.unit}]", f"{VARIABLES['contact_fraction'].label} [%]", grid=True)

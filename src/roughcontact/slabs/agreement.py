@@ -66,8 +66,8 @@ def _agreed(communicator: Communicator, works: list[Callable[[], Any]]) -> list[
         found = [work() for work in works]
     except Exception as error:  # raised on all, or the others would wait for ever
         fault = error
-    told = communicator.allgather((found, fault))
-    for _, raised in told:
+    gathered = communicator.allgather((found, fault))
+    for _, raised in gathered:
         if raised is not None:
             raise raised
-    return [each for parts, _ in told for each in parts]
+    return [each for parts, _ in gathered for each in parts]

@@ -39,7 +39,7 @@ class SlabFunctions:
     communicator : Communicator
     """
 
-    __name__ = "roughcontact.slabs"  # by which libraries of arrays are told apart
+    __name__ = "roughcontact.slabs"  # by which libraries of arrays are distinguished
     bool, int64, float32, float64 = (np.dtype(name) for name in ("bool", "int64", "float32", "float64"))
     isdtype: ClassVar[Any] = staticmethod(np.isdtype)
     finfo: ClassVar[Any] = staticmethod(np.finfo)

@@ -40,8 +40,8 @@ __all__ = ["ActiveSet"]
 class ActiveSet:
     """Settings of the active set method, the default solver.
 
-    Free sets of up to `dense_limit` cells (of a half-space that has tiles 700 at most, 300 where the tolerance is
-    loose) are solved by a factorisation, larger ones by bound-constrained conjugate gradients in single precision, on
+    Free sets of up to `dense_limit` cells are solved by a factorisation (of an operator that has tiles 700 at most, 300
+    where the tolerance is 1e-5 or more), larger ones by bound-constrained conjugate gradients in single precision, on
     the tiles that they touch where that costs less, and to a forcing term; products in double precision certify. The
     influence matrix of the half-space is close to an inverse M-matrix, for which the method is finite at given depth;
     nothing proves that for other operators, so that a run without progress is continued by Polonsky and Keer's method.
@@ -190,13 +190,13 @@ class _Outer:
         while True:
             # A3, A4
             found = self.conditions.evaluate(Iterate(self.pressure, self.displacement, self.separation))
-            if found.residual <= tolerance and self.exact:
-                return self._state(found, Status.CONVERGED)
-            if found.residual <= tolerance:  # A5: the certificate needs an exact product
-                self.displacement = None
-            elif self._stagnates(found.residual) or not self._correct(found):  # A6 to A9
+            if found.residual <= tolerance:  # A5
+                if self.exact:
+                    return self._state(found, Status.CONVERGED)
+                self.displacement = None  # the certificate needs an exact product
+            elif self._stagnates(found.residual) or not self._correct(found):
                 return self._state(found, Status.STAGNATED)
-            if self.displacement is None:  # A10
+            if self.displacement is None:  # A10, after A5 too
                 self.displacement, self.exact = self.operator.apply(self.pressure), True
                 self.steps += 1
 
@@ -230,13 +230,13 @@ class _Outer:
             iterate, depth=found.depth, allowed=allowed, first=self.first
         )
         self.first = False
-        # A7: roughly by B where its steps cost little, and then with fewer cells; else by B on the matrix of F.
+        # A7: roughly by B where its steps cost little, and then with fewer cells.
         rough = predicted.quality is not Quality.GOOD and self._rough_steps_pay()
         if rough:
             self.dense_limit = min(self.dense_limit, tuning.DIRECT_ROUGHLY)
         pays = factorisation_pays(operator, predicted.count, self.dense_limit, spec.tolerance)
         direct = pays and not rough
-        if direct and predicted.quality is Quality.BAD:
+        if direct and predicted.quality is Quality.BAD:  # A7: else by B on the matrix of F
             limit = tuning.SCREENING_RESIDUAL * found.residual * found.scale
             predicted = _screened(operator, iterate, conditions, predicted, limit)
         if predicted.count == math.prod(predicted.free.shape) and is_semidefinite(operator):
@@ -252,6 +252,7 @@ class _Outer:
         self.inner = inner = (
             FullGrid(operator) if stuck else inner_operator_on(operator, predicted.support, self.inner)
         )
+        # A9: the residual to which B goes
         factor = max(inner.contraction, tuning.SCREENING_RESIDUAL if rough else 0.0)
         limit = found.scale * max(tuning.INNER_TOLERANCE * spec.tolerance, factor * found.residual)
         return inner_system(inner, iterate, conditions, predicted.free, limit=limit)
@@ -263,11 +264,11 @@ class _Outer:
             if not spec.plastic:
                 self.displacement = None  # the system has what it needs of it
             left = self.max_steps - self.steps
-            self.pressure, steps = inner_solve(reduced, conditions, max_steps=left)
+            self.pressure, steps = inner_solve(reduced, conditions, max_steps=left)  # A9
             self.tangent, self.steps = None, self.steps + steps
         elif len(reduced):
             try:
-                solved = press_cells(self.operator, self.separation, spec.control, reduced)
+                solved = press_cells(self.operator, self.separation, spec.control, reduced)  # A8
             except np.linalg.LinAlgError:  # not definite to working precision: the next round iterates
                 self.dense_limit = 0
                 return True

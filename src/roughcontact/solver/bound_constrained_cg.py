@@ -121,12 +121,13 @@ def inner_system(
     # Cells that were not measured never touch, nor does what lies beyond the edge.
     part = Iterate(inner.gather(pressure), inner.gather(displacement), inner.gather(separation, math.inf))
     free = inner.gather(free)
+    # B1
     vectors, unit = scaled_vectors(inner, conditions.measure, conditions.spec, free, part, otherwise=limit)
     return InnerSystem(inner, vectors, part.pressure, unit, limit / unit)
 
 
 def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) -> InnerSolution:
-    """Solve a bound-constrained problem.
+    """Solve a bound-constrained problem by algorithm B.
 
     Cells are deactivated until none has a pressure out of bounds, and only then violated ones are freed: to do both at
     once, as is right where each free set is solved exactly, cycles where it is not.
@@ -140,7 +141,7 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
         Largest number of products.
     """
     (inner, vectors, start, unit, goal), spec = system, conditions.spec
-    target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()
+    target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()  # B1: the target
     with buffers.keep_large_buffers():
         while steps < max_steps and rounds < tuning.FREEING_ROUNDS:
             residual, done, estimate = bound_constrained_cg(

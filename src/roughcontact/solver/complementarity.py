@@ -24,7 +24,7 @@ from roughcontact.halfspace.operators.operator import Operator, exact_of, self_i
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.solver.control import Force, Solver, Specification, Start, State, Status
 from roughcontact.solver.inner_product import Measure
-from roughcontact.solver.optimality import UNITS, Iterate, Optimality
+from roughcontact.solver.optimality import ROUNDING_FLOOR, Iterate, Optimality
 from roughcontact.solver.refinement import defect_correction
 from roughcontact.validation import Array, Mask
 
@@ -120,16 +120,16 @@ def resolve_contact(
     if state.status is not Status.CONVERGED:
         return replace(state, displacement=None)
     iterated = state.residual > FINEST and spec.tolerance <= LOOSE
-    known = UNITS + (state.residual if iterated or state.residual <= FINEST else 0.0)
+    known = ROUNDING_FLOOR + (state.residual if iterated or state.residual <= FINEST else 0.0)
     weak = _weak(exact, separation, conditions, state, known)
     if weak is not None and iterated and _matter(exact, conditions.measure, state, weak):
         finer = run(replace(spec, tolerance=FINEST), Start(state.pressure, state.depth))
         steps = state.steps + finer.steps
         state = finer if finer.residual <= spec.tolerance else state
         state = replace(state, steps=steps, status=Status.CONVERGED)
-        known = UNITS + state.residual
+        known = ROUNDING_FLOOR + state.residual
     elif iterated:
-        known = UNITS
+        known = ROUNDING_FLOOR
     if weak is not None:
         state = _floored(exact, separation, conditions, state, known)
     return replace(state, displacement=None, extremes=None)

@@ -23,13 +23,13 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import force_multiplier
 from roughcontact.validation import Array, Mask
 
-__all__ = ["UNITS", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
+__all__ = ["ROUNDING_FLOOR", "Evaluation", "Iterate", "Optimality", "PredictedSet", "Quality"]
 
 
-# Rounding floor: a pressure is stored to half a unit in its last place, and so is its displacement. So at given force
-# the gap can be no better than some units in the last place of what the largest pressure does in its own cell. Where
-# uniform pressure moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
-UNITS = 16 * float(np.finfo(np.float64).eps)
+# A pressure is stored to half a unit in its last place, and so is its displacement. So at given force the gap can be no
+# better than some units in the last place of what the largest pressure does in its own cell. Where uniform pressure
+# moves next to nothing, on a nearly flat periodic surface, this is more than the tolerance.
+ROUNDING_FLOOR = 16 * float(np.finfo(np.float64).eps)
 
 
 class Iterate(NamedTuple):
@@ -154,17 +154,17 @@ class Optimality:
         return p  # type: ignore[no-any-return]
 
     def evaluate(self, iterate: Iterate) -> Evaluation:
-        """Return depth and residual of an iterate."""
+        """Return depth and residual of an iterate (A3, A4): in one pass in machine code where there is one."""
         spec, measure, passes = self.spec, self.measure, self.passes
         if passes is not None and passes.fit(*iterate):
             return self._evaluate_in_one_pass(iterate, passes)
         pressure, displacement, separation = iterate
         gap = displacement + separation
         between = (pressure > 0) & (pressure < spec.hardness)
-        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth
+        depth = force_multiplier(measure, gap, pressure, between) if spec.depth is None else spec.depth  # A3
         gap -= depth
         scale = max_abs(displacement) if math.prod(displacement.shape) else 0.0
-        return Evaluation(depth, self.residual(pressure, displacement, gap), scale)
+        return Evaluation(depth, self.residual(pressure, displacement, gap), scale)  # A4
 
     def residual(self, pressure: Array, displacement: Array, gap: Array) -> float:
         """Return the largest violation of the conditions, relative to the largest displacement.
@@ -195,8 +195,9 @@ class Optimality:
         if violation <= 0:
             return 0.0
         relative = violation / scale if scale > 0 else math.inf
-        floor = UNITS * self.self_influence * strongest if isinstance(self.spec.control, Force) else 0.0
-        return min(relative, UNITS) if violation <= floor else relative
+        under_force = isinstance(self.spec.control, Force)
+        floor = ROUNDING_FLOOR * self.self_influence * strongest if under_force else 0.0
+        return min(relative, ROUNDING_FLOOR) if violation <= floor else relative
 
     def predict_free_set(
         self, iterate: Iterate, *, depth: float, allowed: float, first: bool = False
@@ -239,8 +240,8 @@ class Optimality:
         if extremes is None or (not extremes.count and depth is None):
             return Evaluation(math.nan if depth is None else depth, math.inf, math.nan)
         if depth is None:
-            depth = extremes.level / extremes.count
-        residual = math.inf
+            depth = extremes.level / extremes.count  # A3: the mean of u + f over the cells under pressure
+        residual = math.inf  # A4
         if extremes.weakest >= 0:
             violation = max(depth - extremes.lowest, extremes.highest - depth)
             residual = self.relative(violation, extremes.displacement, extremes.strongest)

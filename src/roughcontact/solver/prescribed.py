@@ -224,7 +224,11 @@ def _solve(
     max_steps: int,
     xp: Any,
 ) -> tuple[Array, Array, int]:
-    """Return pressure, residual by an exact product [m], and number of products: iterative refinement (D1 to D5)."""
+    """Return pressure, residual by an exact product [m], and number of products: iterative refinement.
+
+    Labels D1 to D5 are the lines of the algorithm in docs/method.md.
+    """
+    # D1: a pressure that is given, of the matrix of few cells, or zero.
     before = math.inf
     inner: InnerOperator | None = None
     exact, steps = True, 0
@@ -241,14 +245,14 @@ def _solve(
     while True:
         r = xp.where(region, wanted - u, 0.0)  # D2
         error = max_abs(r)
-        if not error > limit or steps >= max_steps:
+        if not error > limit or steps >= max_steps:  # D3: small, or no products left
             if exact:
                 return pressure, r, steps
             u, exact, steps = operator.apply(pressure), True, steps + 1
             continue
         if inner is None:
             inner = inner_operator_on(operator, region)
-        elif not error < before / 2:
+        elif not error < before / 2:  # D5
             if not inner.contraction:
                 return pressure, r, steps
             inner = FullGrid(operator)  # the inexact one reduces the residual no more

@@ -28,14 +28,14 @@ ROUNDING = 1e-14  # of a force: a sum over many cells is no better
 
 
 def force_multiplier(measure: Measure, level: Array, pressure: Array, free: Mask) -> float:
-    """Return the multiplier of the force, the depth: with it the mean gap of the cells between the bounds is zero.
+    """Return the multiplier of the force, the depth: with it the mean gap of the cells between the bounds is zero (A3).
 
     That is the mean of the `level` u + f over them (Polonsky and Keer 1999). Without any it is the smallest depth at
     which the gap is not positive under the hardness.
     """
     xp = measure.xp
     if bool(xp.any(free)):
-        return measure.mean(level, free)
+        return measure.mean(level, free)  # A3
     return float(xp.max(xp.where(pressure > 0, level, -np.inf)))
 
 

@@ -21,7 +21,9 @@ def defect_correction(
     conditions: Optimality,
     initial: Array,
 ) -> State:
-    """Run a solver with an inexact sum until the residual with the exact one is small (D1 to D5).
+    """Run a solver with an inexact sum until the residual with the exact one is small.
+
+    Labels D1 to D5 are the lines of the algorithm in docs/method.md.
 
     Parameters
     ----------
@@ -39,16 +41,16 @@ def defect_correction(
     inner = replace(spec, tolerance=spec.tolerance / 2)
     defect, pressure, steps, best = conditions.measure.xp.zeros_like(separation), initial, 0, math.inf
     while True:
-        # D1: the inexact problem, on which the defect acts as a part of the separation
+        # D1, later D3: the inexact problem, on which the defect acts as a part of the separation
         state = solver.run(operator, separation + defect, inner, pressure)
-        pressure, steps = state.pressure, steps + state.steps + 1
-        displacement = exact.apply(pressure)
+        pressure, steps = state.pressure, steps + state.steps + 1  # D4: it is corrected already
+        displacement = exact.apply(pressure)  # D2
         depth, residual, _, extremes = conditions.evaluate(Iterate(pressure, displacement, separation))
         met, reduced = residual <= spec.tolerance, residual < best / 2
-        if met or not reduced or not state.status.converged:
+        if met or not reduced or not state.status.converged:  # D3, D5
             status = Status.STAGNATED if state.status.converged else state.status
             status = Status.CONVERGED if met else status
             return State(
                 pressure, depth, residual, steps, status, displacement=displacement, extremes=extremes
             )
-        best, defect = residual, displacement - operator.apply(pressure)  # D2: (A - A~) p
+        best, defect = residual, displacement - operator.apply(pressure)  # the defect (A - A~) p

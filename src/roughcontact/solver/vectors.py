@@ -156,7 +156,7 @@ class ArrayVectors:
         """Add alpha s to the pressure, subtract alpha (q - mean) from r; return the largest size of r on F (B14)."""
         self.correction += alpha * self.s
         self.r -= alpha * (self.q - mean if mean else self.q)
-        self.s *= self.free
+        self.s *= self.free  # B15
         return self.residual_max()
 
     def free_violated(self, threshold: float) -> float:

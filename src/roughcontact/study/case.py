@@ -94,16 +94,13 @@ Positive = Annotated[_T, Field(gt=0)]
 
 def _quantity(kind: Kind) -> BeforeValidator:
     """Return what turns text with a unit of that kind into its number, and leaves numbers as they are."""
-    return BeforeValidator(_reader(kind))
 
-
-def _reader(kind: Kind) -> Callable[[Any], Any]:
     def read(value: Any) -> Any:
         if isinstance(value, bool):
             raise ValueError(f"{value} is not {kind.name}; expected {kind.name} such as {kind.example!r}")
         return parse(value, kind) if isinstance(value, str) else value
 
-    return read
+    return BeforeValidator(read)
 
 
 Length = Annotated[float, _quantity(LENGTH)]

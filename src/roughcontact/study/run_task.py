@@ -58,7 +58,7 @@ def run_task(task: Task) -> Result:
 
 
 def _of_a_signal(end: SystemExit) -> bool:
-    """Whether the program itself is told to end, and not by its case: by convention the status is 128 and a signal."""
+    """Whether the program itself is asked to end, and not by its case: by convention the status is 128 and a signal."""
     return isinstance(end.code, int) and end.code > 128
 
 

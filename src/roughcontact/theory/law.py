@@ -15,11 +15,11 @@ from roughcontact.validation import Array, number
 if TYPE_CHECKING:
     from roughcontact.theory.random_surfaces.waves import Spectrum
 
-__all__ = ["Basis", "LoadingLaw", "composed", "over_area"]
+__all__ = ["LoadingLaw", "Scope", "composed", "over_area"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Basis:
+class Scope:
     """The contact that a law was made for.
 
     Parameters
@@ -66,7 +66,7 @@ class LoadingLaw:
         a function of an array of forces [N] that returns an array of its shape.
     domain : tuple of float
         Lowest and highest force [N] at which the theory claims to hold.
-    made_for : Basis, optional
+    made_for : Scope, optional
         The contact it was made for, as `roughcontact.loading_laws` knows it: the curve of another is not compared with
         it unless that is asked for.
     plastic : bool
@@ -88,7 +88,7 @@ class LoadingLaw:
     source: str
     quantities: Mapping[str, Callable[[Array], Array]]
     domain: tuple[float, float] = (0.0, math.inf)
-    made_for: Basis | None = None
+    made_for: Scope | None = None
     plastic: bool = False
 
     def predict(self, quantity: str, force: float | Array) -> Array:

@@ -20,11 +20,11 @@ from roughcontact.theory.spheres_and_punches import hertz, rough_sphere
 from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_square
 from roughcontact.validation import require
 
-__all__ = ["LAWS", "NamedLaw", "SurfaceFacts", "named"]
+__all__ = ["LAWS", "LawInputs", "NamedLaw", "named"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SurfaceFacts:
+class LawInputs:
     """What is known of a rough contact; None is not known.
 
     Parameters
@@ -55,8 +55,8 @@ class SurfaceFacts:
     >>> import roughcontact as rc
     >>> from roughcontact.theory import laws
     >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=1e-3, short_cutoff=1e-5).scaled(1e-6)
-    >>> facts = laws.SurfaceFacts(area=1e-6, spectrum=spectrum).completed()
-    >>> f"length {facts.length:.0e} m, rms {facts.rms:.2e} m, slope {facts.moments.rms_slope:.3f}"
+    >>> inputs = laws.LawInputs(area=1e-6, spectrum=spectrum).completed()
+    >>> f"length {inputs.length:.0e} m, rms {inputs.rms:.2e} m, slope {inputs.moments.rms_slope:.3f}"
     'length 1e-03 m, rms 1.00e-06 m, slope 0.029'
     """
 
@@ -71,12 +71,12 @@ class SurfaceFacts:
     radius: float | None = None
     hardness: float | None = None
 
-    def completed(self) -> SurfaceFacts:
-        """Return the facts with the defaults that follow from others.
+    def completed(self) -> LawInputs:
+        """Return the inputs with the defaults that follow from others.
 
         Returns
         -------
-        SurfaceFacts
+        LawInputs
         """
         area, length, moments = self.area, self.length, self.moments
         if area is None and length is not None:
@@ -90,8 +90,8 @@ class SurfaceFacts:
         return replace(self, area=area, length=length, moments=moments, rms=rms, rolloff=rolloff)
 
 
-class Knowns(TypedDict, total=False):
-    """The fields of `SurfaceFacts` but the modulus as keywords, as editors complete them."""
+class GivenValues(TypedDict, total=False):
+    """The fields of `LawInputs` but the modulus as keywords, as editors complete them."""
 
     area: float
     length: float
@@ -113,7 +113,7 @@ class NamedLaw:
     about : str
         One line for a list of laws.
     needs : tuple of str
-        The facts that it wants, in the order in which `make` takes them.
+        The inputs that it wants, in the order in which `make` takes them.
     make : callable
         Returns the `LoadingLaw`.
 
@@ -214,7 +214,7 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
 )
 
 
-def named(name: str, *, modulus: float | None = None, **knowns: Unpack[Knowns]) -> LoadingLaw:
+def named(name: str, *, modulus: float | None = None, **given: Unpack[GivenValues]) -> LoadingLaw:
     """Return a loading law by its name.
 
     Parameters
@@ -223,8 +223,8 @@ def named(name: str, *, modulus: float | None = None, **knowns: Unpack[Knowns]) 
         One of ``LAWS``.
     modulus : float, optional
         Reduced modulus E* [Pa].
-    **knowns
-        The other fields of `SurfaceFacts`, as far as they are known: more than the law needs will do.
+    **given
+        The other fields of `LawInputs`, as far as they are known: more than the law needs will do.
 
     Returns
     -------
@@ -233,7 +233,7 @@ def named(name: str, *, modulus: float | None = None, **knowns: Unpack[Knowns]) 
     Raises
     ------
     ValueError
-        If the name or a fact is not known, a fact that the law needs is missing, or the law refuses one.
+        If the name or an input is not known, an input that the law needs is missing, or the law refuses one.
 
     Examples
     --------
@@ -242,10 +242,10 @@ def named(name: str, *, modulus: float | None = None, **knowns: Unpack[Knowns]) 
     8434327
     """
     require(name in LAWS, f"there is no law named {name!r}; there are {', '.join(LAWS)}")
-    if strange := knowns.keys() - {field.name for field in fields(SurfaceFacts)}:
+    if strange := given.keys() - {field.name for field in fields(LawInputs)}:
         raise ValueError(f"no law asks for {', '.join(sorted(strange))}")
-    law, facts = LAWS[name], SurfaceFacts(modulus, **knowns).completed()
-    wanted = {need: getattr(facts, need) for need in law.needs}
+    law, inputs = LAWS[name], LawInputs(modulus, **given).completed()
+    wanted = {need: getattr(inputs, need) for need in law.needs}
     if missing := [need for need, value in wanted.items() if value is None]:
         raise ValueError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")
     return law.make(*wanted.values())

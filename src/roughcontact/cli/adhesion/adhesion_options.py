@@ -1,21 +1,26 @@
-"""The law of adhesion as options, and what a reader of an adhesive state should doubt."""
+"""The law of adhesion as options, and warnings for a reader of an adhesive state."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
+
+from roughcontact.adhesion.attraction import LAWS
 from roughcontact.cli.messages import note
 from roughcontact.cli.option_groups import option
+from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import ENERGY_PER_AREA, LENGTH, parse_positive
 
 if TYPE_CHECKING:
     from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.surface.surface import Surface
 
-__all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_unresolved", "parse_work"]
+__all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_long_range", "note_unresolved", "parse_work"]
 
-LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE"])
+LawChoice = StrEnum("LawChoice", list(LAWS))  # type: ignore[misc]  # no literal: it grows with the table
 _PANEL = "Adhesion"
 WORK: str = option(
     "Work of adhesion: the energy that parts a unit area.", "50mJ/m^2", default=..., rich_help_panel=_PANEL
@@ -33,7 +38,7 @@ class AdhesionLaw:
         "20nm",
         default=...,
     )
-    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice.EXPONENTIAL)
+    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice("exponential"))
     allow_unresolved: bool = option(
         "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",
         default=False,
@@ -50,8 +55,7 @@ class AdhesionLaw:
         import roughcontact as rc
 
         length = parse_positive(self.range, LENGTH, "--range", "the range of the attraction")
-        law: Any = self.law.value
-        return rc.Adhesion(parse_work(self.work), length, law, self.allow_unresolved)
+        return rc.Adhesion(parse_work(self.work), length, self.law.value, self.allow_unresolved)
 
 
 def parse_work(text: str) -> float:
@@ -63,6 +67,16 @@ def parse_work(text: str) -> float:
         If it is not positive.
     """
     return parse_positive(text, ENERGY_PER_AREA, "--work", "the work of adhesion")
+
+
+def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
+    """Say on standard error if the attraction reaches beyond the heights of a surface: a forgotten unit."""
+    span = float(np.nanmax(surface.heights) - np.nanmin(surface.heights))
+    if adhesion.range > span > 0:
+        note(
+            f"the range of {quantity('adhesion_range', adhesion.range)} is longer than the surface is high, "
+            f"{quantity('depth', span)} from lowest to highest: a --range without a unit is in metres"
+        )
 
 
 def note_unresolved(unresolved: bool) -> None:

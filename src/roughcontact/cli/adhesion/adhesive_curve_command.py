@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_unresolved
+from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_long_range, note_unresolved
 from roughcontact.cli.load_options import AdhesiveLoads, unit_of_loads
 from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
@@ -22,13 +22,13 @@ __all__ = ["EXAMPLES", "curve", "loop"]
 
 EXAMPLES = {
     "curve": """
-roughcontact adhesion curve part.x3p --depths -20nm:20nm:9,-20nm --modulus 10MPa --work 50mJ/m^2 --range 20nm
-roughcontact adhesion curve part.x3p --forces 0N,1mN,-1mN --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
-roughcontact adhesion curve part.x3p --mean-gaps 3um:1um:5,3um --periodic --modulus 10MPa --work 50mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --depths -20nm:40nm:4,-20nm --modulus 1GPa --work 10mJ/m^2 --range 20nm
+roughcontact adhesion curve part.x3p --forces 1mN,0N,-1mN --modulus 1GPa --work 10mJ/m^2 --range 50nm --out result
+roughcontact adhesion curve part.x3p --mean-gaps 0.3um,0.2um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
 """,
     "loop": """
-roughcontact adhesion loop part.x3p --depth 100nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
-roughcontact adhesion loop part.x3p --depth 20nm --points 10 --modulus 10MPa --work 50mJ/m^2 --range 20nm --json
+roughcontact adhesion loop part.x3p --depth 50nm --points 8 --modulus 1GPa --work 10mJ/m^2 --range 20nm --out result
+roughcontact adhesion loop part.x3p --depth 20nm --points 5 --modulus 1GPa --work 10mJ/m^2 --range 50nm --json
 """,
 }
 
@@ -40,7 +40,7 @@ _TURN: str = option(
     rich_help_panel=_PANEL,
 )
 _POINTS: int = option(
-    "Depths of the approach, in even steps; the retreat has the same steps.",
+    "Even steps in depth of the approach; the retreat has the same steps.",
     "N",
     default=40,
     min=2,
@@ -79,7 +79,7 @@ def loop(
 ) -> None:
     """Bring a surface that sticks to a depth and back until it is off: pull-off force, jumps and the lost energy.
 
-    The approach begins ten ranges of the attraction apart. Files are those of 'adhesion curve'.
+    The approach begins ten ranges of the attraction apart.
     """
     with reported(reading.source.file, answer.out, as_json=answer.json):
         from roughcontact.adhesion.adhesive_loop import loop_depths
@@ -110,6 +110,7 @@ def _answer(
 
     with output(asked.out) as folder:
         surface, modulus = reading.surface(), elasticity.reduced_modulus()
+        note_long_range(adhesion, surface)
         states = states_under(
             surface, modulus, adhesion, loads, reading.body(surface, modulus), asked.residual
         )
@@ -120,7 +121,8 @@ def _answer(
             states, lambda states: collect_states(states, loads), "Approach and retreat", total
         )
         file = reading.source.file
-        path = PathAnswer(command, file, surface, found, whole, "curve", "jump", found.converged)
+        stem = f"adhesive_{command}"
+        path = PathAnswer(command, file, surface, found, whole, stem, f"{stem}_jumps", found.converged)
         if folder is not None:
             path.write(folder, control, jump_figure, asked.ending)
     law = law_facts(adhesion, modulus, surface.grid.spacing)

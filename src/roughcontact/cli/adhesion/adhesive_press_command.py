@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_unresolved
+from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_long_range, note_unresolved
 from roughcontact.cli.contact.profile_options import kinds_of
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.load_options import AdhesiveLoad
@@ -25,9 +25,9 @@ __all__ = ["EXAMPLES", "press"]
 
 EXAMPLES = {
     "press": """
-roughcontact adhesion press part.x3p --depth -2nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --out result
-roughcontact adhesion press part.x3p --force 1mN --modulus 10MPa --work 50mJ/m^2 --range 20nm
-roughcontact adhesion press joint.npz --mean-gap 100nm --modulus 10MPa --work 50mJ/m^2 --range 20nm --law dugdale
+roughcontact adhesion press part.x3p --depth -2nm --modulus 1GPa --work 10mJ/m^2 --range 20nm --law dugdale --out result
+roughcontact adhesion press part.x3p --force 1mN --modulus 1GPa --work 10mJ/m^2 --range 20nm
+roughcontact adhesion press part.x3p --mean-gap 0.2um --periodic --modulus 1GPa --work 10mJ/m^2 --range 20nm
 """,
 }
 
@@ -52,6 +52,7 @@ def press(
         modulus, adhesion, tolerance = elasticity.reduced_modulus(), law.adhesion(), answer.residual
         with output(answer.out) as folder:
             surface = reading.surface()
+            note_long_range(adhesion, surface)
             pressed = Pressed.of(surface, modulus, None)
             limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
             state: AdhesiveState = best_state(
@@ -76,7 +77,7 @@ def press(
             size, *others = adhesive_facts(state)
             print_facts([size, *pressed.facts(), *others])
         note_unresolved(state.unresolved)
-        note_files(folder, ("press.json", "pressure.nc", f"pressure.{answer.ending}"))
+        note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
         if not state.status.converged:
             raise typer.Exit(MISSED)
 
@@ -96,6 +97,6 @@ def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: 
         command=command_line(),
     )
     with all_or_none(folder) as aside:
-        write_netcdf(state.to_dataset(), aside / "pressure.nc", source)
-        save(state_figure(state), aside / f"pressure.{ending}")
-        write_json(record, aside / "press.json", source)
+        write_netcdf(state.to_dataset(), aside / "adhesive_state.nc", source)
+        save(state_figure(state), aside / f"adhesive_state.{ending}")
+        write_json(record, aside / "adhesive_state.json", source)

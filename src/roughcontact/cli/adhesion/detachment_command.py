@@ -22,8 +22,8 @@ __all__ = ["EXAMPLES", "detach"]
 
 EXAMPLES = {
     "detach": """
-roughcontact adhesion detach part.x3p --force 100uN --modulus 1GPa --work 50mJ/m^2 --out result
-roughcontact adhesion detach part.x3p --depth 100nm --depths 50nm:-50nm:11 --modulus 1GPa --work 50mJ/m^2
+roughcontact adhesion detach part.x3p --force 10mN --modulus 1GPa --work 10mJ/m^2 --out result
+roughcontact adhesion detach part.x3p --depth 100nm --depths 50nm:-50nm:11 --modulus 1GPa --work 10mJ/m^2
 """,
 }
 
@@ -61,7 +61,7 @@ def detach(
                 states, lambda states: collect_detachments(states, kind), "Drawing back", total
             )
             converged = preload.status.converged and found.converged
-            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachment", converged)
+            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachments", converged)
             if folder is not None:
                 [(name, value)] = given.items()
                 control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"

@@ -130,13 +130,19 @@ def _read(path: Path) -> xarray.Dataset:
         raise UsageError(f"{path} needs {lack[0]}; {lack[1]}")
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            return dataset.load()
+            curve = dataset.load()
     except FileNotFoundError as error:
         raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
     except (OSError, ValueError) as error:
         raise UsageError(
             f"{path} is not a curve.nc; write one with: roughcontact curve ... --out DIR"
         ) from error
+    if "jump_lost" in curve or "detachment_lost" in curve:
+        raise UsageError(
+            f"{path} holds a path of surfaces that stick, whose conductance is not computed; write a curve without "
+            "adhesion with: roughcontact curve ... --out DIR"
+        )
+    return curve
 
 
 def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, Any]:

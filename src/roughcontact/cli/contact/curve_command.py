@@ -160,12 +160,13 @@ def _suggested(
     loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
-    below = found.below
+    below = f"{found.below} of them so light that single cells set their area and pressure"
     if kind is Geometry.LINE:  # whose forces are not searched for
-        below = load_outlook(surface, modulus, loads, operator).below
+        unresolved = load_outlook(surface, modulus, loads, operator).below
+        below = f"{unresolved} of them below what the grid resolves"
     note(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
-        f"{below} of them below what the grid resolves (--forces for others)"
+        f"{below} (--forces for others)"
     )
     for line in found.notes:
         note(line)

@@ -32,7 +32,7 @@ class InterfaceTables:
     """InterfaceTables of the interface, as the user asked for them."""
 
     PANEL: ClassVar = "Answer"
-    table: str | None = option(
+    table: list[str] | None = option(
         "With --out: pressure, stiffness and area against gap, per nominal area, for other programs: csv, abaqus "
         "(SI), abaqus-mm (mm, N, MPa), lammps.",
         "abaqus,lammps,...",
@@ -87,14 +87,15 @@ class InterfaceTables:
         return tuple(_FILES[name] for name in names)
 
     def _names(self) -> tuple[str, ...]:
-        if self.table is None:
+        if not self.table:
             return ()
-        names = tuple(part.strip() for part in self.table.split(",") if part.strip())
+        given = ",".join(self.table)
+        names = tuple(part.strip() for part in given.split(",") if part.strip())
         for name in names:
             if name not in _FILES:
                 raise UsageError(f"--table: there is no {name!r}: choose of {', '.join(_FILES)}")
         if not names or len(set(names)) < len(names):
-            raise UsageError(f"--table: name each table once, such as abaqus,csv, not {self.table!r}")
+            raise UsageError(f"--table: name each table once, such as abaqus,csv, not {given!r}")
         return names
 
     def _area(self) -> float | None:

@@ -51,7 +51,7 @@ class Theories:
     def check(self) -> None:
         """Raise a `UsageError` for what makes no sense, before anything is computed."""
         self.checked()
-        self.knowns()
+        self.given()
 
     def checked(self) -> tuple[str, ...]:
         """Return the names of the theories.
@@ -77,7 +77,7 @@ class Theories:
             raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.theory!r}")
         return names
 
-    def knowns(self) -> dict[str, float]:
+    def given(self) -> dict[str, float]:
         """Return what the user knows better than the surface.
 
         Raises
@@ -109,32 +109,32 @@ class Theories:
         if not (names := self.checked()):
             return {}, {}, {}
         import roughcontact as rc
-        from roughcontact.evaluation.theories import facts_for
+        from roughcontact.evaluation.theories import inputs_for
         from roughcontact.theory.laws import LAWS
 
-        known = self.knowns() | ({} if hardness is None else {"hardness": hardness})
+        known = self.given() | ({} if hardness is None else {"hardness": hardness})
         for name in names:
             for need, (what, example) in _ONLY_GIVEN.items():
                 if need in LAWS[name].needs and need not in known:
                     raise UsageError(
                         f"--theory {name}: give the {what} by --{need}, such as --{need} {example}"
                     )
-        facts: dict[str, Any] = known
+        inputs: dict[str, Any] = known
         laws: dict[str, LoadingLaw] = {}
         refused: dict[str, str] = {}
         for name in names:
             try:
-                facts = facts_for(surface, [name], **facts)
-                [laws[name]] = rc.loading_laws(surface, modulus, name, **facts)
+                inputs = inputs_for(surface, [name], **inputs)
+                [laws[name]] = rc.loading_laws(surface, modulus, name, **inputs)
             except ValueError as error:
                 if not is_ours(error):
                     raise
                 refused[name] = str(error)
         needed = {need for name in laws for need in LAWS[name].needs}
-        new = [name for name in _TAKEN if name in (facts.keys() - known.keys()) & needed]
-        taken: dict[str, float] = {name: facts[name] for name in new}
+        new = [name for name in _TAKEN if name in (inputs.keys() - known.keys()) & needed]
+        taken: dict[str, float] = {name: inputs[name] for name in new}
         if needed & {"spectrum", "moments"}:
-            taken |= {name: getattr(facts["spectrum"], name) for name in ("rms_slope", "m0", "m2", "m4")}
+            taken |= {name: getattr(inputs["spectrum"], name) for name in ("rms_slope", "m0", "m2", "m4")}
         return laws, taken, refused
 
 

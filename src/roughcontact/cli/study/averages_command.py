@@ -98,8 +98,8 @@ def average(folder: Path = FOLDER, *, out: Path = FILE, window: LawWindow, json:
             emit({"command": "study average", "folder": str(folder), "file": str(out), "cases": cases})
         else:
             combinations = averaged["cases"].size
-            told = f"averages of {cases} cases, {combinations} combination{'s' if combinations != 1 else ''}"
-            print_facts([("file", str(out)), ("content", told)])
+            what = f"averages of {cases} cases, {combinations} combination{'s' if combinations != 1 else ''}"
+            print_facts([("file", str(out)), ("content", what)])
 
 
 def plot(

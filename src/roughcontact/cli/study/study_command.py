@@ -232,5 +232,5 @@ def _tell(
     facts += [("time", duration(summary.seconds))] if summary.seconds else []
     print_facts([("file", str(file)), *facts] if file else facts)
     for row in failures or ():
-        told = ", ".join(f"{name} = {value}" for name, value in row.parameters.items())
-        typer.echo(f"\nsample {row.sample}, {told}\n  {row.message}")
+        parameters = ", ".join(f"{name} = {value}" for name, value in row.parameters.items())
+        typer.echo(f"\nsample {row.sample}, {parameters}\n  {row.message}")

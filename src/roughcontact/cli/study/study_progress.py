@@ -29,12 +29,12 @@ def progress(name: str) -> Iterator[Callable[[Summary], None]]:
         return
     from rich.progress import BarColumn, Progress, TextColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[told]}"))
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[pace]}"))
     with Progress(*columns, console=console) as bars:
-        bar = bars.add_task(name, total=None, told="")
+        bar = bars.add_task(name, total=None, pace="")
 
         def show(now: Summary) -> None:
-            bars.update(bar, total=now.total, completed=now.total - now.left, told=pace.told(now))
+            bars.update(bar, total=now.total, completed=now.total - now.left, pace=pace.words(now))
 
         yield show
 
@@ -46,7 +46,7 @@ def _lines(name: str, pace: Pace) -> Callable[[Summary], None]:
         nonlocal due
         if time.monotonic() >= due:
             due = time.monotonic() + _BETWEEN_LINES
-            typer.echo(f"{name}: {pace.told(now)}", err=True)
+            typer.echo(f"{name}: {pace.words(now)}", err=True)
 
     return show
 
@@ -57,7 +57,7 @@ class Pace:
 
     first: Summary | None = None
 
-    def told(self, now: Summary) -> str:
+    def words(self, now: Summary) -> str:
         """Return how far a study is, how fast it goes, and how long the rest takes at this rate."""
         first = self.first = self.first or now
         words = [f"{now.done + now.failed} of {now.total} cases"]

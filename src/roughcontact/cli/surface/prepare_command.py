@@ -9,7 +9,7 @@ from roughcontact.cli.messages import note, plain, reported
 from roughcontact.cli.report import doing, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
-from roughcontact.cli.surface.steps import Wishes, steps
+from roughcontact.cli.surface.steps import PreparationOptions, steps
 
 __all__ = ["EXAMPLES", "prepare"]
 
@@ -28,7 +28,7 @@ def prepare(
     source: options.Source,
     out: Path = options.OUTPUT,
     *,
-    wishes: Wishes,
+    preparation: PreparationOptions,
     periodic: bool | None = options.PERIODIC,
     json: bool = options.JSON,
 ) -> None:
@@ -38,7 +38,7 @@ def prepare(
     """
     with reported(source.file, out, as_json=json):
         require_output(out, source.file)
-        wanted = steps(wishes)
+        wanted = steps(preparation)
         surface = source.map_or_line(periodic)
         require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
         if not wanted:

@@ -178,13 +178,13 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
-        "notes": _doubts(surface, law),
+        "notes": _warnings(surface, law),
         "provenance": list(surface.provenance),
         "units": {name: unit for name, unit in _UNITS.items() if name in values},
     }
 
 
-def _doubts(surface: Surface, law: HurstFit) -> list[str]:
+def _warnings(surface: Surface, law: HurstFit) -> list[str]:
     """Return a misfit beyond chance in words, with the filters that the fitted band runs into."""
     if law.misfit <= law.chance:
         return []

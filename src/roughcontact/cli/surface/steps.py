@@ -17,7 +17,7 @@ from roughcontact.cli.unit_options import LENGTH, parse
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
 
-__all__ = ["Preparation", "Wishes", "steps"]
+__all__ = ["Preparation", "PreparationOptions", "steps"]
 
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
@@ -28,7 +28,7 @@ WindowShape = StrEnum("WindowShape", ["HANN", "WELCH", "TUKEY"])
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class PreparationOptions:
     """What the user wrote, option by option; None where an option was left out."""
 
     PANEL: ClassVar = "Steps, in the order in which they are taken"
@@ -72,7 +72,7 @@ class Preparation:
     apply: Callable[[Surface], Surface]
 
 
-def steps(wishes: Wishes) -> list[Preparation]:
+def steps(options: PreparationOptions) -> list[Preparation]:
     """Return what was asked for, in the order of application.
 
     Raises
@@ -80,22 +80,22 @@ def steps(wishes: Wishes) -> list[Preparation]:
     UsageError
         If an option makes no sense, alone or without another.
     """
-    masks = [_mask(text) for text in wishes.mask or []]
+    masks = [_mask(text) for text in options.mask or []]
     found = [
-        _crop(wishes.crop),
-        _despike(wishes.despike),
+        _crop(options.crop),
+        _despike(options.despike),
         *(step for step, of_heights in masks if not of_heights),
-        _level(wishes.level),
-        _form(wishes.form),
+        _level(options.level),
+        _form(options.form),
         *(step for step, of_heights in masks if of_heights),
         Preparation("Filling", lambda surface: surface.filled() if surface.missing else surface)
-        if wishes.fill
+        if options.fill
         else None,
-        _tip(wishes.tip, wishes.tip_shape),
-        _filter({"short_cutoff": wishes.short_cutoff, "long_cutoff": wishes.long_cutoff}),
-        _average(wishes.average),
-        _downsample(wishes.downsample, wishes.alias),
-        _window(wishes.window, wishes.share),
+        _tip(options.tip, options.tip_shape),
+        _filter({"short_cutoff": options.short_cutoff, "long_cutoff": options.long_cutoff}),
+        _average(options.average),
+        _downsample(options.downsample, options.alias),
+        _window(options.window, options.share),
     ]
     return [step for step in found if step is not None]
 

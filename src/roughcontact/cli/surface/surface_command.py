@@ -63,7 +63,7 @@ def info(
     with reported(file, out, as_json=json) as beside:
         from roughcontact.files.aside import output_folder
         from roughcontact.files.file_errors import ReadError
-        from roughcontact.plot.advice import advice
+        from roughcontact.plot.preparation_warnings import preparation_warnings
 
         ending = picture_ending(format, out)
         channels = _channels(file)
@@ -77,8 +77,8 @@ def info(
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
         with doing("Looking for spikes, steps and form"):
-            spikes, doubts = advice(surface)
-        lines = [str(doubt) for doubt in doubts]
+            spikes, warnings = preparation_warnings(surface)
+        lines = [str(warning) for warning in warnings]
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
         record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]

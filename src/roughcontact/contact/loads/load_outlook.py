@@ -1,4 +1,4 @@
-"""How many of the loads that someone names the grid resolves, told before they are pressed."""
+"""How many of the loads that someone names the grid resolves, before they are pressed."""
 
 from __future__ import annotations
 

@@ -191,9 +191,8 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
     """Yield what a reader should know of the range."""
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
     if search.single_feature:
-        until = (
-            "over the whole range" if search.released is None else f"up to {search.released:.3g} {force_unit}"
-        )
+        end = search.shared_from
+        until = "over the whole range" if end is None else f"up to {end:.3g} {force_unit}"
         yield (
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
             "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop)."

@@ -172,7 +172,7 @@ class LoadSearch:
         return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff >= 1), False)
 
     @property
-    def released(self) -> float | None:
+    def shared_from(self) -> float | None:
         """From where the largest spot carries less than half [N], if it does so in the range."""
         light = (load.force for load in self.loads if load.stiff >= 1 and load.share < ON_ONE_FEATURE)
         return next(light, None)

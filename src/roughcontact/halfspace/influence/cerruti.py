@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.halfspace.influence.love import over_cell
+from roughcontact.halfspace.influence.love import over_cell, table_of_cells
 from roughcontact.validation import Array
 
 __all__ = ["cerruti", "cerruti_table"]
@@ -16,7 +16,6 @@ __all__ = ["cerruti", "cerruti_table"]
 # (tests/halfspace/influence/test_cerruti.py).
 NEAR = 5.0
 FAR = 60.0
-BLOCK = 16384  # cells of a table that are computed in one go
 
 
 def cerruti(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
@@ -56,14 +55,7 @@ def cerruti(x: npt.ArrayLike, y: npt.ArrayLike, dx: float, dy: float) -> Array:
 
 def cerruti_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     """Return `cerruti` for all offsets of whole cells from zero up, shape ``(3, ny, nx)`` [m]."""
-    (ny, nx), (dy, dx) = shape, spacing
-    x, y = np.arange(nx) * dx, np.arange(ny)[:, None] * dy
-    table = np.empty((3, ny, nx))
-    rows = max(1, BLOCK // nx)
-    for start in range(0, ny, rows):  # in blocks whose temporaries stay in cache
-        part = slice(start, start + rows)
-        table[:, part] = cerruti(x, y[part], dx, dy)
-    return table
+    return table_of_cells(cerruti, np.empty((3, *shape)), spacing)
 
 
 def _corner(x: Array, y: Array) -> Array:

@@ -24,15 +24,12 @@ class Base(Protocol):
 
         Zero for one that moves nothing, and for one that would move an endless body without bound.
         """
-        ...
 
     def ratio(self, t: Array) -> Array:
         """Return the ratio of the answer to that of a half-space, at t > 0."""
-        ...
 
     def deviation(self, t: Array) -> Array:
         """Return the same less one, which decays as exp(-2 t)."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)

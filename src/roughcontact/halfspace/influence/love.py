@@ -64,11 +64,16 @@ def love_table(shape: tuple[int, ...], spacing: tuple[float, ...]) -> Array:
     (ny, nx), (dy, dx) = shape, spacing
     if ny * nx <= BLOCK:
         return _small_table(ny, nx, dy, dx).copy()
+    return table_of_cells(love, np.empty((ny, nx)), spacing)
+
+
+def table_of_cells(influence: Callable[..., Array], table: Array, spacing: tuple[float, ...]) -> Array:
+    """Fill a table, shape ``(..., ny, nx)``, with an influence at offsets of whole cells from zero up."""
+    (ny, nx), (dy, dx) = table.shape[-2:], spacing
     x, y = np.arange(nx) * dx, np.arange(ny)[:, None] * dy
-    table = np.empty((ny, nx))
     rows = max(1, BLOCK // nx)
     for start in range(0, ny, rows):  # in blocks whose temporaries stay in cache
-        table[start : start + rows] = love(x, y[start : start + rows], dx, dy)
+        table[..., start : start + rows, :] = influence(x, y[start : start + rows], dx, dy)
     return table
 
 

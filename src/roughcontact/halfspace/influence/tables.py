@@ -34,23 +34,18 @@ class Influence(Protocol):
     @property
     def modulus(self) -> float | None:
         """Reduced modulus E* [Pa] of a half-space; None of another body."""
-        ...
 
     def table(self, shape: tuple[int, ...]) -> Array:
         """Return the displacement per pressure [m/Pa] at offsets of whole cells from zero up to `shape`."""
-        ...
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return the displacement per pressure [m/Pa] at offsets of whole cells."""
-        ...
 
     def coarsened(self, grid: Grid) -> Influence | None:
         """Return the influence function of the same body on the cells of `grid`; None if there is none."""
-        ...
 
     def inverse(self, shape: tuple[int, int]) -> Array:
         """Return the pressure per displacement wave [Pa/m] on a box of `shape` cells, rows and columns from 0."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +140,7 @@ class Periodic:
 
     def inverse(self, shape: tuple[int, int], columns: slice = ALL) -> Array:
         """Return E* q/2 [Pa/m], of some columns, if no others are wanted."""
-        q = wavenumbers(shape, self.grid.spacing, columns)
-        if columns.indices(shape[1])[0] == 0:  # the mean, and next to it the longest waves
-            q[0, 0] = definite(wavenumbers(shape, self.grid.spacing, slice(0, 2)))[0, 0]
-        return self.modulus / 2 * q
+        return self.modulus / 2 * definite_columns(shape, self.grid.spacing, columns)
 
     def coarsened(self, grid: Grid) -> Periodic | None:
         """Return the same body on the cells of `grid`; None in a window, whose cells need not divide the period."""
@@ -349,6 +341,14 @@ def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], columns: sli
     """
     qy, qx = (2 * np.pi * np.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     return np.asarray(np.sqrt(qy[:, None] ** 2 + qx[columns] ** 2))  # hypot takes several times as long
+
+
+def definite_columns(shape: tuple[int, int], spacing: tuple[float, ...], columns: slice) -> Array:
+    """Return some columns of the wavenumbers over a box, the mean as `definite` gives it."""
+    q = wavenumbers(shape, spacing, columns)
+    if columns.indices(shape[1])[0] == 0:  # the mean, and next to it the longest waves
+        q[0, 0] = definite(wavenumbers(shape, spacing, slice(0, 2)))[0, 0]
+    return q
 
 
 def definite(wavenumber: Array) -> Array:

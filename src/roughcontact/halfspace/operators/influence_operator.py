@@ -34,7 +34,6 @@ class CellSum(Protocol):
 
     def apply(self, field: Array) -> Array:
         """Return the influence times the field, summed at every cell."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,11 +40,9 @@ class Linear(Protocol):
     @property
     def weights(self) -> float | Array:
         """Force of a unit pressure on each cell [m^2]."""
-        ...
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement [m] under `pressure` [Pa]."""
-        ...
 
 
 @runtime_checkable
@@ -72,12 +70,10 @@ class Operator(Protocol):
     @property
     def grid(self) -> AnyGrid:
         """The grid it works on."""
-        ...
 
     @property
     def weights(self) -> float | Array:
         """Force of a unit pressure on each cell [m^2]: ``force = sum(weights * pressure)``."""
-        ...
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under a pressure.
@@ -92,7 +88,6 @@ class Operator(Protocol):
         array, shape ``grid.shape``
             [m]
         """
-        ...
 
     def as_matrix(self, cells: npt.NDArray[np.intp] | None = None) -> Array:
         """Return the matrix between cells.
@@ -107,7 +102,6 @@ class Operator(Protocol):
         array, shape (n, n)
             Displacement of each cell per unit pressure on each [m/Pa].
         """
-        ...
 
     def restrict(self, window: tuple[slice, ...]) -> Operator:
         """Return the map between the cells of a window, with no pressure outside.
@@ -122,7 +116,6 @@ class Operator(Protocol):
         Operator
             On the window's grid.
         """
-        ...
 
 
 def _absent(*_: Any) -> None:

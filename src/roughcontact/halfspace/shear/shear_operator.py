@@ -50,12 +50,10 @@ class ShearOperator(Protocol):
     @property
     def grid(self) -> Grid:
         """The grid it works on."""
-        ...
 
     @property
     def weights(self) -> float:
         """Area of a cell [m^2]: force of a unit traction."""
-        ...
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement under a traction.
@@ -70,7 +68,6 @@ class ShearOperator(Protocol):
         array, shape (2, ny, nx)
             [m]
         """
-        ...
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
         """Return the matrix between cells.
@@ -85,7 +82,6 @@ class ShearOperator(Protocol):
         array, shape (2 n, 2 n)
             [m/Pa]. The x components of all cells come first, then the y components.
         """
-        ...
 
     def restrict(self, window: tuple[slice, ...]) -> ShearOperator:
         """Return the map between the cells of a window, with no traction outside.
@@ -100,7 +96,6 @@ class ShearOperator(Protocol):
         ShearOperator
             On the window's grid.
         """
-        ...
 
 
 def shear_half_space(

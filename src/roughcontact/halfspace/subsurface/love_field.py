@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.halfspace.influence.love import over_cell
 from roughcontact.validation import Array
 
 __all__ = [
@@ -81,12 +82,7 @@ def _corners(
     poisson_ratio: float,
 ) -> Array:
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-    high, wide = cell[0] / 2, cell[1] / 2
-    value = primitive(x + wide, y + high, depth, poisson_ratio)
-    value -= primitive(x - wide, y + high, depth, poisson_ratio)
-    value -= primitive(x + wide, y - high, depth, poisson_ratio)
-    value += primitive(x - wide, y - high, depth, poisson_ratio)
-    return value
+    return over_cell(lambda a, b: primitive(a, b, depth, poisson_ratio), x, y, cell[1], cell[0])
 
 
 def _table(

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.halfspace.influence.tables import Love, Periodic, wavenumbers
+from roughcontact.halfspace.influence.tables import Love, Periodic, table_of_waves, wavenumbers
 from roughcontact.transforms import even_multiplier
 from roughcontact.validation import Array
 
@@ -82,7 +82,7 @@ class PeriodicSplit:
 
         near = self.kernel.transfer_function() * erf(self._phase)
         near[0, 0] = self._mean
-        return _values(near, self.kernel.grid.shape, cells)
+        return table_of_waves(near, self.kernel.grid.shape, (cells[0] + 1, cells[1] + 1))
 
     def long_range(self, step: Pair, lengths: Pair) -> Array:
         """Return the transfer function of the long-range part [m/Pa]; the nodes share the period."""
@@ -106,14 +106,3 @@ class PeriodicSplit:
 
 def _offsets(cells: Pair) -> tuple[Offsets, Offsets]:
     return np.arange(cells[0] + 1)[:, None], np.arange(cells[1] + 1)[None]
-
-
-def _values(transfer: Array, lengths: tuple[int, ...], cells: Pair) -> Array:
-    """Return an even function at a few offsets from its transform, by sums."""
-    values = transfer
-    for axis, (n, last) in enumerate(zip(lengths, cells, strict=True)):
-        waves = np.arange(n // 2 + 1)
-        twice = np.where((waves == 0) | (2 * waves == n), 1.0, 2.0) / n
-        cosines = np.cos(2 * math.pi / n * np.outer(np.arange(last + 1), waves)) * twice
-        values = np.moveaxis(np.tensordot(cosines, values, axes=(1, axis)), 0, axis)
-    return values

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence.tables import ALL, definite, wavenumbers
+from roughcontact.halfspace.influence.tables import ALL, definite, definite_columns, wavenumbers
 from roughcontact.kernels.active_cells import ActiveCells, add_blocks, sum_blocks, sum_stencil
 from roughcontact.kernels.constants import REACH
 from roughcontact.transforms import Convolution, fast_even_length
@@ -92,9 +92,7 @@ def local_inverse(modulus: float, grid: Grid) -> LocalInverse | None:
 
 def _far(modulus: float, box: Pair, spacing: tuple[float, ...], columns: slice = ALL) -> Array:
     """Return the transfer function of blocks [Pa/m]; of some columns, if no others are wanted."""
-    q = wavenumbers(box, spacing, columns)
-    if columns.indices(box[1])[0] == 0:  # the mean, and next to it the longest waves
-        q[0, 0] = definite(wavenumbers(box, spacing, slice(0, 2)))[0, 0]
+    q = definite_columns(box, spacing, columns)
     down, across = (np.exp(-BLOCK_DAMPING * (2 * math.pi / n * np.arange(n // 2 + 1)) ** 2) for n in box)
     return np.asarray(modulus / 2 / BLOCK**2 * q * np.outer(down, across[columns]))
 

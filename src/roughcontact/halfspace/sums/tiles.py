@@ -104,8 +104,8 @@ class Tiles:
         down, across = (count(n) for n in self.shape)
         numbers = np.full((down, across), len(self), dtype=np.int64)
         numbers[self.rows, self.columns] = np.arange(len(self))
-        room = {"mode": "wrap"} if periodic else {"constant_values": len(self)}
-        numbers = np.pad(numbers, reach, **room)
+        margin = {"mode": "wrap"} if periodic else {"constant_values": len(self)}
+        numbers = np.pad(numbers, reach, **margin)
         places = (self.rows + reach) * numbers.shape[1] + self.columns + reach
         return TileMap(np.ascontiguousarray(numbers), np.asarray(places, dtype=np.int64))
 
@@ -140,9 +140,9 @@ def list_loaded(values: Field) -> tuple[Indices, Indices, Field]:
         Where the list of each tile begins, and at last how many cells there are, shape (n + 1,); how far back in the
         kernel each cell is; and its value.
     """
-    precision, room = values.dtype.name, values.size + 1
-    starts, shifts = np.empty(len(values) + 1, np.int64), np.empty(room, np.int64)
-    loaded = np.empty(room, precision)
+    precision, capacity = values.dtype.name, values.size + 1
+    starts, shifts = np.empty(len(values) + 1, np.int64), np.empty(capacity, np.int64)
+    loaded = np.empty(capacity, precision)
     functions("tile_kernels", precision)["list_nonzero"](len(values), values, starts, shifts, loaded)
     return starts, shifts, loaded
 

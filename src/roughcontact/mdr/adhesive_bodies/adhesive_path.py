@@ -20,7 +20,7 @@ class AdhesivePath:
     """States of a sticking body, in the order of the history; radius 0 and force 0 where it is off.
 
     A body that was pulled by more than it can hold is off: its force is 0, not the one that was asked for, and
-    `released` tells.
+    `detached` tells.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class AdhesivePath:
     >>> from roughcontact.mdr import adhesion, adhesive_path, indenter
     >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
     >>> path = adhesive_path.adhesive_path(ball, depths=[0.0, 1e-7, -1e-6])
-    >>> path.released.tolist(), f"{path.dissipated[-1] * 1e9:.2f} nJ lost in the snaps"
+    >>> path.detached.tolist(), f"{path.dissipated[-1] * 1e9:.2f} nJ lost in the snaps"
     ([False, False, True], '0.10 nJ lost in the snaps')
     """
 
@@ -48,7 +48,7 @@ class AdhesivePath:
     dissipated: Array
 
     @property
-    def released(self) -> Mask:
+    def detached(self) -> Mask:
         """Whether the body is off after it had been on, shape (n,): where it has separated."""
         on = self.contact_radius > 0
         return np.logical_or.accumulate(on) & ~on
@@ -95,7 +95,7 @@ def adhesive_path(
     >>> from roughcontact.mdr import adhesion, adhesive_path, indenter
     >>> ball = adhesion.jkr(indenter.paraboloid(1e-2), 1e9, work=0.05)
     >>> path = adhesive_path.adhesive_path(ball, depths=[0.0, 1e-7, -1e-6])
-    >>> path.contact_radius.round(8).tolist(), path.released.tolist()
+    >>> path.contact_radius.round(8).tolist(), path.detached.tolist()
     ([3.155e-05, 4.708e-05, 0.0], [False, False, True])
     """
     if not isinstance(adhesion, JKRContact):

@@ -164,5 +164,5 @@ def _at_force(
         depth = depth - excess / state.stiffness
     raise ArithmeticError(
         f"the force is still off by a part {float(np.abs(excess).max() / target):.1e} after {STEPS} steps: it is "
-        "too small to be told from rounding"
+        "too small to be distinguished from rounding"
     )

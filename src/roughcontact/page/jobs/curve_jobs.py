@@ -10,9 +10,9 @@ from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import columns, point_of
-from roughcontact.page.jobs.workbench import Workbench, hardness_of, modulus_of
+from roughcontact.page.jobs.session_cache import SessionCache, hardness_of, modulus_of
 from roughcontact.page.recipe import PageLoads, PageRecipe
-from roughcontact.page.server.order import Order, Send
+from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.page.statement import stated
 from roughcontact.page.stopping import Stopped
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 __all__ = ["compared", "curve", "theories", "whole_curve"]
 
 
-def curve(order: Order, bench: Workbench, send: Send) -> None:
+def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the loads, every point when it is there, and what the curve says as a whole."""
-    recipe = replace(order.recipe, load=None, loads=order.recipe.loads or PageLoads())
+    recipe = replace(request.recipe, load=None, loads=request.recipe.loads or PageLoads())
     if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
         send({"type": "doing", "words": "Looking for the loads that suit this surface"})
-    loads, notes = bench.loads(recipe, order.files)
+    loads, notes = cache.loads(recipe, request.files)
     conductors = conductors_of(recipe.bodies)
     send({"type": "loads", "count": len(loads.values), "notes": notes, "columns": columns(conductors)})
-    send(_statement(recipe, order))
+    send(_statement(recipe, request))
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         done = 0
@@ -53,15 +53,15 @@ def curve(order: Order, bench: Workbench, send: Send) -> None:
             if not done:  # nothing to keep
                 raise
 
-    computed = _collected(watched(bench.path(recipe, loads, order.files)))
-    bench.keep_curve(recipe, loads, computed)
+    computed = _collected(watched(cache.path(recipe, loads, request.files)))
+    cache.keep_curve(recipe, loads, computed)
     send({"type": "curve", **_whole(computed), "stopped": len(computed) < len(loads.values)})
 
 
-def theories(order: Order, bench: Workbench, send: Send) -> None:
+def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
-    loads = order.recipe.loads or PageLoads()
-    found, refused = compared(order, bench)
+    loads = request.recipe.loads or PageLoads()
+    found, refused = compared(request, cache)
     for name, why in refused.items():
         send({"type": "theory", "name": name, "refused": why})
     for name, (_, comparison) in found.items():
@@ -75,19 +75,19 @@ def theories(order: Order, bench: Workbench, send: Send) -> None:
             }
         )
     apply = replace(loads, theories=tuple(found))
-    send(_statement(replace(order.recipe, load=None, loads=apply), order))
+    send(_statement(replace(request.recipe, load=None, loads=apply), request))
 
 
 def compared(
-    order: Order, bench: Workbench
+    request: PageRequest, cache: SessionCache
 ) -> tuple[dict[str, tuple[LoadingLaw, Comparison]], dict[str, str]]:
     """Return each theory that the recipe names beside the curve, and why others do not apply."""
-    computed, loads = whole_curve(order, bench), order.recipe.loads or PageLoads()
+    computed, loads = whole_curve(request, cache), request.recipe.loads or PageLoads()
     found: dict[str, tuple[LoadingLaw, Comparison]] = {}
     refused: dict[str, str] = {}
     for name in loads.theories:
         try:
-            law = _law(name, order, bench)
+            law = _law(name, request, cache)
             found[name] = law, computed.compare(law)
         except ValueError as error:
             if not is_ours(error):
@@ -96,34 +96,34 @@ def compared(
     return found, refused
 
 
-def whole_curve(order: Order, bench: Workbench) -> Curve:
+def whole_curve(request: PageRequest, cache: SessionCache) -> Curve:
     """Return the curve that the page has, as far as it came; computed again if this worker has not seen it."""
-    loads, _ = bench.loads(order.recipe, order.files)
-    kept = bench.curve(order.recipe, loads)
+    loads, _ = cache.loads(request.recipe, request.files)
+    kept = cache.curve(request.recipe, loads)
     if kept is not None:
         return kept
-    computed = _collected(bench.path(order.recipe, loads, order.files))
-    bench.keep_curve(order.recipe, loads, computed)
+    computed = _collected(cache.path(request.recipe, loads, request.files))
+    cache.keep_curve(request.recipe, loads, computed)
     return computed
 
 
-def _law(name: str, order: Order, bench: Workbench) -> LoadingLaw:
+def _law(name: str, request: PageRequest, cache: SessionCache) -> LoadingLaw:
     import roughcontact as rc
     from roughcontact.theory.laws import LAWS
 
-    bodies = order.recipe.bodies
+    bodies = request.recipe.bodies
     hardness = hardness_of(bodies)
     if hardness is None and name in LAWS and "hardness" in LAWS[name].needs:
         raise ValueError(
             "it is about spots that flow: give the hardness of the softer body, and start the curve again"
         )
     known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
-    [law] = rc.loading_laws(bench.surface(order.recipe, order.files), modulus_of(bodies), name, **known)
+    [law] = rc.loading_laws(cache.surface(request.recipe, request.files), modulus_of(bodies), name, **known)
     return law
 
 
-def _statement(recipe: PageRecipe, order: Order) -> Mapping[str, Any]:
-    statement = stated(recipe, order.file)
+def _statement(recipe: PageRecipe, request: PageRequest) -> Mapping[str, Any]:
+    statement = stated(recipe, request.file)
     return {"type": "stated", "command": statement.command, "python": statement.python}
 
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_jobs import compared, whole_curve
-from roughcontact.page.jobs.workbench import Workbench, modulus_of
+from roughcontact.page.jobs.session_cache import SessionCache, modulus_of
 from roughcontact.page.recipe import FileSource, PageLoads
-from roughcontact.page.server.order import Order, Send
+from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.page.statement import Statement, stated
 
 if TYPE_CHECKING:
@@ -23,74 +23,75 @@ if TYPE_CHECKING:
 
 __all__ = ["export"]
 
+Writers = dict[str, Callable[[Path], None]]  # by the names of their files
 _KINDS = ("csv", "nc", "png", "svg", "zip")
 
 
-def export(order: Order, bench: Workbench, send: Send) -> None:
+def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send a file of the load or the curve that the recipe states, or an archive of all that belongs to it."""
-    kind = order.more.get("kind")
+    kind = request.more.get("kind")
     if kind not in _KINDS:
         raise ValueError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}")
     send({"type": "doing", "words": "Writing files"})
-    statement = stated(order.recipe, order.file)
+    statement = stated(request.recipe, request.file)
     with tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
         folder = Path(name)
         if kind == "zip":
-            _everything(order, bench, statement, folder)
-            send({"type": "file", "name": _name(order, "contact", kind)}, _zipped(folder))
+            _everything(request, cache, statement, folder)
+            send({"type": "file", "name": _name(request, "contact", kind)}, _zipped(folder))
             return
-        load, loads = order.recipe.load, order.recipe.loads
-        if order.more.get("of") == "curve" and loads is not None:
-            written, what = _curve_files(order, bench, statement), f"curve-{loads.control}"
-        elif order.more.get("of") == "load" and load is not None:
-            written = _load_files(bench.solution(order.recipe, order.files), order, statement)
+        load, loads = request.recipe.load, request.recipe.loads
+        if request.more.get("of") == "curve" and loads is not None:
+            written, what = _curve_files(request, cache, statement), f"curve-{loads.control}"
+        elif request.more.get("of") == "load" and load is not None:
+            written = _load_files(cache.solution(request.recipe, request.files), request, statement)
             what = f"{load.control}-{load.text}"
         else:
             raise ValueError("there is nothing to export yet: press the surface, or start the curve")
         file = folder / next(file for file in written if file.endswith(f".{kind}"))
         written[file.name](file)
-        send({"type": "file", "name": _name(order, what, kind)}, file.read_bytes())
+        send({"type": "file", "name": _name(request, what, kind)}, file.read_bytes())
 
 
-def _name(order: Order, what: str, ending: str) -> str:
+def _name(request: PageRequest, what: str, ending: str) -> str:
     """Return the name of a file that tells of what surface it is and what it holds."""
-    stem = Path(order.file).stem if isinstance(order.recipe.source, FileSource) else "made-surface"
+    stem = Path(request.file).stem if isinstance(request.recipe.source, FileSource) else "made-surface"
     return re.sub(r"[^\w.-]+", "", f"{stem}-{what}") + f".{ending}"
 
 
-def _everything(order: Order, bench: Workbench, statement: Statement, folder: Path) -> None:
+def _everything(request: PageRequest, cache: SessionCache, statement: Statement, folder: Path) -> None:
     """Write the surface, the load, the curve, and what makes them again, as far as the recipe states them."""
     import roughcontact as rc
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json
     from roughcontact.plot.canvas import save, surface_figure
 
-    recipe = order.recipe
-    surface = bench.surface(recipe, order.files)
+    recipe = request.recipe
+    surface = cache.surface(recipe, request.files)
     rc.write(surface, folder / "surface.npz")
     save(surface_figure(surface), folder / "surface.png")
-    written: dict[str, Callable[[Path], None]] = {}
+    written: Writers = {}
     if recipe.load is not None:
-        written |= _load_files(bench.solution(recipe, order.files), order, statement)
+        written |= _load_files(cache.solution(recipe, request.files), request, statement)
     if recipe.loads is not None:
-        written |= _curve_files(order, bench, statement)
+        written |= _curve_files(request, cache, statement)
     for file, write in written.items():
         write(folder / file)
     (folder / "commands.sh").write_text(statement.command + "\n", encoding="utf-8")
     (folder / "same.py").write_text(statement.python, encoding="utf-8")
     modulus = modulus_of(recipe.bodies) if written else None
     source = provenance(surface, modulus=modulus, command=statement.command)
-    write_json({"file": order.file}, folder / "provenance.json", source)
+    write_json({"file": request.file}, folder / "provenance.json", source)
 
 
-def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[str, Callable[[Path], None]]:
+def _load_files(solution: Solution, request: PageRequest, statement: Statement) -> Writers:
     """Return how the files of a load are written, by their names."""
     from roughcontact.contact.dataset import solution_dataset, solution_record
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.canvas import save, solution_figure
 
-    problem, load = solution.problem, order.recipe.load
+    problem, load = solution.problem, request.recipe.load
     source = provenance(
         problem.surface,
         modulus=problem.modulus,
@@ -112,7 +113,7 @@ def _load_files(solution: Solution, order: Order, statement: Statement) -> dict[
     }
 
 
-def _curve_files(order: Order, bench: Workbench, statement: Statement) -> dict[str, Callable[[Path], None]]:
+def _curve_files(request: PageRequest, cache: SessionCache, statement: Statement) -> Writers:
     """Return how the files of a curve and of what was asked for beside it are written, by their names."""
     from roughcontact.contact.compare import with_theories
     from roughcontact.contact.dataset import curve_dataset, curve_record
@@ -121,15 +122,15 @@ def _curve_files(order: Order, bench: Workbench, statement: Statement) -> dict[s
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.canvas import areal_figure, curve_figure, save
 
-    curve, loads = whole_curve(order, bench), order.recipe.loads or PageLoads()
-    theories, _ = compared(order, bench)
+    curve, loads = whole_curve(request, cache), request.recipe.loads or PageLoads()
+    theories, _ = compared(request, cache)
     comparisons = {name: comparison for name, (_, comparison) in theories.items()}
     dataset = with_theories(curve_dataset(curve), comparisons)
-    conductors = conductors_of(order.recipe.bodies) if loads.conducting else None
+    conductors = conductors_of(request.recipe.bodies) if loads.conducting else None
     if conductors is not None:
         dataset = with_conductance(dataset, conductors)
     source = provenance(
-        bench.surface(order.recipe, order.files),
+        cache.surface(request.recipe, request.files),
         modulus=curve.modulus,
         control=f"{len(curve)} {loads.control}s",
         tolerance=1e-8,

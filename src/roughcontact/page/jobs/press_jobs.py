@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import point_of
-from roughcontact.page.jobs.workbench import Workbench
-from roughcontact.page.server.order import Order, Send, send_map
+from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.statement import stated
 
 if TYPE_CHECKING:
@@ -17,20 +17,20 @@ if TYPE_CHECKING:
 __all__ = ["cut", "press"]
 
 
-def press(order: Order, bench: Workbench, send: Send) -> None:
+def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the maps of pressure and gap, then numbers, notes and the distribution of the pressure."""
     import numpy as np
 
     from roughcontact.plot.facts import solution_facts
 
-    span = bench.span(order.recipe, order.files)
+    span = cache.span(request.recipe, request.files)
     send({"type": "span", **span})
-    if order.recipe.load is None:  # the page does not know yet which loads suit the surface
+    if request.recipe.load is None:  # the page does not know yet which loads suit the surface
         return
     send({"type": "doing", "words": "Pressing"})
-    solution = bench.solution(order.recipe, order.files)
+    solution = cache.solution(request.recipe, request.files)
     grid = solution.problem.grid
-    most = order.whole("pixels", 1024, 4096)
+    most = request.whole("pixels", 1024, 4096)
     place: dict[str, Any] = {"lengths": grid.lengths, "periodic": list(grid.periodic)}
     send_map(send, "pressure", solution.pressure, most, unit="Pa", **place)
     send_map(send, "gap", solution.gap, most, lowest=True, unit="m", **place)
@@ -42,15 +42,15 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
             "pressure": solution.force / grid.area,
             "depth": solution.depth,
             "highest": [int(index) for index in highest],
-            "advice": _advice(solution),
+            "warning": _warning(solution),
         }
     )
-    statement = stated(order.recipe, order.file)
+    statement = stated(request.recipe, request.file)
     send(
         {
             "type": "numbers",
             "facts": solution_facts(solution),
-            "point": point_of(solution, conductors_of(order.recipe.bodies)),
+            "point": point_of(solution, conductors_of(request.recipe.bodies)),
             "notes": solution.notes,
             "command": statement.command,
             "python": statement.python,
@@ -62,14 +62,14 @@ def press(order: Order, bench: Workbench, send: Send) -> None:
         send({"type": "pressures", "x": centres.tolist(), "y": density.tolist()})
 
 
-def cut(order: Order, bench: Workbench, send: Send) -> None:
+def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send one row or column: the surface before the load and under it, and the pressure."""
     import numpy as np
 
-    solution = bench.solution(order.recipe, order.files)
-    problem, along_row = solution.problem, order.more.get("axis") != "column"
+    solution = cache.solution(request.recipe, request.files)
+    problem, along_row = solution.problem, request.more.get("axis") != "column"
     count = problem.grid.shape[0 if along_row else 1]
-    at = min(order.whole("place", 1, count), count) - 1
+    at = min(request.whole("place", 1, count), count) - 1
     line = (at, slice(None)) if along_row else (slice(None), at)
     gap = solution.gap[line]
     send(
@@ -91,7 +91,7 @@ def cut(order: Order, bench: Workbench, send: Send) -> None:
     )
 
 
-def _advice(solution: Solution) -> str:
+def _warning(solution: Solution) -> str:
     """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
     if not solution.status.converged:
         return "The solver has missed its tolerance: take another load, or filter the shortest waves."

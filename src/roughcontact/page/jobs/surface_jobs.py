@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.files.own_errors import is_ours
 from roughcontact.labels.labelled import plain_values
-from roughcontact.page.jobs.workbench import Workbench
+from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.recipe import FileSource
-from roughcontact.page.server.order import Order, Send, send_map
+from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.statement import stated
 from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.plot.facts import surface_facts, surface_record
@@ -36,18 +36,18 @@ _AREAL = (
 )
 
 
-def look(order: Order, bench: Workbench, send: Send) -> None:
+def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
     import numpy as np
 
-    source = order.recipe.source
+    source = request.recipe.source
     if isinstance(source, FileSource):
-        send({"type": "channels", "channels": _channels(order)})
-    raw, warned = bench.read(source, order.files)
-    surface = bench.surface(order.recipe, order.files)
+        send({"type": "channels", "channels": _channels(request)})
+    raw, warned = cache.read(source, request.files)
+    surface = cache.surface(request.recipe, request.files)
     heights = surface.heights - np.nanmean(surface.heights)
-    send_map(send, "heights", heights, order.whole("pixels", 1024, 4096), **_place(surface))
-    statement = stated(order.recipe, order.file)
+    send_map(send, "heights", heights, request.whole("pixels", 1024, 4096), **_place(surface))
+    statement = stated(request.recipe, request.file)
     send(
         {
             "type": "surface",
@@ -61,13 +61,13 @@ def look(order: Order, bench: Workbench, send: Send) -> None:
     )
 
 
-def study(order: Order, bench: Workbench, send: Send) -> None:
+def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the distribution of the heights, what looks suspicious, their spectrum, and roughness parameters."""
     import numpy as np
 
     import roughcontact as rc
 
-    surface = bench.surface(order.recipe, order.files)
+    surface = cache.surface(request.recipe, request.files)
     rough = surface.rms > 0
     if rough:
         histogram = rc.height_histogram(surface, bins=80)
@@ -79,7 +79,7 @@ def study(order: Order, bench: Workbench, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
-    send({"type": "doubts", "doubts": bench.doubts(order.recipe.source, order.files)})
+    send({"type": "warnings", "warnings": cache.warnings(request.recipe.source, request.files)})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0
@@ -110,11 +110,11 @@ def _on_the_page(line: str) -> str:
     return line
 
 
-def _channels(order: Order) -> list[dict[str, Any]]:
+def _channels(request: PageRequest) -> list[dict[str, Any]]:
     from roughcontact.files.read import channels
 
     found = []
-    for channel in channels(order.path):
+    for channel in channels(request.path):
         words = asdict(channel)
         found.append(
             {name: plain_values(words[name]) for name in ("name", "shape", "unit", "size", "is_height")}
@@ -127,7 +127,7 @@ def _place(surface: Surface) -> dict[str, Any]:
 
 
 def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
-    """Return what is told of the roughness: symbol or name, what it means, and its value."""
+    """Return what is shown of the roughness: symbol or name, what it means, and its value."""
     import roughcontact as rc
 
     parameters, moments = rc.areal_parameters(surface), rc.surface_moments(surface)

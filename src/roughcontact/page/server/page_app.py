@@ -18,18 +18,18 @@ from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from roughcontact.page.frames import packed
-from roughcontact.page.jobs.workbench import UploadedFile
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import HEADERS, Guard, Refused
 from roughcontact.page.server.server_folder import SCRATCH
 from roughcontact.page.server.session import Session
 from roughcontact.page.server.sessions import GIVEN, MOST_SESSIONS, Sessions
 from roughcontact.page.server.uploads import LARGEST, TooLargeError, TooSlowError, store
+from roughcontact.page.server.worker_pool import WorkerPool
 from roughcontact.page.server.worker_process import WorkerEndedError
 
 __all__ = ["PageServer", "application"]
 
-_LONGEST_ORDER = 2**20  # bytes of JSON
+_LONGEST_REQUEST = 2**20  # bytes of JSON
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -62,7 +62,7 @@ class PageServer:
         """Return a server without sessions, whose files and those of its workers lie in a folder."""
         scratch = folder / SCRATCH
         scratch.mkdir(mode=0o700)
-        return cls(guard, Sessions(Crew(scratch), folder, given))
+        return cls(guard, Sessions(WorkerPool(scratch), folder, given))
 
     async def begin(self, _: Request) -> Response:
         """Open a session, for a tab that has none."""
@@ -97,26 +97,26 @@ class PageServer:
         return JSONResponse({"file": key, "name": file.name})
 
     async def perform(self, request: Request) -> Response | ASGIApp:
-        """Answer an order, message by message."""
+        """Answer a request, message by message."""
         session = self._session(request)
         if session is None:
             return _no_session()
         body = b""
         async for part in request.stream():
             body += part
-            if len(body) > _LONGEST_ORDER:
-                return JSONResponse({"message": "No order is that long."}, 413, {"Connection": "close"})
-        asked = _order(body)
+            if len(body) > _LONGEST_REQUEST:
+                return JSONResponse({"message": "No request is that long."}, 413, {"Connection": "close"})
+        asked = _asked(body)
         if asked is None:
-            return JSONResponse({"message": "An order is an object of JSON."}, 400)
+            return JSONResponse({"message": "A request is an object of JSON."}, 400)
         return _Streamed(session.perform(asked), self.closing)
 
     async def stop(self, request: Request) -> Response:
-        """Stop an order."""
+        """Stop a request."""
         session = self._session(request)
         if session is None:
             return _no_session()
-        await session.stop(*(request.query_params.get(name, "") for name in ("lane", "key")))
+        await session.stop(*(request.query_params.get(name, "") for name in ("queue", "key")))
         return JSONResponse({})
 
     async def end(self, request: Request) -> Response:
@@ -131,13 +131,13 @@ class PageServer:
     @contextlib.asynccontextmanager
     async def lifespan(self, _: object) -> AsyncIterator[None]:
         """Have a worker ready from the start, and none left at the end."""
-        self.sessions.crew.prepare()
+        self.sessions.pool.prepare()
         watching = asyncio.create_task(self.sessions.watch())
         try:
             yield
         finally:
             watching.cancel()
-            await self.sessions.crew.end()
+            await self.sessions.pool.end()
 
     def _session(self, request: Request) -> Session | None:
         return self.sessions.find(request.query_params.get("session", ""))
@@ -168,7 +168,7 @@ def application(server: PageServer) -> ASGIApp:
         *(Route(path, file) for path in files),
         Route("/session", server.begin, methods=["POST"]),
         Route("/file", server.upload, methods=["PUT"]),
-        Route("/order", _Endpoint(server.perform), methods=["POST"]),
+        Route("/request", _Endpoint(server.perform), methods=["POST"]),
         Route("/stop", server.stop, methods=["POST"]),
         Route("/alive", server.alive, methods=["POST"]),
         Route("/end", server.end, methods=["POST"]),
@@ -253,7 +253,7 @@ async def _left(receive: Receive) -> None:
         pass
 
 
-def _order(body: bytes) -> dict[str, Any] | None:
+def _asked(body: bytes) -> dict[str, Any] | None:
     """Return what a body asks for; None where that is no object, or holds numbers that JSON does not know."""
     try:
         asked = json.loads(body)

@@ -16,7 +16,7 @@ import uvicorn
 from starlette.types import ASGIApp
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import Guard
 from roughcontact.page.server.page_app import PageServer, application
 from roughcontact.page.server.server_folder import server_folder
@@ -38,8 +38,8 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
     port : int
         0 for any that is free.
     opened : callable
-        Is told two addresses when the page can be asked for: one that holds the token, for the user, and one that opens
-        the page once, for the command of a browser.
+        Called with two addresses when the page can be asked for: one that holds the token, for the user, and one that
+        opens the page once, for the command of a browser.
 
     Raises
     ------

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 
-from roughcontact.page.jobs.workbench import UploadedFile
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.session import Session
+from roughcontact.page.server.worker_pool import WorkerPool
 
 __all__ = ["GIVEN", "MOST_SESSIONS", "Sessions"]
 
@@ -28,7 +28,7 @@ class Sessions:
 
     Parameters
     ----------
-    crew : Crew
+    pool : WorkerPool
         Where their workers come from.
     folder : Path
         Where their files lie, each in a folder of its own.
@@ -40,7 +40,7 @@ class Sessions:
         Where no more may be opened, one that has been silent for so long [s] ends.
     """
 
-    crew: Crew
+    pool: WorkerPool
     folder: Path
     given: UploadedFile | None = None
     silent: float = _SILENT
@@ -57,7 +57,7 @@ class Sessions:
         files = {} if self.given is None else {GIVEN: self.given}
         place = self.folder / key
         place.mkdir(mode=0o700)
-        self.known[key] = Session.of(self.crew, place, files)
+        self.known[key] = Session.of(self.pool, place, files)
         return key
 
     def find(self, key: str) -> Session | None:

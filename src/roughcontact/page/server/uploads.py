@@ -9,7 +9,7 @@ import shutil
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from roughcontact.page.jobs.workbench import UploadedFile
+from roughcontact.page.jobs.session_cache import UploadedFile
 
 __all__ = ["LARGEST", "TooLargeError", "TooSlowError", "safe_name", "shown_name", "store"]
 

@@ -1,4 +1,4 @@
-"""A worker as the server sees it: started, given an order, stopped, ended."""
+"""A worker as the server sees it: started, given a request, stopped, ended."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class WorkerProcess:
         return started
 
     async def ready(self) -> WorkerProcess:
-        """Wait until it can take an order."""
+        """Wait until it can take a request."""
         if await self.messages.get() is None:
             raise WorkerEndedError(
                 "the process that computes did not start: see what it wrote where the server runs"
@@ -67,15 +67,15 @@ class WorkerProcess:
         """Whether it has not ended."""
         return self.process.returncode is None and not (self.listener is not None and self.listener.done())
 
-    async def answers(self, order: Mapping[str, Any]) -> AsyncIterator[Message]:
-        """Yield the messages that answer an order, the last of which says how it ended.
+    async def answers(self, request: Mapping[str, Any]) -> AsyncIterator[Message]:
+        """Yield the messages that answer a request, the last of which says how it ended.
 
         Raises
         ------
         WorkerEndedError
             If the process ended before.
         """
-        await self._tell(order)
+        await self._tell(request)
         while True:
             message = await self.messages.get()
             if message is None:
@@ -85,7 +85,7 @@ class WorkerProcess:
                 return
 
     async def stop(self, number: int) -> None:
-        """Ask it to leave an order."""
+        """Ask it to leave a request."""
         await self._tell({"stop": number})
 
     async def finish(self) -> None:

@@ -2,7 +2,7 @@
 
 import { mapView } from "./map.js";
 import { element } from "./numbers.js";
-import { order } from "./wire.js";
+import { request } from "./wire.js";
 
 const by = (id) => document.getElementById(id);
 
@@ -30,7 +30,7 @@ export function comparison({ recipe, map, failed, changed, curveFacts }) {
     asked = text;
     let end = {};
     try {
-      end = await order("back", "press", { ...held.recipe, load }, { pixels: 512 }, (header, data) => {
+      end = await request("back", "press", { ...held.recipe, load }, { pixels: 512 }, (header, data) => {
         if (held !== kept) return;
         if (header.type === "map") before.set(header.map, header, data);
         else if (header.type === "numbers") held.facts = header.facts;

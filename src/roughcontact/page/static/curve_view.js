@@ -7,7 +7,7 @@ import { facts, list } from "./numbers.js";
 import { statement } from "./statement.js";
 import { theoryList } from "./theory_list.js";
 import { trouble } from "./trouble.js";
-import { order } from "./wire.js";
+import { request } from "./wire.js";
 import { loadText } from "./words.js";
 
 const ALONG = { force: "force", pressure: "nominal_pressure", depth: "depth" };
@@ -37,7 +37,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     forget();
     current = run;
     show();
-    const sent = order("back", "curve", { ...recipe.now, load: null, loads }, {}, (header) => run === current && heard(run, header));
+    const sent = request("back", "curve", { ...recipe.now, load: null, loads }, {}, (header) => run === current && heard(run, header));
     running = { sent, run };
     show();
     try {
@@ -101,7 +101,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     if (!run || running || !run.points.length) return;
     run.theories = theories.chosen;
     try {
-      const sent = order("back", "theories", { ...recipe.now, load: null, loads: loads() }, {}, (header) => run === current && heard(run, header));
+      const sent = request("back", "theories", { ...recipe.now, load: null, loads: loads() }, {}, (header) => run === current && heard(run, header));
       const end = await sent.ended;
       if (end.message && run === current) say(end.message);
       run.theories = theories.chosen;

@@ -1,6 +1,6 @@
 // Files that the server writes: of the load, of the curve, or all in one archive.
 
-import { order } from "./wire.js";
+import { request } from "./wire.js";
 
 const KINDS = { csv: "CSV", nc: "NetCDF", png: "PNG", svg: "SVG" };
 
@@ -20,8 +20,8 @@ export function exports(root, { wanted, say, failed }) {
     const recipe = wanted();
     if (!recipe.source) return say("There is nothing to export yet: drop a file, or choose an example.");
     // What is under the hand is known in front; the curve behind.
-    const lane = kind === "zip" || of === "curve" ? "back" : "front";
-    const sent = order(lane, "export", recipe, { kind, of: of || "load" }, (header, data) => {
+    const queue = kind === "zip" || of === "curve" ? "back" : "front";
+    const sent = request(queue, "export", recipe, { kind, of: of || "load" }, (header, data) => {
       if (header.type === "doing") say(`${header.words} …`);
       if (header.type !== "file") return;
       const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([data])), download: header.name });

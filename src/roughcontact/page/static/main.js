@@ -6,15 +6,15 @@ import { cropFields } from "./crop.js";
 import { curveView } from "./curve_view.js";
 import { cutView } from "./cut_view.js";
 import { exports } from "./exports.js";
-import { holdings } from "./holds.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { numbersView } from "./numbers.js";
 import { BLANK, EXAMPLES, example, fresh, history, titleOf } from "./recipe.js";
 import { settings } from "./settings.js";
 import { shortcuts } from "./shortcuts.js";
+import { surfaceView } from "./surface_view.js";
 import { trouble } from "./trouble.js";
-import { begin, order, upload } from "./wire.js";
+import { begin, request, upload } from "./wire.js";
 import { welcome } from "./welcome.js";
 
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
@@ -41,7 +41,7 @@ const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by
 const recipe = history(changed);
 const crop = cropFields(recipe);
 const fields = settings(recipe);
-const holds = holdings(recipe, crop);
+const surfaceCard = surfaceView(recipe, crop);
 const load = loadBar(recipe);
 const numbers = numbersView();
 const cut = cutView(map, () => { wanted.cut = true; pump(); });
@@ -52,7 +52,7 @@ function changed(now, before) {
   const differs = (name) => JSON.stringify(now[name]) !== JSON.stringify(before[name]);
   if (differs("source") || differs("preparation")) {
     wanted.look = wanted.study = Boolean(now.source);
-    holds.wait();
+    surfaceCard.wait();
     map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
     load.forget();
     cut.forget();
@@ -61,7 +61,7 @@ function changed(now, before) {
   if (differs("source")) {
     crop.of(null);
     fields.forget();
-    holds.forget();
+    surfaceCard.forget();
     place.of(titleOf(now.source, names));
     by("keep").disabled = true;
   }
@@ -78,7 +78,7 @@ function show() {
   const title = titleOf(source, names);
   by("name").textContent = title;
   document.title = title ? `${title} – roughcontact` : "roughcontact";
-  for (const each of [fields, crop, bodies, holds, load, curve]) each.show();
+  for (const each of [fields, crop, bodies, surfaceCard, load, curve]) each.show();
 }
 
 function failed(error) {
@@ -115,7 +115,7 @@ async function perform(job) {
   if (!more) return pump();
   const basis = () => JSON.stringify(job in BASES ? BASES[job].map((name) => recipe.now[name]) : recipe.now);
   const asked = basis();
-  const sent = order("front", job, { ...recipe.now, source: recipe.now.source || BLANK }, more, (header, data) => {
+  const sent = request("front", job, { ...recipe.now, source: recipe.now.source || BLANK }, more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
     if ((wanted.look && !(job in BASES)) || (asked !== basis() && !load.dragged)) return;
     heard(header, data);
@@ -132,13 +132,13 @@ async function perform(job) {
   ended(end, job);
   if (job === "look" && end.how !== "done" && !wanted.look) {
     wanted.press = wanted.study = false;
-    holds.refused();
+    surfaceCard.refused();
   }
   if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
   if (job === "press" && end.how === "done") wanted.cut = true;
   if (job === "study" && !wanted.study) {
     if (end.how === "stopped") wanted.study = true;
-    else holds.done();
+    else surfaceCard.done();
   }
   pump();
 }
@@ -146,12 +146,12 @@ async function perform(job) {
 function heard(header, data) {
   if (header.type === "map") { map.set(header.map, header, data); place.done(); }
   else if (header.type === "doing") say(`${header.words} …`);
-  else if (header.type === "channels") { fields.channels(header.channels); holds.channels(header.channels); }
+  else if (header.type === "channels") { fields.channels(header.channels); surfaceCard.channels(header.channels); }
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
   else if (header.type === "bodies") bodies.say(header);
-  else if (["doubts", "heights", "spectrum", "roughness"].includes(header.type)) holds.study(header);
+  else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
-  else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.advice); }
+  else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
   else if (header.type === "numbers") answered(header);
   else if (header.type === "pressures") numbers.pressures(header);
   else if (header.type === "cut") cut.heard(header);
@@ -168,7 +168,7 @@ function answered(header) {
 function surface(header) {
   crop.of(header.raw);
   fields.of(header.raw);
-  holds.surface(header);
+  surfaceCard.surface(header);
 }
 
 async function opened(file) {

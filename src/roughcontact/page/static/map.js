@@ -3,7 +3,7 @@
 import { COLOURS } from "./colours.js";
 import { written } from "./words.js";
 
-const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, told apart from greys by everybody
+const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
 const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
 const STEPS = [1, 2, 5];
 
@@ -281,7 +281,7 @@ export function mapView(canvas, bar, heard) {
     pixels: () => Math.min(2048, Math.max(256, Math.round(Math.max(canvas.width, canvas.height) / 64) * 64)),
     set(name, header, buffer) {
       state.fields[name] = { ...header, values: new Float32Array(buffer) };
-      canvas.dataset.holds = Object.keys(state.fields).join(" ");
+      canvas.dataset.fields = Object.keys(state.fields).join(" ");
       fit();
       if (state.fields[name] === shown()) paint();
     },
@@ -301,7 +301,7 @@ export function mapView(canvas, bar, heard) {
     ends: (which) => (kind() === which && shown() ? ownEnds(shown()) : null),
     clear(...names) {
       for (const name of names) delete state.fields[name];
-      canvas.dataset.holds = Object.keys(state.fields).join(" ");
+      canvas.dataset.fields = Object.keys(state.fields).join(" ");
       if (!shown()) draw();
     },
     has: (name) => name in state.fields,

@@ -1,4 +1,4 @@
-// What is told of a load: notes first, then facts, the distribution of the pressure, and how to compute the same.
+// What is shown of a load: notes first, then facts, the distribution of the pressure, and how to compute the same.
 
 import { chart, clear } from "./charts.js";
 import { statement } from "./statement.js";
@@ -23,7 +23,7 @@ export function numbersView() {
         series: [{ x, y, label: "density", kind: "area", colour: "--accent" }],
       });
     },
-    // What was told of another preparation; of another surface not even the facts stay.
+    // What was shown of another preparation; of another surface not even the facts stay.
     forget(all) {
       clear(by("pressures"));
       if (!all) return;

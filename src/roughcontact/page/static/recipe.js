@@ -1,4 +1,4 @@
-// What the user has asked for, as plain values: the page sends all of it with every order. Undo and redo go through it.
+// What the user has asked for, as plain values: the page sends all of it with every request. Undo and redo go through it.
 
 const START = {
   source: null,

@@ -2,7 +2,7 @@
 
 import { element } from "./numbers.js";
 
-const COLOURS = ["#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b"]; // told apart by every eye
+const COLOURS = ["#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b"]; // distinct to every eye
 const DASHES = [[8, 4], [2, 3], [10, 3, 2, 3]];
 
 export function theoryList(root, known, changed) {

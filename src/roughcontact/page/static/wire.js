@@ -1,4 +1,4 @@
-// Orders to the server and the messages that answer them.
+// Requests to the server and the messages that answer them.
 
 let session = "";
 let count = 0;
@@ -31,17 +31,17 @@ export async function upload(file) {
   return (await asked(path, { method: "PUT", body: file })).json();
 }
 
-// Send an order; every message goes to `heard(header, data)` as it comes. The last one is returned.
-export function order(lane, job, recipe, more, heard) {
+// Send a request; every message goes to `heard(header, data)` as it comes. The last one is returned.
+export function request(queue, job, recipe, more, heard) {
   const key = String(++count);
-  const body = JSON.stringify({ lane, job, recipe, more, key });
-  const stop = () => asked(`/stop?session=${session}&lane=${lane}&key=${key}`, { method: "POST" });
+  const body = JSON.stringify({ queue, job, recipe, more, key });
+  const stop = () => asked(`/stop?session=${session}&queue=${queue}&key=${key}`, { method: "POST" });
   return { stop, ended: listen(body, heard) };
 }
 
 async function listen(body, heard) {
   const headers = { "Content-Type": "application/json" };
-  const response = await asked(`/order?session=${session}`, { method: "POST", headers, body });
+  const response = await asked(`/request?session=${session}`, { method: "POST", headers, body });
   const reader = response.body.getReader();
   let parts = [];
   let held = 0;

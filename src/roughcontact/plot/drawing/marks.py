@@ -16,7 +16,7 @@ __all__ = ["contact_window", "faint_spots"]
 
 
 _FAINT = 0.02  # a smaller share of the cells in contact is lost on the page
-_NARROW = 0.01  # a spot narrower than this share of the side cannot be told from dust
+_NARROW = 0.01  # a spot narrower than this share of the side cannot be distinguished from dust
 _NEAR = 0.03  # marks closer than this share of the side would run into one another
 _MARKS = 100  # more marks would hide what they mark
 _LARGE = 1 / 6  # share of the side that is shown large where contact is spread out

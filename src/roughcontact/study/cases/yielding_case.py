@@ -1,4 +1,4 @@
-"""A case: the loading curve of a rough surface that gives way under a ceiling of the pressure."""
+"""A case: the loading curve of a rough surface that yields under a ceiling of the pressure."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LIMIT = 1e-4  # of the unit displacement; the stiffness itself is off by about 
 class YieldingParameters(PressedSquare):
     """A rough surface pressed to growing depths; the force is what comes of it.
 
-    Depths in place of forces: where nearly every cell gives way, a force hardly tells which are left.
+    Depths in place of forces: where nearly every cell yields, a force hardly tells which are left.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Data
     if hardness is not None:
         record["hardness"] = variable("hardness", (), hardness)
     return record.assign_attrs(
-        title="loading curves of rough surfaces that give way under a ceiling of the pressure"
+        title="loading curves of rough surfaces that yield under a ceiling of the pressure"
     )
 
 

@@ -34,7 +34,7 @@ ONE_THREAD = dict.fromkeys(
     "1",
 )
 BOOT = "import sys; sys.path[:] = {path!r}; from roughcontact.study.executors.process import serve; serve()"
-PATIENCE = 5.0  # [s] for a process that was told to end
+PATIENCE = 5.0  # [s] for a process that was asked to end
 QUICK = 0.5  # [s]; a worker that answers faster is given the next task in advance
 
 

@@ -131,7 +131,7 @@ class PowerSpectrum:
             least, most = self.wavenumber[0], self.wavenumber[-1]
             raise ValueError(
                 f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has {least:g} to {most:g} rad/m, waves "
-                f"from {2 * np.pi / least:.3g} down to {2 * np.pi / most:.3g} m"
+                f"from {2 * np.pi / least:.3g} m down to {2 * np.pi / most:.3g} m"
             )
         return replace(self.selected(keep), q_min=low, q_max=high)
 

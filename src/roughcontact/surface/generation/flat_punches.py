@@ -1,4 +1,4 @@
-"""Flat punches as surfaces: 0 where the body is, NaN around it; see `roughcontact.surface.shapes`."""
+"""Flat punches as surfaces: 0 where the body is, NaN around it; see `roughcontact.surface.generation.shapes`."""
 
 from __future__ import annotations
 

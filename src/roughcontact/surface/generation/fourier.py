@@ -88,7 +88,7 @@ def self_affine(
     wave vectors.
 
     The phase of a wave (and its modulus if Gaussian) is a function of the key and of its integer wave vector,
-    whole periods along each side, alone: ``roughcontact.surface.random_phases`` defines it. Phases count from
+    whole periods along each side, alone: ``generation.random_phases`` defines it. Phases count from
     the outer corner of the first cell, of a nodal grid from its first node. So the same generator state gives, on n,
     2n, 3n or n + 1 cells over the same sides, the same waves at the same places up to those that are too fine; nodal
     grids have their nodes in common. With `rms` alone each grid scales its waves to the same sum: at H = 0 those of
@@ -188,5 +188,5 @@ def synthesise(
 def _size(rms: float | None, rms_band: tuple[float, float] | None) -> str:
     if rms is None:
         return ""
-    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} to {rms_band[1]:g} m"
+    of = "" if rms_band is None else f" of the waves from {rms_band[0]:g} m to {rms_band[1]:g} m"
     return f", rms = {rms:g} m{of}"

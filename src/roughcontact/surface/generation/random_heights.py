@@ -43,7 +43,7 @@ POWERS = 2**18  # waves whose powers are added at once: some megabytes
 
 @dataclass(frozen=True, slots=True)
 class SizedSpectrum:
-    """A spectrum and what sets the height, see ``roughcontact.surface.wave_grid.wave_amplitudes``."""
+    """A spectrum and what sets the height, see ``wave_grid.wave_amplitudes``."""
 
     spectrum: Spectrum
     support: Support

@@ -139,8 +139,8 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
     if cells < 2 or sections * cells < GRADIENT.size:
         raise ValueError(
             f"sections of {cells} cells do not fit a profile of {grid.shape[0]}, of which each needs two, and all "
-            f"together {GRADIENT.size}: give a section_length of {2 * spacing:g} to {grid.lengths[0]:g} m, or a longer "
-            "profile"
+            f"together {GRADIENT.size}: give a section_length of {2 * spacing:g} m to {grid.lengths[0]:g} m, or a "
+            "longer profile"
         )
     heights = line.heights[: sections * cells]
     require(heights.max() != heights.min(), "all heights are equal: there is no texture to measure")

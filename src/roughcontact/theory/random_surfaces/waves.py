@@ -114,13 +114,13 @@ class Waves:
     >>> spectrum = rc.SelfAffineSpectrum(0.8, long_cutoff=6.4e-5, short_cutoff=4e-6).scaled(1e-6)
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> surface = rc.synthesise(grid, spectrum, np.random.default_rng(1), rms=1e-6)
-    >>> waves = [
+    >>> made = [
     ...     waves.Waves.of_spectrum(spectrum),
     ...     waves.Waves.of_heights(surface.heights, grid.spacing),  # the very waves of a surface
     ...     waves.Waves.of_measured(rc.power_spectrum(surface)),
     ...     waves.Waves.of_bands(np.array([1e5, 1e6]), np.array([1e-12, 1e-14])),
     ... ]
-    >>> [f"{each.rms_slope:.2f}" for each in waves], waves.Waves.of(spectrum).m0 == waves[0].m0
+    >>> [f"{each.rms_slope:.2f}" for each in made], waves.Waves.of(spectrum).m0 == made[0].m0
     (['0.28', '0.22', '0.21', '0.14'], True)
     """
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
-__all__ = ["UploadedFile", "Workbench", "hardness_of", "modulus_of", "without_loads"]
+__all__ = ["SessionCache", "UploadedFile", "hardness_of", "modulus_of", "without_loads"]
 
 T = TypeVar("T")
 _KEPT = 2  # of each: the one that is looked at, and the one before it
@@ -40,7 +40,7 @@ class UploadedFile:
 
 
 @dataclass(frozen=True, slots=True)
-class Workbench:
+class SessionCache:
     """What was computed last, by what it follows from; all of it can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
@@ -62,18 +62,18 @@ class Workbench:
 
         return self._once("surface", (recipe.source, recipe.preparation), prepared)
 
-    def doubts(
+    def warnings(
         self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
     ) -> list[dict[str, Any]]:
         """Return what looks suspicious in the heights before any preparation."""
 
-        def found() -> list[dict[str, Any]]:
-            from roughcontact.plot.advice import advice
+        def made() -> list[dict[str, Any]]:
+            from roughcontact.plot.preparation_warnings import preparation_warnings
 
-            _, doubts = advice(self.read(source, files)[0])
-            return [asdict(doubt) for doubt in doubts]
+            _, found = preparation_warnings(self.read(source, files)[0])
+            return [asdict(warning) for warning in found]
 
-        return self._once("doubts", source, found)
+        return self._once("warnings", source, made)
 
     def solution(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""

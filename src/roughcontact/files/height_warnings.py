@@ -12,7 +12,7 @@ from roughcontact.files.noisy_rows import noisy_rows
 from roughcontact.surface.preparation.spikes import spikes_in
 from roughcontact.validation import Array
 
-__all__ = ["IMPOSSIBLE", "doubts_about", "highest"]
+__all__ = ["IMPOSSIBLE", "height_warnings", "highest"]
 
 _SMALLEST, _LARGEST = 1e-9, 1.0  # side lengths [m]
 _STEEPEST = 10.0  # rms height over side length, and the slope that half of all neighbours exceed
@@ -42,7 +42,7 @@ def highest(heights: Array) -> float:
     return max(-low, high)
 
 
-def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
+def height_warnings(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
     """Return a line for everything absurd about `heights` [m], one axis or two, on cells of `spacing` [m]."""
     found = []
     lengths = [n * step for n, step in zip(heights.shape, spacing, strict=True)]
@@ -71,7 +71,7 @@ def doubts_about(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
 
 
 def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
-    """Return doubts that need many points: rows without heights, spikes, slopes, noise."""
+    """Return warnings that need many points: rows without heights, spikes, slopes, noise."""
     found = _broken_off(heights) or _long_runs(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
@@ -101,7 +101,7 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
 
 
 def _broken_off(heights: Array) -> list[str]:
-    """Return a doubt for each edge of a map along which rows hold one number and no heights."""
+    """Return a warning for each edge of a map along which rows hold one number and no heights."""
     if heights.ndim != 2:
         return []
     found = []
@@ -116,7 +116,7 @@ def _broken_off(heights: Array) -> list[str]:
 
 
 def _long_runs(heights: Array) -> list[str]:
-    """Return a doubt where one number is repeated far more often than any other: what damage to a file leaves.
+    """Return a warning where one number is repeated far more often than any other: what damage to a file leaves.
 
     Looked for along rows and columns, and along rows that are stored from the bottom up.
     """
@@ -146,7 +146,7 @@ def _far_points(heights: Array) -> int:
 
 
 def _apart(heights: Array) -> list[str]:
-    """Return a doubt where the lowest or highest number is repeated, and further from the others than they reach."""
+    """Return a warning where the lowest or highest number is repeated, and further from the others than they reach."""
     known = heights[~np.isnan(heights)]
     for extreme in (known.min(), known.max()):
         others = known[known != extreme]

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from roughcontact.page.jobs.reduced import as_seen, factor_for
-from roughcontact.page.jobs.workbench import UploadedFile, Workbench
+from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.recipe import PageRecipe
 from roughcontact.validation import Array
 
-__all__ = ["Job", "Order", "Send", "send_map"]
+__all__ = ["Job", "PageRequest", "Send", "send_map"]
 
 
 class Send(Protocol):
@@ -24,7 +24,7 @@ class Send(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class PageRequest:
     """What is asked for.
 
     Parameters
@@ -66,7 +66,7 @@ class Order:
         return min(max(given, 1), most) if isinstance(given, int) else usual
 
 
-Job = Callable[[Order, Workbench, Send], None]
+Job = Callable[[PageRequest, SessionCache, Send], None]
 
 
 def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = False, **more: Any) -> None:

@@ -1,4 +1,4 @@
-"""A worker with its orders, one after the other."""
+"""The requests of a session to one worker, answered one after the other."""
 
 from __future__ import annotations
 
@@ -8,28 +8,28 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from roughcontact.page.frames import packed
-from roughcontact.page.server.crew import Crew
+from roughcontact.page.server.worker_pool import WorkerPool
 from roughcontact.page.server.worker_process import WorkerEndedError, WorkerProcess
 
-__all__ = ["Lane"]
+__all__ = ["RequestQueue"]
 
-_GRACE = 0.15  # seconds in which an order may leave by itself; then its process is ended
+_GRACE = 0.15  # seconds in which a request may leave by itself; then its process is ended
 _DIED = (
     "The process that computes was ended from outside, or ran out of memory. A new one takes over: ask again."
 )
 
 
 @dataclass(slots=True, eq=False)
-class Lane:
-    """What waits for one worker.
+class RequestQueue:
+    """A worker, and the requests that wait for it.
 
     Parameters
     ----------
-    crew : Crew
+    pool : WorkerPool
         Where workers come from.
     """
 
-    crew: Crew
+    pool: WorkerPool
     worker: WorkerProcess | None = None
     number: int = 0
     running: tuple[int, str] | None = None
@@ -38,13 +38,13 @@ class Lane:
 
     @property
     def busy(self) -> bool:
-        """Whether an order is worked on, or waits."""
+        """Whether a request is worked on, or waits."""
         return self.turn.locked()
 
-    async def perform(self, key: str, order: Mapping[str, Any]) -> AsyncIterator[bytes]:
-        """Yield the messages that answer an order, the last of which says how it ended.
+    async def perform(self, key: str, request: Mapping[str, Any]) -> AsyncIterator[bytes]:
+        """Yield the messages that answer a request, the last of which says how it ended.
 
-        An iterator that is closed early, since its reader has gone, stops the order.
+        An iterator that is closed early, since its reader has gone, stops the request.
         """
         async with self.turn:
             if key in self.unwanted:
@@ -56,7 +56,7 @@ class Lane:
             self.running = (self.number, key)
             ended = False
             try:
-                async for message in worker.answers({**order, "number": self.number}):
+                async for message in worker.answers({**request, "number": self.number}):
                     ended = message.header["type"] == "end"
                     if ended:
                         self.running = None
@@ -72,7 +72,7 @@ class Lane:
                     await self._leave(worker, self.number)
 
     async def stop(self, key: str) -> None:
-        """Stop an order, now or when its turn comes; when this returns, it is over."""
+        """Stop a request, now or when its turn comes; when this returns, it is over."""
         if self.running is None or self.running[1] != key or self.worker is None:
             self.unwanted.add(key)
             return
@@ -84,27 +84,27 @@ class Lane:
             return
         await asyncio.sleep(_GRACE)
         if self.running == running:
-            await self.crew.dismiss(worker)
+            await self.pool.dismiss(worker)
 
     async def end(self) -> None:
         """End its worker."""
         worker, self.worker = self.worker, None
         if worker is not None:
-            await self.crew.dismiss(worker)
+            await self.pool.dismiss(worker)
 
     async def _ready(self) -> WorkerProcess:
         if self.worker is not None and not self.worker.alive:
-            await self.crew.dismiss(self.worker)
+            await self.pool.dismiss(self.worker)
             self.worker = None
         if self.worker is None:
-            self.worker = await self.crew.take()
+            self.worker = await self.pool.take()
         return self.worker
 
     async def _leave(self, worker: WorkerProcess, number: int) -> None:
-        """Have the worker leave an order whose reader is gone, or end it."""
+        """Have the worker leave a request whose reader is gone, or end it."""
         try:
             await worker.stop(number)
             await asyncio.wait_for(worker.finish(), _GRACE)
         except (TimeoutError, WorkerEndedError):
-            await self.crew.dismiss(worker)
+            await self.pool.dismiss(worker)
             self.worker = None

@@ -5,7 +5,7 @@ import { facts as listed, list } from "./numbers.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
-// What the button beside a doubt says, by the step that mends it.
+// What the button beside a warning says, by the step that mends it.
 const MEND = {
   despike: "Fill them smoothly",
   level: "Remove the plane",
@@ -18,8 +18,8 @@ function element(kind, text, more = {}) {
   return Object.assign(document.createElement(kind), { textContent: text }, more);
 }
 
-export function holdings(recipe, crop) {
-  let doubts = [];
+export function surfaceView(recipe, crop) {
+  let warnings = [];
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
   function mended([step]) {
@@ -32,8 +32,8 @@ export function holdings(recipe, crop) {
     return recipe.change((next) => (next.preparation[step] = step === "fill" ? true : value));
   }
 
-  function showDoubts() {
-    by("doubts").replaceChildren(...doubts.map(({ kind, words, remedy, step }) => {
+  function showWarnings() {
+    by("warnings").replaceChildren(...warnings.map(({ kind, words, remedy, step }) => {
       const line = document.createElement("li");
       const done = step !== null && mended(step);
       line.className = done ? "mended" : "";
@@ -57,29 +57,29 @@ export function holdings(recipe, crop) {
   }
 
   return {
-    show: showDoubts,
+    show: showWarnings,
     forget() {
-      doubts = [];
-      showDoubts();
-      by("held").hidden = true;
-      by("holds_none").hidden = false;
-      by("warned").replaceChildren();
+      warnings = [];
+      showWarnings();
+      by("surface_shown").hidden = true;
+      by("surface_none").hidden = false;
+      by("read_warnings").replaceChildren();
       by("channels").replaceChildren();
     },
     // What is shown belongs to another preparation, until its study is done.
     wait() {
       rough = false;
-      by("holds").setAttribute("aria-busy", "true");
-      by("held").classList.add("stale");
+      by("surface").setAttribute("aria-busy", "true");
+      by("surface_shown").classList.add("stale");
     },
     done() {
-      by("holds").setAttribute("aria-busy", "false");
-      by("held").classList.remove("stale");
+      by("surface").setAttribute("aria-busy", "false");
+      by("surface_shown").classList.remove("stale");
       if (rough) return;
       for (const id of ["distribution", "spectrum"]) clear(by(id));
       by("roughness").replaceChildren();
     },
-    refused: () => by("holds").setAttribute("aria-busy", "false"),
+    refused: () => by("surface").setAttribute("aria-busy", "false"),
     channels(found) {
       table(by("channels"), ["Channel", "Points", "Unit", "Size"], found.map(({ name, shape, unit, size, is_height }) => [
         is_height ? name : `${name} (no heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
@@ -88,17 +88,17 @@ export function holdings(recipe, crop) {
     },
     surface({ facts, warned }) {
       by("channels").closest("details").hidden = recipe.now.source.kind !== "file";
-      by("held").hidden = false;
-      by("holds_none").hidden = true;
+      by("surface_shown").hidden = false;
+      by("surface_none").hidden = true;
       const shown = facts.filter(([name]) => name !== "history");
-      listed(by("held_facts"), shown);
-      list(by("warned"), warned);
+      listed(by("surface_facts"), shown);
+      list(by("read_warnings"), warned);
       list(by("history"), facts.filter(([name]) => name === "history").map(([, line]) => line));
     },
     study(header) {
-      if (header.type === "doubts") {
-        doubts = header.doubts;
-        showDoubts();
+      if (header.type === "warnings") {
+        warnings = header.warnings;
+        showWarnings();
       } else if (header.type === "heights") {
         rough = true;
         chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, height: 170, label: "Distribution of the heights", series: [

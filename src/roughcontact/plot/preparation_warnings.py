@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 
-__all__ = ["Doubt", "advice"]
+__all__ = ["PreparationWarning", "preparation_warnings"]
 
 _FEW = 32  # cells along a side: fewer hold no decade of waves between a third of the side and two cells
 _LINES = 8  # fewer rows or columns have no statistics of the steps between them
@@ -26,7 +26,7 @@ _WHOLE = 0.5  # share of a row that must be measured
 
 
 @dataclass(frozen=True, slots=True)
-class Doubt:
+class PreparationWarning:
     """What looks wrong, and the step of ``surface prepare`` that mends it.
 
     Parameters
@@ -50,21 +50,21 @@ class Doubt:
         return f"{self.kind}: {self.words}: {self.remedy}"
 
 
-def advice(surface: Surface) -> tuple[Spikes, list[Doubt]]:
+def preparation_warnings(surface: Surface) -> tuple[Spikes, list[PreparationWarning]]:
     """Return the spikes of a surface, and all that is suspicious with what to do about it."""
     spikes = find_spikes(surface)
     return spikes, [*_spikes(surface, spikes), *_trends(surface), *_steps(surface), *_cells(surface)]
 
 
-def _spikes(surface: Surface, spikes: Spikes) -> Iterator[Doubt]:
+def _spikes(surface: Surface, spikes: Spikes) -> Iterator[PreparationWarning]:
     if spikes.count:
         place = ",".join(str(k) for k in spikes.places[0])
         largest = quantity("heights", float(spikes.height[0]))
         words = f"{spikes}, the largest by {largest}, at cell {place}"
-        yield Doubt("spikes", words, "--despike missing or filled", ("despike", "filled"))
+        yield PreparationWarning("spikes", words, "--despike missing or filled", ("despike", "filled"))
 
 
-def _trends(surface: Surface) -> Iterator[Doubt]:
+def _trends(surface: Surface) -> Iterator[PreparationWarning]:
     """Yield the plane and the quadratic form if they are higher than what is left without them."""
     if all(surface.grid.periodic):
         return
@@ -74,11 +74,11 @@ def _trends(surface: Surface) -> Iterator[Doubt]:
     trend = "plane" if surface.grid.ndim == 2 else "line"
     if tilt > float(np.nanstd(flat)):
         words = f"the {trend} has an rms height of {quantity('rms', tilt)}, more than the rest"
-        yield Doubt("tilt", words, "--level plane", ("level", "plane"))
+        yield PreparationWarning("tilt", words, "--level plane", ("level", "plane"))
     if form > float(np.nanstd(rest)) > 0:
         words = f"the quadratic part has an rms height of {quantity('rms', form)}, more than the rest"
         remedy = "--form 2, sphere or cylinder, for the roughness alone"
-        yield Doubt("form", words, remedy, ("form", "2"))
+        yield PreparationWarning("form", words, remedy, ("form", "2"))
 
 
 def _without(heights: Array, degree: int) -> tuple[Array, float]:
@@ -87,8 +87,8 @@ def _without(heights: Array, degree: int) -> tuple[Array, float]:
     return heights - trend, float(np.std(trend[~np.isnan(heights)]))
 
 
-def _steps(surface: Surface) -> Iterator[Doubt]:
-    """Yield the largest step between two rows or columns, if it is none of chance, and the larger side of it."""
+def _steps(surface: Surface) -> Iterator[PreparationWarning]:
+    """Yield the largest step between two rows or columns, if it is not one of chance, and the larger side of it."""
     if surface.grid.ndim == 1:
         return
     for axis, name in enumerate(("rows", "columns")):
@@ -110,15 +110,16 @@ def _steps(surface: Surface) -> Iterator[Doubt]:
             crop = f"{part},:" if axis == 0 else f":,{part}"
             step = quantity("heights", float(jumps[place]))
             words = f"{step} between {name} {place} and {place + 1}"
-            yield Doubt("step", words, f"--crop {crop} keeps one side", ("crop", crop))
+            yield PreparationWarning("step", words, f"--crop {crop} keeps one side", ("crop", crop))
 
 
-def _cells(surface: Surface) -> Iterator[Doubt]:
+def _cells(surface: Surface) -> Iterator[PreparationWarning]:
     if min(surface.grid.shape) < _FEW:
         cells = " x ".join(str(n) for n in surface.grid.shape)
         words = f"{cells} hold no decade of waves, and no power law"
         remedy = "no option mends that; measure more points, or read another --channel"
-        yield Doubt("few cells", words, remedy)
+        yield PreparationWarning("few cells", words, remedy)
     if surface.missing:
         words = f"{surface.missing / surface.grid.size:.2%}, which contact leaves out"
-        yield Doubt("missing points", words, "--fill for spectra and filters, or --crop", ("fill", ""))
+        remedy = "--fill for spectra and filters, or --crop"
+        yield PreparationWarning("missing points", words, remedy, ("fill", ""))

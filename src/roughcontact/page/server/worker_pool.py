@@ -9,14 +9,14 @@ from pathlib import Path
 
 from roughcontact.page.server.worker_process import WorkerEndedError, WorkerProcess
 
-__all__ = ["Crew"]
+__all__ = ["WorkerPool"]
 
 _BREATH = 3.0  # seconds before the next reserve is started: the first answer comes first
 
 
 @dataclass(slots=True, eq=False)
-class Crew:
-    """Gives workers away, and keeps one in reserve.
+class WorkerPool:
+    """Workers that are ready to be taken, one of them in reserve.
 
     Parameters
     ----------
