@@ -160,13 +160,15 @@ def _suggested(
     loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
-    below = f"{found.below} of them so light that single cells set their area and pressure"
+    below = found.below
     if kind is Geometry.LINE:  # whose forces are not searched for
-        unresolved = load_outlook(surface, modulus, loads, operator).below
-        below = f"{unresolved} of them below what the grid resolves"
+        below = load_outlook(surface, modulus, loads, operator).below
+    small = "below what the grid resolves"
+    if kind is Geometry.SURFACE:  # where the stiffness may be resolved already
+        small = "so light that single cells set their area and pressure"
     note(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
-        f"{below} (--forces for others)"
+        f"{below} of them {small} (--forces for others)"
     )
     for line in found.notes:
         note(line)
