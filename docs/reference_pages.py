@@ -35,6 +35,7 @@ TITLES = {  # in this order
     "study": "Studies",
     "plot": "Pictures",
     "files": "Files",
+    "memory": "Memory",
 }
 
 
