@@ -152,7 +152,7 @@ def adhesive_path(number) -> Iterator[rc.AdhesiveState]:
     else:
         near = np.linspace(-10 * reach, deepest, 6)
         loads = {"depths": np.r_[near, near[-2::-1]]}
-    yield from states_of(surface, adhesion, loads)
+    yield from rc.adhesive_path(surface, MODULUS, adhesion, **loads)
 
 
 def smooth(n, rng):
@@ -161,13 +161,6 @@ def smooth(n, rng):
     gain = np.where((q > 0) & (q < 1 / 8), np.maximum(q, 2 / n) ** -1.8, 0.0)
     heights = np.fft.ifft2(gain * np.fft.fft2(rng.standard_normal((n, n)))).real
     return heights / heights.std()
-
-
-def states_of(surface, adhesion, loads):
-    """Yield the states of a path, by whatever name the library has for it."""
-    if hasattr(rc, "adhesive_path"):
-        return rc.adhesive_path(surface, MODULUS, adhesion, **loads)
-    return rc.loading_path(surface, MODULUS, adhesion=adhesion, **loads)
 
 
 KINDS = [(LOADS, answer), (LOOPS, loop), (PATHS, path)]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.adhesion import detachment_path
 from roughcontact.plot.facts import quantity
 from roughcontact.solver.control import Status
 
@@ -79,13 +80,13 @@ def test_a_small_preload_is_told(invoke, rough):
 
 
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
-    whole = rc.detachment_path
+    whole = detachment_path.states_drawn_back
 
     def interrupted(*arguments, **named):
         yield next(whole(*arguments, **named))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(rc, "detachment_path", interrupted)
+    monkeypatch.setattr(detachment_path, "states_drawn_back", interrupted)
     words = ("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130

@@ -6,14 +6,13 @@ from collections.abc import Iterator, Sequence
 
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve, collect_states
 from roughcontact.adhesion.adhesive_state import AdhesiveState
-from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.adhesion.attraction import Adhesion, require_areas
 from roughcontact.adhesion.path_states import states_along
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.memory_needed import require_memory_for
 from roughcontact.contact.problem import Body, separation_of
 from roughcontact.halfspace.operators.build import body_on
-from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import checked_tolerance
@@ -217,11 +216,7 @@ def states_under(
     require_memory_for(surface, operator)
     value = as_modulus(modulus)
     body = body_on(surface.grid, value, operator)
-    if geometry_of(body) is Geometry.FOUNDATION:
-        raise ValueError(
-            "springs bear forces per length, and no work of adhesion per area: take a half-space, a line or rings; "
-            "for bodies of revolution see mdr.adhesion"
-        )
+    require_areas(body)
     return states_along(
         body,
         separation_of(surface),

@@ -10,12 +10,14 @@ import numpy as np
 
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
 from roughcontact.adhesion.exponential_law import ExponentialLaw
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
 
 if TYPE_CHECKING:
     from roughcontact.adhesion.elastic_form import ElasticForm
 
-__all__ = ["LAWS", "Adhesion", "Attraction", "Law"]
+__all__ = ["LAWS", "Adhesion", "Attraction", "Law", "require_areas"]
 
 REACH = 40.0  # ranges, beyond which an exponential attraction is below the rounding of its largest value
 
@@ -173,3 +175,18 @@ class Attraction(Protocol):
 
     def energy_change(self, gap: Array, step: Array) -> Array:
         """Return the change of the energy per area [J/m^2] when the gap grows by `step`, without cancellation."""
+
+
+def require_areas(body: Operator) -> None:
+    """Refuse a foundation of springs, which has no areas.
+
+    Raises
+    ------
+    ValueError
+        If the body is one.
+    """
+    if geometry_of(body) is Geometry.FOUNDATION:
+        raise ValueError(
+            "springs bear forces per length, and no work of adhesion per area: press a half-space, a line or rings; "
+            "for bodies of revolution see mdr.adhesion"
+        )

@@ -11,7 +11,7 @@ import numpy as np
 
 from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.detachment_path import detachment_path, force_unit_of
+from roughcontact.adhesion.detachment_path import force_unit_of, states_drawn_back
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -19,6 +19,7 @@ from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import stored_in
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
+from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric
 
 __all__ = ["DetachmentCurve", "collect_detachments", "detachment_curve"]
@@ -200,14 +201,12 @@ def detachment_curve(
     >>> f"{curve.pull_off_force / (math.pi * 10e-3 * 1e-5):.2f} pi w R", curve.notes
     ('1.55 pi w R', ())
     """
-    path = detachment_path(solution, work, depths=depths, forces=forces, pressures=pressures)
-    return collect_detachments(path, "depth" if forces is None and pressures is None else "force")
+    loads = Loads.given(depths=depths, forces=forces, pressures=pressures)
+    return collect_detachments(states_drawn_back(solution, work, loads), loads)
 
 
-def collect_detachments(
-    states: Iterable[DetachmentState], control: Literal["depth", "force"]
-) -> DetachmentCurve:
-    """Drain a path, of at least one state, into its points; fields are not kept."""
+def collect_detachments(states: Iterable[DetachmentState], loads: Loads | None) -> DetachmentCurve:
+    """Drain a path along `loads`, of at least one state, into its points; fields are not kept."""
     rows: list[tuple[float, ...]] = []
     events: list[Detachment] = []
     detached_at: list[int] = []
@@ -226,7 +225,7 @@ def collect_detachments(
         detached_at=tuple(detached_at),
         preload_too_small=state.preload_too_small,
         notes=state.notes,
-        control=control,
+        control="depth" if loads is None or loads.kind == "depth" else "force",
         work=state.work,
         modulus=problem.modulus,
         tolerance=problem.tolerance,

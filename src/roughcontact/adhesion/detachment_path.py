@@ -8,18 +8,18 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.adhesion.attraction import require_areas
 from roughcontact.adhesion.detachment import Detachment, StuckContact, mean_compliance
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
-from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.loads import Loads
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, numeric, positive, require
 
-__all__ = ["detachment_path", "force_unit_of"]
+__all__ = ["detachment_path", "force_unit_of", "states_drawn_back"]
 
 
 def force_unit_of(arguments: Mapping[str, Any]) -> str:
@@ -77,13 +77,22 @@ def detachment_path(
     >>> f"{off.pull_off_force * 1e9:.0f} nN"
     '487 nN'
     """
+    return states_drawn_back(solution, work, Loads.given(depths=depths, forces=forces, pressures=pressures))
+
+
+def states_drawn_back(
+    solution: Solution, work: float | Array, loads: Loads | None
+) -> Iterator[DetachmentState]:
+    """Yield the state at each load, see `detachment_path`; without loads, that after the last detachment.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense, at once and not at the first load.
+    """
     preload = solution.on_host()
     problem = preload.problem
-    if problem.geometry is Geometry.FOUNDATION:
-        raise ValueError(
-            "springs bear forces per length, and no work of adhesion per area: press a half-space, a line or rings; "
-            "for bodies of revolution see mdr.adhesion"
-        )
+    require_areas(problem.operator)
     if preload.plastic.any():
         raise ValueError(
             f"{int(np.count_nonzero(preload.plastic))} cells of this solution are at the hardness, and detachment is "
@@ -100,8 +109,8 @@ def detachment_path(
         f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}: give one number, or one "
         "for each cell",
     )
-    loads = Loads.given(depths=depths, forces=forces, pressures=pressures)
-    loads = None if loads is None else _falling(loads.as_forces(problem.grid), preload)
+    if loads is not None:
+        loads = _falling(loads.as_forces(problem.grid), preload)
     with one_blas_thread():
         stuck = StuckContact(
             problem.operator,

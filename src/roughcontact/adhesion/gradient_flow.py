@@ -91,7 +91,7 @@ def flow(
     damping, lost, wait = FIRST, 0.0, 0
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
-        # E18: at rest, though a cell that the wall hardly holds may make the Hessian indefinite.
+        # E18: at rest; the Hessian may still be indefinite where the reaction of the wall on a cell is almost zero.
         if residual <= TOLERANCE * scale:
             return FlowResult(Equilibrium(point, residual / scale, True, lost), lost)
         close = residual <= CLOSE * scale

@@ -125,7 +125,7 @@ class PathAnswer:
             save(drawn(self.found), aside / f"{self.stem}.{ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 
-    def tell(
+    def show(
         self,
         columns: Sequence[str],
         before: Sequence[tuple[str, str]],

@@ -302,8 +302,8 @@ class Curve:
         if quantities is None:
             hidden = self.hardness < math.inf and getattr(theory, "plastic", False)
             names = [name for name in names if hasattr(self, name) and not (hidden and "stiffness" in name)]
-        for unknown in (name for name in names if not hasattr(self, name)):
-            raise ValueError(f"a curve has no {unknown!r}; {theory.name} gives {sorted(theory.quantities)}")
+        if lacks := [name for name in names if not hasattr(self, name)]:
+            raise ValueError(f"a curve has no {lacks[0]!r}; {theory.name} gives {sorted(theory.quantities)}")
         return Comparison(
             theory.name,
             theory.source,

@@ -20,9 +20,9 @@ __all__ = ["memory_needed", "require_memory_for"]
 
 # Bytes per cell beside the heights: of a load on few cells and of the heaviest, and of a curve likewise. They depend on
 # the geometry, and on whether a constant pressure moves nothing: then all cells are solved for, however light the load.
-# Those of rings are for each pair of rings, since their matrix is full. `benchmarks/memory.py` measures them, on grids
-# from 512 x 512 to 4096 x 4096 cells. A lower bound is rounded down, since what works must not be refused: every load
-# writes 9 bytes, the separation and the mask of missing cells.
+# Those of rings are for each pair of rings, since their matrix is full. `benchmarks/memory.py` measures them on maps of
+# 512 x 512 and 2048 x 2048 cells, and lines of up to 640 000. A lower bound is rounded down, since what works must not
+# be refused: every load writes 9 bytes, the separation and the mask of missing cells.
 BYTES = {
     (Geometry.SURFACE, False): (9, 95, 60, 155),
     (Geometry.SURFACE, True): (40, 75, 45, 105),

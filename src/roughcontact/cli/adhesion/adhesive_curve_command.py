@@ -126,7 +126,7 @@ def _answer(
         if folder is not None:
             path.write(folder, control, jump_figure, asked.ending)
     law = law_facts(adhesion, modulus, surface.grid.spacing)
-    path.tell(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found), json=asked.json)
+    path.show(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found), json=asked.json)
     note_unresolved(found.unresolved)
     if found.ambiguous:
         note(

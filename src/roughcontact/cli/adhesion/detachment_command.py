@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING
 
 from roughcontact.cli import options
 from roughcontact.cli.adhesion.adhesion_options import WORK, parse_work
@@ -44,21 +44,20 @@ def detach(
     """
     import roughcontact as rc
     from roughcontact.adhesion.detachment_curve import collect_detachments
+    from roughcontact.adhesion.detachment_path import states_drawn_back
     from roughcontact.plot.detachment_plot import DETACHMENT_COLUMNS, detachment_facts
 
     file, body = reading.source.file, reading.profile
     with reported(file, answer.out, as_json=answer.json):
         given, loads, energy = load.value(body), retreat.values(body), parse_work(work)
-        falling: dict[str, Any] = {} if loads is None else {f"{loads.kind}s": loads.values}
-        kind: Literal["depth", "force"] = "force" if falling.keys() & {"forces", "pressures"} else "depth"
         total = 1 if loads is None else loads.values.size
         with output(answer.out) as folder:
             surface, modulus = reading.surface(), elasticity.reduced_modulus()
             limits = {"operator": reading.body(surface, modulus), "tolerance": answer.residual}
             preload = best_state(rc.press, surface, modulus, **given, **limits)
-            states = rc.detachment_path(preload, energy, **falling)
+            states = states_drawn_back(preload, energy, loads)
             found, whole = collected(
-                states, lambda states: collect_detachments(states, kind), "Drawing back", total
+                states, lambda states: collect_detachments(states, loads), "Drawing back", total
             )
             converged = preload.status.converged and found.converged
             path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachments", converged)
@@ -66,7 +65,7 @@ def detach(
                 [(name, value)] = given.items()
                 control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
                 path.write(folder, control, _drawn, answer.ending)
-        path.tell(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
+        path.show(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
         if not preload.status.converged:
             note("the preload missed the tolerance")
         path.end(folder, answer.ending, total)
