@@ -168,7 +168,7 @@ ADHESION = [
     ),
     row(
         lambda: stuck(PROFILE, depth=1e-9, operator=rc.foundation(LINE, MODULUS)),
-        "take a half-space, a line or rings",
+        "press a half-space, a line or rings",
         lambda: stuck(ROUGH, depth=1e-9),
         lambda: stuck(PROFILE, depth=1e-9, operator=rc.line(LINE, MODULUS)),
         lambda: stuck(rc.RadialProfile(np.zeros(4), rc.RadialGrid.uniform(4, 1e-6)), depth=1e-9),
