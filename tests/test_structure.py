@@ -17,6 +17,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 THESIS = sorted((Path(__file__).parents[1] / "reproduction" / "src").rglob("*.py"))  # its figures
 # Each room may look into those before it, and into itself.
 ORDER = [
+    {"errors"},
     {"cached", "memory", "threads", "units", "version"},
     {"validation"},
     {"late"},

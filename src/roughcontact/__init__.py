@@ -48,6 +48,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
+    from roughcontact.errors import InputError as InputError
     from roughcontact.evaluation.below import (
         StressPeak as StressPeak,
         below as below,

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.units import in_si
 from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
 
@@ -64,7 +65,7 @@ class Grid:
             raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise ValueError(f"spacing must be positive, finite numbers [m], not {steps}")
+            raise InputError(f"spacing must be positive, finite numbers [m], not {steps}", place="spacing")
         # Of a line the spacing may be the area of cells of which it is a list.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
