@@ -38,6 +38,7 @@ ORDER = [
     {"friction"},
     {"mdr"},
     {"files"},
+    {"recipe"},
     {"study"},
     {"plot"},
     {"page"},

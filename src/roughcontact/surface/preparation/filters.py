@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, lengths_method, require
@@ -73,6 +74,12 @@ def filtered(
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
             require_cells(cutoff, surface)
+    if short_cutoff is not None and short_cutoff >= max(grid.lengths):
+        raise InputError(
+            f"a cut-off of {short_cutoff:g} m leaves nothing of a map of {max(grid.lengths):g} m",
+            "give a shorter one, such as 1e-5 m",
+            "short_cutoff",
+        )
     if short_cutoff is not None:
         heights = gaussian_mean(surface.heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
         surface = surface.with_heights(heights, f"Gaussian filter: waves below {short_cutoff:.6g} m removed")

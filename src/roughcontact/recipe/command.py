@@ -1,0 +1,68 @@
+"""A recipe as the command that does it."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from roughcontact.recipe.jobs import Job
+from roughcontact.recipe.recipe_fields import specs
+from roughcontact.recipe.source import File, SelfAffine
+
+__all__ = ["command_of", "option_of"]
+
+_MADE = "rough.npz"
+
+
+def option_of(name: str) -> str:
+    """Return the option that a field of this name becomes."""
+    return f"--{name.replace('_', '-')}"
+
+
+def command_of(job: Job, recipe: str = "job.toml") -> str:
+    """Return the lines of a shell that do a job: a surface that is made is written first.
+
+    A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
+    """
+    if isinstance(job.source, File):
+        return _line(*_words(job), job.source.file, *_options(job))
+    if not isinstance(job.source, SelfAffine):
+        return _line("run", recipe)
+    return "\n".join(
+        [
+            _line("surface", "make", _MADE, *_options_of(job.source)),
+            _line(*_words(job), _MADE, *_options(job)),
+        ]
+    )
+
+
+def _words(job: Job) -> tuple[str, ...]:
+    return ("surface", "prepare") if job.NAME == "surface" else tuple(job.NAME.split())
+
+
+def _line(*parts: str) -> str:
+    return shlex.join(["roughcontact", *parts])
+
+
+def _options(job: Job) -> Iterator[str]:
+    for each in fields(job):
+        part = getattr(job, each.name)
+        if each.name != "source" or isinstance(part, File):
+            yield from _options_of(part)
+
+
+def _options_of(part: Any) -> Iterator[str]:
+    for each, spec in specs(part):
+        value: Any = getattr(part, each.name)
+        if value == each.default or not spec.option or each.name == "file" or is_dataclass(value):
+            continue
+        if isinstance(value, bool):
+            yield "--free" if each.name == "periodic" and not value else option_of(each.name)
+            continue
+        for text in value if isinstance(value, tuple) else (value,):
+            # Of a value that begins with a minus sign, the command would take the sign for that of an option.
+            yield from (
+                [f"{option_of(each.name)}={text}"] if text.startswith("-") else [option_of(each.name), text]
+            )

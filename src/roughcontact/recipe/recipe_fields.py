@@ -1,0 +1,151 @@
+"""A field of a recipe, declared once: options of commands, forms, files and checks derive from it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import MISSING, Field, dataclass, field, fields
+from typing import Any, get_type_hints
+
+from roughcontact.errors import InputError, placed
+from roughcontact.units import as_text
+
+__all__ = ["Spec", "check", "described", "given", "specs", "value_of"]
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What is known of a field beside its name, its type and its default.
+
+    Parameters
+    ----------
+    help : str
+        What it is, in a sentence or two, for people.
+    example : str or None
+        What its value looks like; None for a flag and for a choice.
+    read : function
+        Turns the text of the user into the value, in SI; raises `InputError` for a text that is none.
+    choices : tuple of str
+        The texts that are possible, where they can be listed.
+    needs : str or None
+        The field of the same part without which this one has no meaning.
+    everyday : bool
+        Whether most users need it: it stands in the short help, and at the top of a form.
+    needs_whole : bool
+        Whether it takes the whole surface, of which each of several processes holds some rows only.
+    option : bool
+        Whether a command takes it as an option.
+    step : Any
+        Of a preparation: what the value is an argument of; see `roughcontact.recipe.preparation`.
+    """
+
+    help: str
+    example: str | None
+    read: Callable[[Any], Any]
+    choices: tuple[str, ...] = ()
+    needs: str | None = None
+    everyday: bool = False
+    needs_whole: bool = False
+    option: bool = True
+    step: Any = None
+
+
+def described(
+    help: str,
+    example: str | None = None,
+    *,
+    read: Callable[[Any], Any] = str,
+    default: Any = None,
+    **more: Any,
+) -> Any:
+    """Return the declaration of a field; without a default (``...``) it must be given. `more` goes to its `Spec`.
+
+    Where `read` lists its ``choices``, these are the choices of the field.
+    """
+    spec = Spec(help, example, read, choices=getattr(read, "choices", ()), **more)
+    return field(default=MISSING if default is ... else default, metadata={"spec": spec})
+
+
+def specs(part: Any) -> Iterator[tuple[Field[Any], Spec]]:
+    """Yield the fields of a part, a value or its class, with what is known of them."""
+    for each in fields(part):
+        if (spec := each.metadata.get("spec")) is not None:
+            yield each, spec
+
+
+def given(part: Any) -> dict[str, Any]:
+    """Return the fields of a part that differ from their defaults, by name: all that has to be written down."""
+    return {each.name: value for each in fields(part) if (value := getattr(part, each.name)) != each.default}
+
+
+def value_of(part: Any, name: str) -> Any:
+    """Return the value of a field in SI; None where it was left out."""
+    text, spec = getattr(part, name), next(spec for each, spec in specs(part) if each.name == name)
+    if text is None or isinstance(text, bool):
+        return text
+    with placed(name):
+        return tuple(map(spec.read, text)) if isinstance(text, tuple) else spec.read(text)
+
+
+def check(part: Any) -> None:
+    """Take every field as text, and refuse what is none, stands alone, or excludes another.
+
+    A class may name in ``ONE_OF`` fields of which exactly one must be given, and in ``AT_MOST`` those of which several
+    exclude each other.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be read, or does not go with the others; its place is the field.
+    """
+    hints = get_type_hints(type(part))
+    for each, spec in specs(part):
+        value = getattr(part, each.name)
+        if value == each.default:
+            continue
+        if spec.needs is not None and not getattr(part, spec.needs):
+            raise InputError(
+                f"{each.name} belongs to {spec.needs}, which is not given",
+                f"give {spec.needs} too",
+                each.name,
+            )
+        with placed(each.name):
+            object.__setattr__(part, each.name, _as_declared(value, hints[each.name], spec))
+        value_of(part, each.name)
+    for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
+        _require_one(part, names, must)
+
+
+def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
+    found = [name for name in names if getattr(part, name) is not None]
+    if len(found) > 1:
+        raise InputError(f"{' and '.join(found)} exclude each other", "give one of them", ", ".join(found))
+    if must and names and not found:
+        examples = {each.name: spec.example for each, spec in specs(part)}
+        raise InputError(
+            f"none of {', '.join(names)} is given",
+            f"give one, such as {names[0]} = {examples[names[0]]}",
+            names[0],
+        )
+
+
+def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
+    """Return a value as the type of its field: a flag, a text, or texts."""
+    if kind == tuple[str, ...]:
+        parts = [value] if isinstance(value, str) else list(value)
+        return tuple(_text(part) for part in parts)
+    if kind in (bool, bool | None):
+        if not isinstance(value, bool):
+            raise InputError(f"{value!r} is neither true nor false", "write true or false")
+        return value
+    return _text(value)
+
+
+def _text(value: Any) -> str:
+    """Return a number or a quantity as the user could have written it."""
+    value = as_text(value)
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise InputError(
+            f"{value!r} is no value of a recipe",
+            "give a number in SI units or a text with a unit, such as '5 um'",
+        )
+    return value.strip() if isinstance(value, str) else repr(value)

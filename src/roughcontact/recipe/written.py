@@ -1,0 +1,190 @@
+"""Recipes as plain values and as files: TOML to read and to edit, JSON inside results."""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import json
+import os
+import tomllib
+import types
+from collections.abc import Mapping
+from dataclasses import MISSING, fields, is_dataclass, replace
+from pathlib import Path
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from roughcontact.errors import InputError, within
+from roughcontact.files.file_errors import ReadError
+from roughcontact.recipe.jobs import JOBS, Job
+from roughcontact.recipe.recipe_fields import given
+from roughcontact.recipe.source import Combined, File, Source
+
+__all__ = ["FORMAT", "from_plain", "located", "pinned", "read_job", "require_same_files", "to_plain"]
+
+FORMAT = 1  # of recipes: to be raised when what was written before means something else
+
+
+def to_plain(job: Job) -> dict[str, Any]:
+    """Return a job as nested dictionaries of texts and flags: what differs from the defaults, and the format."""
+    return {"format": FORMAT, "job": job.NAME, **_plain(job)}
+
+
+def _plain(part: Any) -> dict[str, Any]:
+    kind = {"kind": part.KIND} if hasattr(part, "KIND") else {}
+    found = {name: _plain(value) if is_dataclass(value) else value for name, value in given(part).items()}
+    return {
+        **kind,
+        **{
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in found.items()
+            if value != {}
+        },
+    }
+
+
+def from_plain(plain: Mapping[str, Any]) -> Job:
+    """Return the job that nested dictionaries state.
+
+    Raises
+    ------
+    InputError
+        If they state none: the place is the part and the field.
+    """
+    values = dict(plain)
+    number = values.pop("format", FORMAT)
+    if number != FORMAT:
+        raise InputError(
+            f"the recipe has the format {number!r}, and this version reads {FORMAT}",
+            "take the version of roughcontact that wrote it",
+            "format",
+        )
+    name = values.pop("job", None)
+    if name not in JOBS:
+        raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
+    job: Job = _part(JOBS[name], values)
+    return job
+
+
+def _part(kind: Any, values: Any) -> Any:
+    """Return a part made of its fields, each of the type that is declared."""
+    if not isinstance(values, Mapping):
+        raise InputError(f"{values!r} is no table of fields", f"write {_names(kind)}")
+    hints, known = get_type_hints(kind), {each.name: each for each in fields(kind)}
+    for name in values:
+        if name not in known:
+            near = difflib.get_close_matches(str(name), known, 1)
+            remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
+            raise InputError(f"there is no {name!r} here", remedy, str(name))
+    for name, each in known.items():
+        if name not in values and each.default is MISSING and each.default_factory is MISSING:
+            raise InputError(f"{name} is missing", f"give {name}", name)
+    return kind(**{name: _value(name, hints[name], value) for name, value in values.items()})
+
+
+def _value(name: str, kind: Any, value: Any) -> Any:
+    members = [each for each in get_args(kind) if is_dataclass(each)] if _is_union(kind) else []
+    with within(name):
+        if members:
+            return _of_kind(members, value)
+        return _part(kind, value) if is_dataclass(kind) else value
+
+
+def _of_kind(members: list[Any], values: Any) -> Any:
+    """Return a part of the kind that its table names; a table with a file is a file."""
+    if not isinstance(values, Mapping):
+        raise InputError(
+            f"{values!r} is no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
+        )
+    kinds = {each.KIND: each for each in members}
+    left = {name: value for name, value in values.items() if name != "kind"}
+    kind = values.get("kind", File.KIND if "file" in values else None)
+    if kind not in kinds:
+        raise InputError(f"there is no kind {kind!r} of it", f"choose of {', '.join(kinds)}", "kind")
+    return _part(kinds[kind], left)
+
+
+def _is_union(kind: Any) -> bool:
+    return get_origin(kind) in (Union, types.UnionType)
+
+
+def _names(kind: Any) -> str:
+    return ", ".join(each.name for each in fields(kind))
+
+
+def read_job(path: Path) -> Job:
+    """Return the job in a file: TOML, or a JSON result that carries its recipe. Its files lie where it lies.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    InputError
+        If it states no job.
+    """
+    try:
+        text = path.read_bytes().decode()
+        plain = json.loads(text) if path.suffix.casefold() == ".json" else tomllib.loads(text)
+    except OSError as error:
+        raise ReadError(str(path), error.strerror or str(error), "name a job, such as job.toml") from error
+    except ValueError as error:
+        raise ReadError(
+            str(path), f"it is no recipe: {error}", "write a job by --write-recipe, and edit it"
+        ) from error
+    if isinstance(plain, Mapping) and "recipe" in plain:
+        plain = plain["recipe"]
+    return located(from_plain(plain), path.parent)
+
+
+def located(job: Job, folder: Path) -> Job:
+    """Return a job whose relative file names, which count from a folder, count from the current one."""
+    return _with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+
+
+def pinned(job: Job, folder: Path) -> Job:
+    """Return a job whose files are named from a folder, with their fingerprints."""
+
+    def pin(file: File) -> File:
+        name = os.path.relpath(file.file, folder)
+        return replace(file, file=Path(name).as_posix(), sha256=_digest(Path(file.file)))
+
+    return _with_files(job, pin)
+
+
+def require_same_files(job: Job) -> None:
+    """Refuse a job of which a file is not the one that it was.
+
+    Raises
+    ------
+    InputError
+        If the fingerprint of a file differs from the one that the recipe states.
+    """
+
+    def require(file: File) -> File:
+        if file.sha256 is not None and _digest(Path(file.file)) != file.sha256:
+            raise InputError(
+                f"{file.file} is not the file that the recipe was written for: its SHA-256 differs",
+                "give that file, or leave out sha256 to take this one",
+                "source.sha256",
+            )
+        return file
+
+    _with_files(job, require)
+
+
+def _with_files(job: Job, change: Any) -> Job:
+    def changed(source: Source) -> Source:
+        if isinstance(source, Combined):
+            return replace(source, lower=changed(source.lower), upper=changed(source.upper))
+        return change(source) if isinstance(source, File) else source
+
+    return replace(job, source=changed(job.source))
+
+
+def _digest(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise ReadError(
+            str(path), error.strerror or str(error), "give the name of a file that is there"
+        ) from error
