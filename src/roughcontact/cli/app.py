@@ -64,7 +64,6 @@ app = typer.Typer(
     "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
     "130 interrupted, 143 terminated.",
     no_args_is_help=True,
-    add_completion=False,
     # A mistake of ours shows itself as Python shows it.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",

@@ -41,7 +41,7 @@ def late_group(
             module = added().get(cmd_name) if known is None else modules.get(cmd_name)
             if module is not None:
                 return _imported(module, cmd_name)
-            if known is None:
+            if known is None and not ctx.resilient_parsing:  # as completion parses
                 refuse(cmd_name)
             return known
 
@@ -49,17 +49,24 @@ def late_group(
             return list(dict.fromkeys([*super().list_commands(ctx), *added()]))
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
-            # The same group of commands that have but a summary.
+            self._summarised().format_help(ctx, formatter)
+
+        def shell_complete(self, ctx: Any, incomplete: str) -> Any:
+            ctx.command = self._summarised()  # typer asks the command of the context for names and summaries
+            return ctx.command.shell_complete(ctx, incomplete)
+
+        def _summarised(self) -> TyperGroup:
+            """Return the same group of commands that have but a summary."""
             every = {**added(), **modules}
             summaries = {name: TyperCommand(name, help=_summary(every[name], name)) for name in every}
-            TyperGroup(
+            return TyperGroup(
                 name=self.name,
                 commands={**self.commands, **summaries},
                 params=self.params,
                 help=self.help,
                 epilog=self.epilog,
                 rich_markup_mode=self.rich_markup_mode,
-            ).format_help(ctx, formatter)
+            )
 
     return LateGroup
 

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.unit_options import Kind, parse
-from roughcontact.material import Solid, reduced_modulus
-from roughcontact.materials import Material, handbook
 
-__all__ = ["known_material", "modulus_of", "parse_bodies", "softer_of"]
+if TYPE_CHECKING:
+    from roughcontact.material import Solid
+    from roughcontact.materials import Material
 
+__all__ = ["METALS", "known_material", "modulus_of", "parse_bodies", "softer_of"]
+
+# Those of `materials`, whose numbers the help and the completion of options do not wait for.
+METALS = (
+    *("steel", "stainless-steel", "aluminium", "titanium", "copper", "silver", "gold", "nickel"),
+    "tungsten",
+)
 _RIGID = "rigid"
 
 
@@ -22,6 +30,8 @@ def known_material(text: str) -> Material | None:
     UsageError
         If the text is neither.
     """
+    from roughcontact.materials import handbook
+
     word = text.strip()
     if not word[:1].isalpha():
         return None
@@ -39,6 +49,8 @@ def modulus_of(text: str) -> float:
     UsageError
         If the text does not name two bodies, or names two rigid ones.
     """
+    from roughcontact.material import Solid, reduced_modulus
+
     names = [part.strip() for part in text.split(",")]
     if len(names) != 2 or not all(names):
         raise UsageError(

@@ -12,7 +12,7 @@ import typer
 from roughcontact.cli.job import require_one_process
 from roughcontact.cli.messages import reported
 
-__all__ = ["argument", "flag", "grouped", "option"]
+__all__ = ["argument", "flag", "grouped", "listed", "option"]
 
 _Declared = tuple[str, Any, Any, str | None]  # name, type, declaration and panel of an option
 
@@ -43,6 +43,16 @@ def argument(text: str, metavar: str, default: Any = ...) -> Any:
 def flag(name: str) -> str:
     """Return the option that the field of this name becomes."""
     return f"--{name.replace('_', '-')}"
+
+
+def listed(*names: str) -> Callable[[str], list[str]]:
+    """Return what completes the last name of a comma list, for the `autocompletion` of an option."""
+
+    def complete(incomplete: str) -> list[str]:
+        done, comma, begun = incomplete.rpartition(",")
+        return [f"{done}{comma}{name}" for name in names if name.startswith(begun)]
+
+    return complete
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli.contact.profile_options import PROFILE, ProfileBody
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.material_options import known_material, modulus_of, softer_of
+from roughcontact.cli.material_options import METALS, known_material, modulus_of, softer_of
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
-from roughcontact.cli.option_groups import argument, flag, option
+from roughcontact.cli.option_groups import argument, flag, listed, option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import doing
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
-from roughcontact.materials import MATERIALS
 
 if TYPE_CHECKING:
     from roughcontact.halfspace.operators.operator import Operator
@@ -232,8 +231,9 @@ class Elasticity:
     PANEL: ClassVar = "The two bodies"
     modulus: str | None = option("Reduced modulus E*.", "110GPa")
     materials: str | None = option(
-        f"Both bodies by name, in place of --modulus: {', '.join(MATERIALS)}; or rigid for one of them.",
+        f"Both bodies by name, in place of --modulus: {', '.join(METALS)}; or rigid for one of them.",
         "steel,aluminium",
+        autocompletion=listed(*METALS, "rigid"),
     )
     young: str | None = option("Young's modulus, in place of --modulus.", "210GPa")
     poisson: str | None = option("Poisson's ratio.", "0.3")
@@ -275,6 +275,7 @@ class TwoBodies:
     hardness: str | None = option(
         "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
         "2GPa",
+        autocompletion=listed(*METALS),
     )
 
     def softer(self) -> tuple[float, str] | None:

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import note
 from roughcontact.cli.report import doing, quantity
 from roughcontact.files.own_errors import is_ours
@@ -43,6 +42,7 @@ class Pressed:
     @classmethod
     def of(cls, surface: Surface, modulus: float, softer: tuple[float, str] | None) -> Pressed:
         """Return what a surface is; say on standard error why a known hardness gives no index."""
+        from roughcontact.arrays import is_numpy
         from roughcontact.contact.loads.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)

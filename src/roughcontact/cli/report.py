@@ -11,35 +11,37 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli.messages import note
-from roughcontact.plot.adhesive_facts import (
-    ADHESIVE_COLUMNS,
-    adhesive_curve_facts,
-    adhesive_facts,
-    law_facts,
-)
-from roughcontact.plot.facts import (
-    AREAL_COLUMNS,
-    CURVE_COLUMNS,
-    bend_words,
-    curve_facts,
-    load_table,
-    loop_facts,
-    quantity,
-    size_of,
-    solution_facts,
-    surface_facts,
-    surface_record,
-)
+from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from rich.console import Console
 
+    from roughcontact.plot.adhesive_facts import adhesive_curve_facts, adhesive_facts, law_facts
+    from roughcontact.plot.facts import (
+        bend_words,
+        curve_facts,
+        load_table,
+        loop_facts,
+        quantity,
+        size_of,
+        solution_facts,
+        surface_facts,
+        surface_record,
+    )
+else:  # late: the help and the completion of options do not wait for NumPy
+    _HOMES = {
+        "adhesive_facts": "adhesive_curve_facts adhesive_facts law_facts",
+        "facts": (
+            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts surface_facts "
+            "surface_record"
+        ),
+    }
+    for _home, _names in _HOMES.items():
+        globals().update({name: LateMethod(f"roughcontact.plot.{_home}", name) for name in _names.split()})
+
 __all__ = [
-    "ADHESIVE_COLUMNS",
-    "AREAL_COLUMNS",
-    "CURVE_COLUMNS",
     "adhesive_curve_facts",
     "adhesive_facts",
     "bend_words",

@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from roughcontact.cli.messages import UsageError
 from roughcontact.files import quantity
@@ -23,6 +21,10 @@ from roughcontact.files.quantity import (
     STIFFNESS_PER_AREA,
     Kind,
 )
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 __all__ = [
     "AREA",
@@ -194,6 +196,8 @@ def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
     UsageError
         If the text holds no load, or loads that are not positive and increasing.
     """
+    import numpy as np
+
     if ":" in text:
         loads = _log_spaced(text, kind, option)
     else:
@@ -218,6 +222,8 @@ def parse_path(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
     UsageError
         If the text holds no load, or a range that is none.
     """
+    import numpy as np
+
     loads: list[float] = []
     for part in (part for part in text.split(",") if part.strip()):
         ends = part.split(":")
@@ -284,6 +290,8 @@ def _named(option: str) -> Iterator[None]:
 
 
 def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
+    import numpy as np
+
     parts = text.split(":")
     example = _range_example(kind)
     if len(parts) != 3 or re.fullmatch(r"\s*\d+\s*", parts[2]) is None:

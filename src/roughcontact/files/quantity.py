@@ -6,8 +6,6 @@ import math
 import re
 from dataclasses import dataclass
 
-from roughcontact.units import registry
-
 __all__ = [
     "AREA",
     "CONDUCTIVITY",
@@ -134,6 +132,8 @@ def _factor(unit: str, kind: Kind, text: str) -> float:
     if prefix != unit and prefix in _PREFIXES:
         return _PREFIXES[prefix]
     expected = f"expected {kind.name} such as {kind.example}"
+    from roughcontact.units import registry  # late: it brings NumPy, and pint when it is called
+
     # Asked for a unit that is right first: a broken pint is not the fault of the given one.
     units = registry()
     wanted = units.parse_units(kind.unit).dimensionality

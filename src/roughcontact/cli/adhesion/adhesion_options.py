@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-
-from roughcontact.adhesion.attraction import LAWS
 from roughcontact.cli.messages import note
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import quantity
@@ -20,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["WORK", "AdhesionLaw", "LawChoice", "note_long_range", "note_unresolved", "parse_work"]
 
-LawChoice = StrEnum("LawChoice", list(LAWS))  # type: ignore[misc]  # no literal: it grows with the table
+LawChoice = StrEnum("LawChoice", ["EXPONENTIAL", "DUGDALE"])
 _PANEL = "Adhesion"
 WORK: str = option(
     "Work of adhesion: the energy that parts a unit area.", "50mJ/m^2", default=..., rich_help_panel=_PANEL
@@ -38,7 +35,7 @@ class AdhesionLaw:
         "20nm",
         default=...,
     )
-    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice("exponential"))
+    law: LawChoice = option("How the attraction falls with the gap.", default=LawChoice.EXPONENTIAL)
     allow_unresolved: bool = option(
         "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",
         default=False,
@@ -71,6 +68,8 @@ def parse_work(text: str) -> float:
 
 def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
     """Say on standard error if the attraction reaches beyond the heights of a surface: a forgotten unit."""
+    import numpy as np
+
     span = float(np.nanmax(surface.heights) - np.nanmin(surface.heights))
     if adhesion.range > span > 0:
         note(

@@ -11,7 +11,7 @@ from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import output
 from roughcontact.cli.path_answer import PathAnswer, collected
-from roughcontact.cli.report import ADHESIVE_COLUMNS, adhesive_curve_facts, law_facts
+from roughcontact.cli.report import adhesive_curve_facts, law_facts
 from roughcontact.cli.unit_options import LENGTH, parse
 
 if TYPE_CHECKING:
@@ -105,6 +105,7 @@ def _answer(
     from roughcontact.adhesion.adhesive_curve import collect_states
     from roughcontact.adhesion.adhesive_loading import states_under
     from roughcontact.adhesion.adhesive_loop import until_off
+    from roughcontact.plot.adhesive_facts import ADHESIVE_COLUMNS
     from roughcontact.plot.jumps import jump_figure
     from roughcontact.solver.loads import Loads
 

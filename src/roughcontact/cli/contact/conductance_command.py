@@ -8,16 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli import options
-from roughcontact.cli.material_options import parse_bodies
+from roughcontact.cli.material_options import METALS, parse_bodies
 from roughcontact.cli.messages import UsageError, plain, reported
-from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.option_groups import argument, listed, option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
 from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
 from roughcontact.cli.unit_options import CONDUCTIVITY, RESISTIVITY
 from roughcontact.files.installed import lacking
-from roughcontact.labels import contact_columns
-from roughcontact.labels.column import names_of
 
 if TYPE_CHECKING:
     import xarray
@@ -25,9 +23,6 @@ if TYPE_CHECKING:
     from roughcontact.evaluation.conduction import Conductors
 
 __all__ = ["EXAMPLES", "Materials", "conductance", "conduction_facts", "shown_columns"]
-
-CONDUCTION = names_of(contact_columns.CONDUCTION)
-CONDUCTION_PER_AREA = names_of(contact_columns.CONDUCTION_PER_AREA)
 
 EXAMPLES = {
     "conductance": """
@@ -53,8 +48,11 @@ class Materials:
         "Electrical resistivity of both bodies, or of one and the other, as numbers or names of materials such as "
         "copper,gold: gives the resistance of the contact.",
         "17nohm*m[,...]",
+        autocompletion=listed(*METALS),
     )
-    conductivity: str | None = option("Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]")
+    conductivity: str | None = option(
+        "Thermal conductivity of both bodies, likewise.", "400W/m/K[,...]", autocompletion=listed(*METALS)
+    )
     of: Part = option(
         "Conductance and resistance of the interface alone, per area, or the total of this patch between two "
         "half-spaces, its spreading resistance included.",
@@ -98,7 +96,7 @@ def conductance(
             curve = _read(path)
             answer = with_conductance(curve, conductors, materials.of.value)
             names = shown_columns(answer)
-            names = ["nominal_pressure" if names[0] in CONDUCTION_PER_AREA else "force", *names]
+            names = ["nominal_pressure" if names[0] in _conduction()[1] else "force", *names]
             if folder is not None:
                 _write(answer, names, folder, ending)
         if json:
@@ -111,8 +109,8 @@ def conductance(
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:
     """Return the names of what a contact conducts: per area where it is so given."""
-    found = [[name for name in names if name in dataset] for names in (CONDUCTION_PER_AREA, CONDUCTION)]
-    return found[0] or found[1]
+    found, per_area = ([name for name in names if name in dataset] for names in _conduction())
+    return per_area or found
 
 
 def conduction_facts(dataset: xarray.Dataset, of: str) -> list[tuple[str, str]]:
@@ -120,6 +118,14 @@ def conduction_facts(dataset: xarray.Dataset, of: str) -> list[tuple[str, str]]:
     from roughcontact.evaluation.conduction import part_words
 
     return [("conductance of", part_words(dataset, of))]
+
+
+def _conduction() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of what a contact conducts, in total and per area."""
+    from roughcontact.labels.column import names_of
+    from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
+
+    return names_of(CONDUCTION), names_of(CONDUCTION_PER_AREA)
 
 
 def _read(path: Path) -> xarray.Dataset:
@@ -149,7 +155,7 @@ def _record(answer: xarray.Dataset, names: list[str], path: Path) -> dict[str, A
     from roughcontact.labels.labelled import plain_values
 
     remarks = [name for name in ("resolved", "status") if name in answer]
-    names = list(dict.fromkeys(["force", *names, *(name for name in CONDUCTION if name in answer)]))
+    names = list(dict.fromkeys(["force", *names, *(name for name in _conduction()[0] if name in answer)]))
     columns = {name: plain_values(answer[name].to_numpy()) for name in (*names, *remarks)}
     units = {name: answer[name].attrs["units"] for name in names}
     return {"command": "conductance", "file": plain(str(path)), **columns, "units": units}

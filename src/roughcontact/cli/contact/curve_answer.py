@@ -15,9 +15,6 @@ from roughcontact.cli.contact.theory_options import deviations, exponents, param
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.files.own_errors import is_ours
-from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.column import names_of
-from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
 
 if TYPE_CHECKING:
     import xarray
@@ -153,6 +150,8 @@ class CurveAnswer:
     def record(self) -> dict[str, Any]:
         """The answer as plain values."""
         from roughcontact.contact.dataset import curve_record
+        from roughcontact.labels.column import names_of
+        from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
         from roughcontact.labels.labelled import plain_values
 
         conducted = {
@@ -205,6 +204,9 @@ class CurveAnswer:
 
     def tell(self, json: bool, loop: Loop | None = None) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
+        from roughcontact.halfspace.operators.geometry import Geometry
+        from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
+
         curve = self.curve
         if json:
             report.emit(self.record | ({} if loop is None else {"loop": loop.to_record()}))
@@ -212,7 +214,7 @@ class CurveAnswer:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
             report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
-            columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
+            columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
             local = exponents(curve, self.comparisons)

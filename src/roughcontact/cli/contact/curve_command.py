@@ -25,7 +25,6 @@ from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.cli.units_of_answer import Units
-from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
@@ -152,6 +151,7 @@ def _suggested(
     """Return the forces [N] that suit a surface, and say which they are."""
     from roughcontact.contact.loads.load_outlook import load_outlook
     from roughcontact.contact.loads.load_range import load_range
+    from roughcontact.halfspace.operators.geometry import Geometry
     from roughcontact.halfspace.operators.operator import geometry_of
     from roughcontact.solver.loads import Loads
 

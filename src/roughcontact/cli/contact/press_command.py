@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.arrays import max_abs
 from roughcontact.cli import options
 from roughcontact.cli.contact.error_options import Errors, LoadErrors
 from roughcontact.cli.contact.plastic_options import AfterLoad
@@ -108,6 +107,7 @@ def press(
 
 
 def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
+    from roughcontact.arrays import max_abs
     from roughcontact.contact.dataset import solution_record
 
     surface = solution.problem.surface

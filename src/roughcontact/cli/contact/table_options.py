@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli.messages import UsageError, note
-from roughcontact.cli.option_groups import option
+from roughcontact.cli.option_groups import listed, option
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.unit_options import AREA, parse_positive
 from roughcontact.files.own_errors import is_ours
@@ -37,6 +37,7 @@ class InterfaceTables:
         "(SI), abaqus-mm (mm, N, MPa), lammps.",
         "abaqus,lammps,...",
         needs_whole=True,
+        autocompletion=listed(*_FILES),
     )
     table_area: str | None = option(
         "Nominal area that the forces of --table lammps are for (default: that of the map).", "1mm^2"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli.messages import UsageError
-from roughcontact.cli.option_groups import option
+from roughcontact.cli.option_groups import listed, option
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
 from roughcontact.files.own_errors import is_ours
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Theories", "deviations", "exponents", "parameters"]
 
+# Those of `theory/laws`, for which the help and the completion of options do not wait.
+THEORIES = (
+    *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
+    *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
+)
 # In words and units: what a theory takes from the heights where the user does not say it.
 _TAKEN = {
     "hurst": ("H (fitted)", ""),
@@ -38,11 +43,11 @@ class Theories:
 
     PANEL: ClassVar = "Theories"
     theory: str | None = option(
-        "Theories to overlay on the curve: persson, finite-size, gw, gw-exponential, bgt, cgp, mikic, cmy, ceb, "
-        "kogut-etsion, persson-plastic, pullen-williamson, power-law, rough-square, hertz, rough-sphere. They take "
-        "spectrum and moments from the surface, and say which.",
+        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, "
+        "and say which.",
         "persson,gw,...",
         needs_whole=True,
+        autocompletion=listed(*THEORIES),
     )
     hurst: str | None = option("Hurst exponent, for theories (default: fitted).", "0.8")
     rolloff: str | None = option("Roll-off wavelength, for finite-size.", "20um")
