@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, cast
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.picture_options import PictureFormat, picture_ending
+from roughcontact.cli.options import PictureFormat, picture_ending
 from roughcontact.cli.report import doing, print_facts
 from roughcontact.cli.resumable import resumable
-from roughcontact.cli.unit_options import parse_seed
+from roughcontact.errors import placed
+from roughcontact.recipe.texts import whole
 
 if TYPE_CHECKING:
     import xarray
@@ -71,7 +72,8 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
             raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
         if wanted.scale not in _SCALES:
             raise UsageError(f"--scale: {wanted.scale!r} is no scale; write {' or '.join(_SCALES)}")
-        chosen = None if wanted.seed is None else parse_seed(wanted.seed, "--seed")
+        with placed("seed"):
+            chosen = None if wanted.seed is None else whole(0, "the seed")(wanted.seed)
         workers = None if wanted.as_is else wanted.workers or 0
         with output(wanted.out):
             for each in FIGURES if name == "all" else (name,):

@@ -12,7 +12,8 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from roughcontact.cli.option_groups import grouped
+from roughcontact.cli.option_groups import HELP_ALL, grouped
+from roughcontact.cli.short_help import write_short_help
 
 __all__ = ["late_group"]
 
@@ -72,7 +73,15 @@ def late_group(
 
 
 class _Command(TyperCommand):
-    """A command that names those that have an option which it lacks, and shows how an option that is missing looks."""
+    """A command whose help fits a screen, and that says of a wrong or missing option which are meant."""
+
+    more: frozenset[str] = frozenset()  # parameters that the short help only names
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        if self.more and HELP_ALL not in ctx.meta:
+            write_short_help(self, ctx, formatter, self.more)
+        else:
+            super().format_help(ctx, formatter)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         try:
@@ -116,8 +125,11 @@ def _imported(module: str, name: str) -> Any:
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    alone.command(name, cls=_Command, epilog=epilog)(grouped(members[name]))
-    return typer.main.get_command(alone)
+    command: Any = grouped(members[name])
+    alone.command(name, cls=_Command, epilog=epilog)(command)
+    found: Any = typer.main.get_command(alone)
+    found.more = command.more
+    return found
 
 
 def _summary(module: str, name: str) -> str:

@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from decimal import Decimal
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +18,11 @@ import typer
 
 from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.errors import InputError
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.files.own_errors import is_ours
 from roughcontact.memory import MemoryWarning
+from roughcontact.recipe.recipe_fields import option_of
 
 __all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
 
@@ -40,10 +43,11 @@ _OPTIONS = (
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
 
+_FIELD = re.compile(r"`(\w+)`")  # of a recipe
 _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
-class UsageError(ValueError):
+class UsageError(InputError):
     """An option that makes no sense; the message says what to write instead."""
 
 
@@ -129,7 +133,19 @@ def plain(text: str) -> str:
 def _message(error: ValueError | OSError) -> str:
     if isinstance(error, OSError) and error.filename is not None:
         return f"{os.fsdecode(error.filename)}: {error.strerror or error}"
-    return str(error)
+    text = _FIELD.sub(lambda name: option_of(name[1]), str(error))
+    options = _as_options(getattr(error, "place", None))
+    return text if all(option in text for option in options) else f"{', '.join(options)}: {text}"
+
+
+def _as_options(place: str | None) -> list[str]:
+    """Return the options of the command that runs which a place in its job stands for."""
+    # typers bring click with them, or import it
+    home = typer.Context.__mro__[1].__module__.rpartition(".")[0]
+    context = import_module(f"{home}.globals").get_current_context(silent=True)
+    known = set() if context is None else {name for each in context.command.params for name in each.opts}
+    options = [option_of(part.rpartition(".")[2]) for part in (place or "").split(", ")]
+    return [option for option in options if option in known]
 
 
 def _line(text: str) -> str:

@@ -11,8 +11,9 @@ import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from roughcontact.cached import cached_property
+from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import (
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.recipe.jobs import Job
     from roughcontact.surface.surface import Surface
 
 __all__ = ["PathAnswer", "collected"]
@@ -74,9 +76,7 @@ class PathAnswer:
 
     Parameters
     ----------
-    command : str
-    file : Path
-        Where the surface comes from.
+    job : Job
     surface : Surface
     found : AdhesiveCurve or DetachmentCurve
     whole : bool
@@ -87,8 +87,7 @@ class PathAnswer:
         Whether the tolerance was met.
     """
 
-    command: str
-    file: Path
+    job: Job
     surface: Surface
     found: AdhesiveCurve | DetachmentCurve
     whole: bool
@@ -99,8 +98,8 @@ class PathAnswer:
     def record(self) -> dict[str, Any]:
         """Return the answer as plain values."""
         return {
-            "command": f"adhesion {self.command}",
-            "file": plain(str(self.file)),
+            "command": self.job.NAME,
+            "file": name_of(self.job.source),
             "surface": list(self.surface.provenance),
             "kind": self._pressed.kind.value,
             **self.found.to_record(),

@@ -1,13 +1,12 @@
-"""What is pressed: the kind of the map, whether its asperities stay elastic, and one state of it."""
+"""What is pressed: the kind of the map, whether its asperities stay elastic."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.messages import note
-from roughcontact.cli.report import doing, quantity
+from roughcontact.cli.report import quantity
 from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.plastic_asperities.plasticity import PlasticityIndex
 
-__all__ = ["Pressed", "best_state"]
+__all__ = ["Pressed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,18 +79,6 @@ class Pressed:
                 "hardness": self.softer[0],
             },
         }
-
-
-def best_state(solve: Callable[..., Any], surface: Surface, *given: Any, **named: Any) -> Any:
-    """Return the state of a surface, the best that was reached where the tolerance was missed."""
-    from roughcontact.contact.convergence import ConvergenceError
-
-    cells = " x ".join(str(n) for n in surface.grid.shape)
-    with doing(f"Pressing {cells} cells"):
-        try:
-            return solve(surface, *given, **named)
-        except ConvergenceError as error:
-            return error.solution
 
 
 def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from roughcontact.adhesion.attraction import LAWS
 from roughcontact.files.quantity import ENERGY_PER_AREA, LENGTH
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
@@ -14,6 +13,7 @@ from roughcontact.recipe.texts import Amount, Choice
 
 __all__ = ["AdhesionLaw", "Sticking"]
 
+LAWS = ("exponential", "dugdale")  # those of `adhesion.attraction`, which needs NumPy
 _WORK = described(
     "Work of adhesion: the energy that parts a unit area.",
     "50mJ/m^2",
@@ -49,7 +49,7 @@ class AdhesionLaw:
     )
     law: str = described(
         "How the attraction falls with the gap.",
-        read=Choice(tuple(LAWS)),
+        read=Choice(LAWS),
         default="exponential",
         everyday=True,
     )

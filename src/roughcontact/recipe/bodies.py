@@ -8,10 +8,9 @@ from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
-from roughcontact.materials import MATERIALS, handbook
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import RIGID, Amount, Choice, PureNumber, known_material, modulus
+from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, PureNumber, known_material, modulus
 
 __all__ = ["Bodies", "Conduction", "hardness_of"]
 
@@ -29,7 +28,7 @@ def _pair_of_materials(text: str) -> tuple[str, str]:
         )
     for name in names:
         if name != RIGID and known_material(name) is None:
-            raise InputError(f"{name!r} is no name", "give a number of yours as young or modulus")
+            raise InputError(f"{name!r} is no name", "give a number of yours as `young` or `modulus`")
     if names == [RIGID, RIGID]:
         raise InputError("one of the two bodies must be elastic", "name a material, such as steel,rigid")
     return names[0], names[1]
@@ -52,10 +51,11 @@ class Bodies:
         "Reduced modulus E*.", "110GPa", read=modulus("the reduced modulus"), everyday=True
     )
     materials: str | None = described(
-        f"Both bodies by name: {', '.join(MATERIALS)}; or rigid for one of them.",
+        f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",
         "steel,aluminium",
         read=_pair_of_materials,
         everyday=True,
+        names=(*METALS, RIGID),
     )
     young: str | None = described("Young's modulus.", "210GPa", read=_YOUNG, everyday=True)
     poisson: str | None = described("Poisson's ratio.", "0.3", read=_POISSON, needs="young", everyday=True)
@@ -69,7 +69,7 @@ class Bodies:
         for young, poisson in (("young", "poisson"), ("young2", "poisson2")):
             if getattr(self, young) is not None and getattr(self, poisson) is None:
                 raise InputError(
-                    f"{young} is given without {poisson}", f"give {poisson}, such as 0.3", poisson
+                    f"`{young}` is given without `{poisson}`", f"give `{poisson}`, such as 0.3", poisson
                 )
 
     def calls(self) -> Iterator[Call]:
@@ -90,6 +90,8 @@ class Bodies:
         """The name of the softer of two named materials; None where they are not named."""
         if self.materials is None:
             return None
+        from roughcontact.materials import handbook
+
         names = [name for name in value_of(self, "materials") if name != RIGID]
         return str(min(names, key=lambda name: handbook(name).hardness))
 
@@ -126,11 +128,13 @@ class Conduction:
         "copper,gold: gives the resistance of the contact.",
         "17nohm*m[,...]",
         read=_of_both(RESISTIVITY, "resistivity"),
+        names=METALS,
     )
     conductivity: str | None = described(
         "Thermal conductivity of both bodies, likewise.",
         "400W/m/K[,...]",
         read=_of_both(CONDUCTIVITY, "conductivity"),
+        names=METALS,
     )
     of: str = described(
         "Conductance and resistance of the interface alone, per area, or the total of this patch between two "

@@ -8,17 +8,17 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from roughcontact.recipe.jobs import Job
-from roughcontact.recipe.recipe_fields import specs
+from roughcontact.recipe.recipe_fields import option_of, specs, words_of
 from roughcontact.recipe.source import File, SelfAffine
 
-__all__ = ["command_of", "option_of"]
+__all__ = ["command_name", "command_of"]
 
 _MADE = "rough.npz"
 
 
-def option_of(name: str) -> str:
-    """Return the option that a field of this name becomes."""
-    return f"--{name.replace('_', '-')}"
+def command_name(job: Job) -> str:
+    """Return the words of the command that does a job."""
+    return "surface prepare" if job.NAME == "surface" else job.NAME
 
 
 def command_of(job: Job, recipe: str = "job.toml") -> str:
@@ -27,19 +27,15 @@ def command_of(job: Job, recipe: str = "job.toml") -> str:
     A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
     """
     if isinstance(job.source, File):
-        return _line(*_words(job), job.source.file, *_options(job))
+        return _line(*command_name(job).split(), job.source.file, *_options(job))
     if not isinstance(job.source, SelfAffine):
         return _line("run", recipe)
     return "\n".join(
         [
             _line("surface", "make", _MADE, *_options_of(job.source)),
-            _line(*_words(job), _MADE, *_options(job)),
+            _line(*command_name(job).split(), _MADE, *_options(job)),
         ]
     )
-
-
-def _words(job: Job) -> tuple[str, ...]:
-    return ("surface", "prepare") if job.NAME == "surface" else tuple(job.NAME.split())
 
 
 def _line(*parts: str) -> str:
@@ -56,10 +52,10 @@ def _options(job: Job) -> Iterator[str]:
 def _options_of(part: Any) -> Iterator[str]:
     for each, spec in specs(part):
         value: Any = getattr(part, each.name)
-        if value == each.default or not spec.option or each.name == "file" or is_dataclass(value):
+        if value == each.default or not spec.option or spec.positional or is_dataclass(value):
             continue
         if isinstance(value, bool):
-            yield "--free" if each.name == "periodic" and not value else option_of(each.name)
+            yield words_of(each.name, spec)[0 if value else 1]
             continue
         for text in value if isinstance(value, tuple) else (value,):
             # Of a value that begins with a minus sign, the command would take the sign for that of an option.

@@ -52,13 +52,13 @@ class PressJob:
         )
         if self.errors.errors and asked:
             raise InputError(
-                f"errors come from other maps under the same load alone, and {asked} is given",
+                f"`errors` press other maps by the same load alone, and `{asked}` is given",
                 "leave out one of them",
                 "errors.errors",
             )
         if self.theories.theory and self.contact.profile:
             raise InputError(
-                "theory is about the pressures of a surface, not of a profile",
+                "`theory` is about the pressures of a surface, not of a profile",
                 "leave it out",
                 "theories.theory",
             )
@@ -74,7 +74,7 @@ class PressJob:
             first = one_load(self.plastic.after, kinds_of(self.contact.profile)[name], "after")
             if first <= load:
                 raise InputError(
-                    f"after {self.plastic.after} is not larger than the {name}, so that nothing is unloaded",
+                    f"`after` {self.plastic.after} is not larger than the {name}, so that nothing is unloaded",
                     "leave it out, or exchange the two",
                     "after",
                 )
@@ -121,26 +121,26 @@ class CurveJob:
         asked = "loop" if self.plastic.loop else "flow" if self.plastic.flow == "raised" else None
         if self.errors.errors and self.plastic.flow == "raised":
             raise InputError(
-                "errors come from other maps under the same load alone, and flow is raised",
+                "`errors` press other maps by the same load alone, and `flow` is raised",
                 "leave out one of them",
                 "errors.errors",
             )
         if asked and self.loads.depths is not None:
             raise InputError(
-                f"{asked} goes by forces or pressures: the depth is what is found",
-                "give forces",
+                f"`{asked}` goes by forces or pressures: the depth is what is found",
+                "give `forces`",
                 "loads.depths",
             )
         profile, conducts = self.contact.profile, bool(self.conduction.named())
         if conducts and profile == "line":
             raise InputError(
                 "a line contact has no conductance of its own, it depends on how far away the bodies end",
-                "leave out resistivity and conductivity",
+                "leave out `resistivity` and `conductivity`",
                 "conduction",
             )
         if conducts and profile == "winkler" and self.conduction.of == "interface":
             raise InputError(
-                "a Winkler foundation has a total conductance only", "give of total", "conduction.of"
+                "a Winkler foundation has a total conductance only", "give `of` total", "conduction.of"
             )
         if profile == "winkler" and (self.units.unit_stiffness or self.units.unit_pressure):
             raise InputError(
@@ -179,8 +179,8 @@ class CurveJob:
 def _require_areas(contact: Contact, hardness: str | None) -> None:
     if hardness is not None and contact.profile == "winkler":
         raise InputError(
-            "hardness is a pressure, and springs bear forces per length only",
-            "leave it out, or take profile line",
+            "`hardness` is a pressure, and springs bear forces per length only",
+            "leave it out, or take `profile` line",
             "plastic.hardness",
         )
 

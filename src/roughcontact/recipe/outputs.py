@@ -11,10 +11,14 @@ from roughcontact.files import quantity
 from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AREA, Kind
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
-from roughcontact.theory.laws import LAWS
 
-__all__ = ["TABLES", "Errors", "PressureTheory", "Tables", "Theories", "Units"]
+__all__ = ["TABLES", "THEORIES", "Errors", "PressureTheory", "Tables", "Theories", "Units"]
 
+# Those of `theory.laws`, which needs NumPy: the help and the completion of options do not wait for it.
+THEORIES = (
+    *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
+    *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
+)
 TABLES = ("csv", "abaqus", "abaqus-mm", "lammps")
 _LENGTH = Amount(LENGTH)
 
@@ -25,10 +29,10 @@ class Theories:
 
     TITLE: ClassVar = "Theories"
     theory: str | None = described(
-        f"Theories to overlay on the curve: {', '.join(LAWS)}. They take spectrum and moments from the surface, and "
+        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, and "
         "say which.",
         "persson,gw,...",
-        read=Names("theory", lambda: tuple(LAWS)),
+        read=Names("theory", THEORIES),
         needs_whole=True,
         everyday=True,
     )
@@ -104,7 +108,7 @@ class Tables:
         "Pressure, stiffness and area against gap, per nominal area, for other programs: csv, abaqus (SI), abaqus-mm "
         "(mm, N, MPa), lammps.",
         "abaqus,lammps,...",
-        read=Names("table", lambda: TABLES),
+        read=Names("table", TABLES),
         needs_whole=True,
     )
     table_area: str | None = described(
@@ -118,7 +122,7 @@ class Tables:
         check(self)
         if self.table_area is not None and "lammps" not in self.names():
             raise InputError(
-                "table_area is for the table lammps: the others are per area", "leave it out", "table_area"
+                "`table_area` is for the table lammps: the others are per area", "leave it out", "table_area"
             )
 
     def names(self) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from roughcontact.errors import InputError
 from roughcontact.recipe.bodies import Bodies, hardness_of
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described
-from roughcontact.recipe.texts import Choice
+from roughcontact.recipe.texts import METALS, Choice
 
 __all__ = ["AfterLoad", "LoopOfLoads", "yields_at"]
 
@@ -17,6 +17,7 @@ _HARDNESS = described(
     "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
     "2GPa",
     read=hardness_of,
+    names=METALS,
 )
 _FLOW = described(
     "Under a hardness, where material that flows goes: it vanishes, or raises the whole surface, its volume conserved "
@@ -74,8 +75,8 @@ def yields_at(bodies: Bodies, plastic: AfterLoad | LoopOfLoads) -> Call | float 
     text = plastic.hardness or (bodies.softer if asked else None)
     if text is None and asked:
         raise InputError(
-            f"{asked} is about what flows under a hardness, which is not given",
-            "give hardness, or both bodies as materials",
+            f"`{asked}` is about what flows under a hardness, which is not given",
+            "give `hardness`, or both bodies as `materials`",
             "plastic.hardness",
         )
     return None if text is None else hardness_of(text)

@@ -78,8 +78,7 @@ def _tip(text: str) -> float:
 def _step(
     help: str, example: str | None = None, *step: Any, read: Callable[[Any], Any] = str, **more: Any
 ) -> Any:
-    default = more.pop("default", None)
-    return described(help, example, read=read, default=default, step=Step(*step), **more)
+    return described(help, example, read=read, step=Step(*step), **{"needs_whole": True, **more})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,7 +100,6 @@ class Preparation:
         "Looking for spikes",
         read=Choice(("missing", "filled")),
         everyday=True,
-        needs_whole=True,
     )
     mask: tuple[str, ...] = _step(
         "Take a region out, to missing points: box= or ellipse= of rows,columns; heights beyond above=3um or "
@@ -121,6 +119,7 @@ class Preparation:
         "Levelling",
         read=Choice(("none", "mean", "plane", "quadratic")),
         everyday=True,
+        needs_whole=False,
     )
     form: str | None = _step(
         "Remove a form: a polynomial's degree, sphere or cylinder.",
@@ -204,7 +203,7 @@ class Preparation:
     def __post_init__(self) -> None:
         check(self)
         if self.share is not None and self.window != "tukey":
-            raise InputError("share belongs to a Tukey window", "give window tukey", "share")
+            raise InputError("`share` belongs to a Tukey window", "give `window` tukey", "share")
 
     def calls(self, level: str = "none") -> Iterator[Call]:
         """Yield the steps that are taken; without a word on it the heights are levelled by `level`."""

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Kind
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, given
 from roughcontact.recipe.texts import Amount, linear_loads, rising_loads
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 __all__ = ["AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad", "RisingLoads", "kinds_of"]
 
@@ -125,7 +126,7 @@ class AdhesiveLoad:
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
                     f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
-                    f"give a curve with {name}s 0,{text}",
+                    f"give a curve with `{name}s` 0,{text}",
                 )
         return {name: value}
 
@@ -191,5 +192,7 @@ def _up_and_down(part: AdhesiveLoads | FallingLoads, profile: str | None) -> dic
 
 def numbers(named: Mapping[str, Any]) -> npt.NDArray[np.float64]:
     """Return the loads that arguments state, shape (n,)."""
+    import numpy as np
+
     [loads] = named.values()
     return np.atleast_1d(np.asarray(loads.value({"np": np}) if isinstance(loads, Call) else loads))

@@ -7,9 +7,8 @@ from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Any, get_type_hints
 
 from roughcontact.errors import InputError, placed
-from roughcontact.units import as_text
 
-__all__ = ["Spec", "check", "described", "given", "specs", "value_of"]
+__all__ = ["Spec", "check", "described", "given", "option_of", "specs", "value_of", "words_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +25,8 @@ class Spec:
         Turns the text of the user into the value, in SI; raises `InputError` for a text that is none.
     choices : tuple of str
         The texts that are possible, where they can be listed.
+    names : tuple of str
+        Words that may stand in it, one or several with commas between, for the completion of what is typed.
     needs : str or None
         The field of the same part without which this one has no meaning.
     everyday : bool
@@ -34,6 +35,10 @@ class Spec:
         Whether it takes the whole surface, of which each of several processes holds some rows only.
     option : bool
         Whether a command takes it as an option.
+    positional : bool
+        Whether a command takes it without the name of an option.
+    opposite : str or None
+        Of a flag that may be left open: what the command calls its contrary.
     step : Any
         Of a preparation: what the value is an argument of; see `roughcontact.recipe.preparation`.
     """
@@ -42,10 +47,13 @@ class Spec:
     example: str | None
     read: Callable[[Any], Any]
     choices: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
     needs: str | None = None
     everyday: bool = False
     needs_whole: bool = False
     option: bool = True
+    positional: bool = False
+    opposite: str | None = None
     step: Any = None
 
 
@@ -59,9 +67,10 @@ def described(
 ) -> Any:
     """Return the declaration of a field; without a default (``...``) it must be given. `more` goes to its `Spec`.
 
-    Where `read` lists its ``choices``, these are the choices of the field.
+    Where `read` lists ``choices`` or ``names``, these are the field's.
     """
-    spec = Spec(help, example, read, choices=getattr(read, "choices", ()), **more)
+    listed = {name: getattr(read, name) for name in ("choices", "names") if hasattr(read, name)}
+    spec = Spec(help, example, read, **(listed | more))
     return field(default=MISSING if default is ... else default, metadata={"spec": spec})
 
 
@@ -104,8 +113,8 @@ def check(part: Any) -> None:
             continue
         if spec.needs is not None and not getattr(part, spec.needs):
             raise InputError(
-                f"{each.name} belongs to {spec.needs}, which is not given",
-                f"give {spec.needs} too",
+                f"`{each.name}` belongs to `{spec.needs}`, which is not given",
+                f"give `{spec.needs}` too",
                 each.name,
             )
         with placed(each.name):
@@ -115,17 +124,34 @@ def check(part: Any) -> None:
         _require_one(part, names, must)
 
 
+def option_of(name: str) -> str:
+    """Return the option that a field of this name becomes."""
+    return f"--{name.replace('_', '-')}"
+
+
+def words_of(name: str, spec: Spec) -> tuple[str, ...]:
+    """Return the option of a field, and its contrary where there is one."""
+    return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
+
+
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
     found = [name for name in names if getattr(part, name) is not None]
     if len(found) > 1:
-        raise InputError(f"{' and '.join(found)} exclude each other", "give one of them", ", ".join(found))
+        raise InputError(
+            f"{' and '.join(map(_quoted, found))} exclude each other", "give one of them", ", ".join(found)
+        )
     if must and names and not found:
         examples = {each.name: spec.example for each, spec in specs(part)}
         raise InputError(
-            f"none of {', '.join(names)} is given",
-            f"give one, such as {names[0]} = {examples[names[0]]}",
+            f"none of {', '.join(map(_quoted, names))} is given",
+            f"give one, such as {_quoted(names[0])} {examples[names[0]]}",
             names[0],
         )
+
+
+def _quoted(name: str) -> str:
+    """Return the name of a field as messages quote it: a command says the option instead."""
+    return f"`{name}`"
 
 
 def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
@@ -142,7 +168,10 @@ def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
 
 def _text(value: Any) -> str:
     """Return a number or a quantity as the user could have written it."""
-    value = as_text(value)
+    if not isinstance(value, str):
+        from roughcontact.units import as_text  # late, with NumPy: options are texts
+
+        value = as_text(value)
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise InputError(
             f"{value!r} is no value of a recipe",

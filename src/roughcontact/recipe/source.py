@@ -36,7 +36,9 @@ class File:
 
     KIND: ClassVar = "file"
     TITLE: ClassVar = "Reading the file"
-    file: str = described("Measured heights: X3P, NumPy, text, ...", "FILE", default=..., everyday=True)
+    file: str = described(
+        "Measured heights: X3P, NumPy, text, ...", "FILE", default=..., everyday=True, positional=True
+    )
     channel: str | None = described("Channel of a file with several.", "NAME")
     unit: str | None = described(
         "Unit of the heights, or metres per unit; it overrides what the file states.",
@@ -52,7 +54,9 @@ class File:
         everyday=True,
     )
     periodic: bool | None = described(
-        "Whether the surface repeats itself (default: what the file says, else free).", everyday=True
+        "Whether the surface repeats itself (default: what the file says, else free).",
+        everyday=True,
+        opposite="free",
     )
     sha256: str | None = described(
         "Fingerprint of the file: another one under its name is refused.", "HEX", option=False
@@ -171,7 +175,7 @@ class Shape:
         for name in ("radius", "slope", "amplitude", "wavelength"):
             if (getattr(self, name) is None) == (name in takes):
                 verb = "give" if name in takes else "leave out"
-                raise InputError(f"a {self.shape} takes {' and '.join(takes)}", f"{verb} {name}", name)
+                raise InputError(f"a {self.shape} takes {' and '.join(takes)}", f"{verb} `{name}`", name)
 
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the calls that make the surface."""
@@ -196,7 +200,9 @@ class Example:
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the call that returns the map."""
         if line:
-            raise InputError("an example is a map of heights, not a profile", "leave out profile", "example")
+            raise InputError(
+                "an example is a map of heights, not a profile", "leave out `profile`", "example"
+            )
         yield Call("rc.examples.surface", (self.example,), result="surface", place="source")
 
 

@@ -6,16 +6,19 @@ import difflib
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import LENGTH, PRESSURE, Kind
-from roughcontact.materials import Material, handbook
 from roughcontact.recipe.library_calls import Call
 
+if TYPE_CHECKING:
+    from roughcontact.materials import Material
+
 __all__ = [
+    "METALS",
     "RIGID",
     "Amount",
     "Choice",
@@ -32,8 +35,12 @@ __all__ = [
     "whole",
 ]
 
-MOST_LOADS = 100_000
+METALS = (
+    *("steel", "stainless-steel", "aluminium", "titanium", "copper", "silver", "gold", "nickel"),
+    "tungsten",
+)  # those of `materials`, whose numbers need NumPy, for which the help and the completion of options do not wait
 RIGID = "rigid"
+MOST_LOADS = 100_000
 _FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
 
 
@@ -94,21 +101,21 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """Reads a comma list of words, each once, of those that a function lists."""
+    """Reads a comma list of words, each once, of some."""
 
     what: str
-    known: Callable[[], Sequence[str]]
+    names: tuple[str, ...]
 
     def __call__(self, text: str) -> tuple[str, ...]:
         """Return the value that a text states."""
-        known = self.known()
         names = tuple(part.strip() for part in text.split(",") if part.strip())
         for name in names:
-            if name not in known:
-                raise InputError(f"there is no {self.what} {name!r}", _choose(name, known))
+            if name not in self.names:
+                raise InputError(f"there is no {self.what} {name!r}", _choose(name, self.names))
         if not names or len(set(names)) < len(names):
             raise InputError(
-                f"{text!r} is no list of them", f"name each {self.what} once, such as {','.join(known[:2])}"
+                f"{text!r} is no list of them",
+                f"name each {self.what} once, such as {','.join(self.names[:2])}",
             )
         return names
 
@@ -153,6 +160,8 @@ def modulus(what: str) -> Callable[[str], float]:
 
 def known_material(text: str) -> Material | None:
     """Return the material that a text names; None where it is a number."""
+    from roughcontact.materials import handbook
+
     word = text.strip()
     return handbook(word.lower()) if word[:1].isalpha() else None
 
@@ -176,7 +185,7 @@ def rising_loads(text: str, kind: Kind) -> Call | list[float]:
         raise InputError(f"{text!r} holds no load", f"write {example} or a comma list")
     if min(loads) <= 0:
         raise InputError(f"every load must be positive, not {min(loads):g} {kind.unit}", "leave it out")
-    if not (np.diff(loads) > 0).all():
+    if any(after <= before for before, after in pairwise(loads)):
         raise InputError(f"the loads must increase from one to the next, not as in {text!r}", "sort them")
     return loads
 
@@ -188,6 +197,8 @@ def linear_loads(text: str, kind: Kind) -> list[float]:
         if ":" not in part:
             loads.append(_parsed(part, kind))
             continue
+        import numpy as np
+
         low, high, count = _range(part, kind, f"-20n{kind.unit}:20n{kind.unit}:41")
         loads += np.linspace(low, high, count).tolist()
     if not loads:

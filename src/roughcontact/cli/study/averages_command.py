@@ -13,8 +13,10 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_facts, print_table
 from roughcontact.cli.study.study_command import FOLDER, dataset_writer, own_cases, require_results
-from roughcontact.cli.unit_options import parse_number
+from roughcontact.errors import InputError, placed
+from roughcontact.files.quantity import parse_number
 from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.recipe.recipe_fields import check, described, value_of
 
 if TYPE_CHECKING:
     import xarray
@@ -59,31 +61,38 @@ _MOST_DECIMALS = 5  # beyond these a power of ten is shorter
 _LEAST = 3  # forces that make a law, as in statistics.fit
 
 
-@dataclass(frozen=True, slots=True)
-class LawWindow:
-    """Where the power laws are fitted, as the user gave it."""
+def _window(text: str) -> tuple[float, float]:
+    """Return the two ends of a window of forces over E* h L."""
+    parts = text.split(":")
+    if len(parts) != 2:
+        raise InputError(f"{text!r} is no window", "write two forces over E* h L, 1e-3:0.07")
+    low, high = (parse_number(part, "1e-3") for part in parts)
+    if not 0 <= low < high:
+        raise InputError(f"a window goes from a force to a larger one, unlike {text!r}", "exchange the two")
+    return low, high
 
-    window: str | None = option(
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LawWindow:
+    """Where the power laws are fitted."""
+
+    window: str | None = described(
         "Window of F/(E* h L) that power laws are fitted in (default: where the mean stiffness is resolved, up to "
         "0.07).",
         "1e-3:0.07",
+        read=_window,
+        everyday=True,
     )
+
+    def __post_init__(self) -> None:
+        check(self)
 
     def value(self) -> Window | None:
         """Return the window; None where it was left out."""
         from roughcontact.statistics.fit_window import force_window
 
-        if self.window is None:
-            return None
-        parts = self.window.split(":")
-        if len(parts) != 2:
-            raise UsageError(
-                f"--window: {self.window!r} is no window; write two forces over E* h L, 1e-3:0.07"
-            )
-        low, high = (parse_number(part, "--window", "1e-3") for part in parts)
-        if not 0 <= low < high:
-            raise UsageError(f"--window goes from a force to a larger one, not {self.window!r}")
-        return force_window(low, high)
+        ends = value_of(self, "window")
+        return None if ends is None else force_window(*ends)
 
 
 def average(folder: Path = FOLDER, *, out: Path = FILE, window: LawWindow, json: bool = JSON) -> None:
@@ -140,7 +149,8 @@ def table(
 ) -> None:
     """Print one line for each combination of what varies: power laws, or means with their standard errors."""
     with reported(folder, as_json=json), own_cases():
-        force = None if at is None else parse_number(at, "--at", "0.01")
+        with placed("at"):
+            force = None if at is None else parse_number(at, "0.01")
         if force is not None and not force > 0:
             raise UsageError(f"--at: a force over E* h L is above 0, not {at!r}")
         averaged = _averaged(folder, window.value(), force)
