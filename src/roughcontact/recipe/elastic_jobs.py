@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -46,7 +46,7 @@ class PressJob:
     def __post_init__(self) -> None:
         self.loads()
         yields_at(self.bodies, self.plastic)
-        _require_areas(self.contact, self.plastic.hardness)
+        _require_areas(self.contact, self.plastic.hardness, self.errors)
         asked = next(
             (name for name in ("after", "flow") if getattr(self.plastic, name) not in (None, "removed")), None
         )
@@ -117,7 +117,7 @@ class CurveJob:
         with within("loads"):
             self.loads.named(self.contact.profile)
         yields_at(self.bodies, self.plastic)
-        _require_areas(self.contact, self.plastic.hardness)
+        _require_areas(self.contact, self.plastic.hardness, self.errors)
         asked = "loop" if self.plastic.loop else "flow" if self.plastic.flow == "raised" else None
         if self.errors.errors and self.plastic.flow == "raised":
             raise InputError(
@@ -144,10 +144,11 @@ class CurveJob:
             )
         if profile == "winkler" and (self.units.unit_stiffness or self.units.unit_pressure):
             raise InputError(
-                "units of stiffness and pressure are per area: on springs loads and stiffness are per length",
+                "`unit_stiffness` and `unit_pressure` are per area: on springs loads and stiffness are per length",
                 "leave them out",
-                "units",
+                "units.unit_stiffness, units.unit_pressure",
             )
+        _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
     def calls(self) -> Iterator[Call]:
         """Yield the calls that follow the loads, and what is asked of the curve."""
@@ -176,13 +177,33 @@ class CurveJob:
             )
 
 
-def _require_areas(contact: Contact, hardness: str | None) -> None:
+def _require_areas(contact: Contact, hardness: str | None, errors: Errors) -> None:
+    if errors.errors and contact.profile is not None:
+        raise InputError(
+            "`errors` are those of a map of heights, not of a profile", "leave it out", "errors.errors"
+        )
     if hardness is not None and contact.profile == "winkler":
         raise InputError(
             "`hardness` is a pressure, and springs bear forces per length only",
             "leave it out, or take `profile` line",
             "plastic.hardness",
         )
+
+
+def _require_known(theories: Sequence[str], known: Mapping[str, Any]) -> None:
+    """Refuse theories that need a number which no surface shows, and which is not given."""
+    if not theories:
+        return
+    from roughcontact.theory.laws import LAWS  # late, with NumPy
+
+    for need, part, example in (("radius", "theories", "5mm"), ("hardness", "plastic", "2GPa or aluminium")):
+        for name in theories:
+            if need in LAWS[name].needs and need not in known:
+                raise InputError(
+                    f"`theory` {name} takes a {need}, which no surface shows",
+                    f"give `{need}`, such as {example}",
+                    f"{part}.{need}",
+                )
 
 
 def _hardness(job: PressJob | CurveJob) -> dict[str, Any]:
