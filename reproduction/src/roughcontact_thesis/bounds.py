@@ -174,7 +174,7 @@ def window(
     require(
         lowest < highest,
         f"{cells} single cells are stiffer than the whole square: the spacing must be below "
-        f"{square(1.0, 1.0) / (cells * CELL):.3g} of the length",
+        f"{square(1.0, 1.0) / (cells * CELL):.3g} of the length"
     )
     return lowest, highest
 
