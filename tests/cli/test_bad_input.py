@@ -106,7 +106,7 @@ PRESS_OPTIONS = {
     "zero force": (changed(force="0N"), "the force must be positive"),
     "force in kilograms": (
         changed(force="1kg"),
-        "--force: '1kg' is not a force; expected a force such as 10N",
+        "--force: '1kg' is not a force: write a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
     "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
-from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.options import PictureFormat, picture_ending
+from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import doing, print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.errors import placed
@@ -69,9 +69,13 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
             print_facts([(each, module(each).TITLE) for each in FIGURES])
             return
         if name != "all" and name not in FIGURES:
-            raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
+            raise UsageError(
+                f"there is no figure {name!r}", f"choose one of {', '.join(FIGURES)}, all or list"
+            )
         if wanted.scale not in _SCALES:
-            raise UsageError(f"--scale: {wanted.scale!r} is no scale; write {' or '.join(_SCALES)}")
+            raise UsageError(
+                f"--scale: {wanted.scale!r} is no scale", f"write {' or '.join(_SCALES)}", place="--scale"
+            )
         with placed("seed"):
             chosen = None if wanted.seed is None else whole(0, "the seed")(wanted.seed)
         workers = None if wanted.as_is else wanted.workers or 0

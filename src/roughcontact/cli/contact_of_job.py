@@ -12,10 +12,10 @@ from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.report import doing, quantity
 from roughcontact.files.file_errors import ReadError
-from roughcontact.recipe.jobs import Job, known_names, surface_calls
-from roughcontact.recipe.library_calls import Call, perform
 from roughcontact.recipe.bodies import hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.jobs import Job, known_names, surface_calls
+from roughcontact.recipe.library_calls import Call, perform
 from roughcontact.recipe.plastic_flow import yields_at
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.source import File, Source
@@ -127,11 +127,13 @@ def _reading(call: Call, job: Job) -> Iterator[None]:
         try:
             yield
         except ReadError as error:
-            if "read_line" in error.remedy:
+            if "read_line" in str(error.remedy):
                 raise ReadError(error.file, error.problem, _NAME_THE_BODY) from error
             if call.function == "rc.read_line" and (points := _points_of_map(file)) is not None:
                 raise UsageError(
-                    f"{plain(str(file))} holds a map of {points} heights", "leave out --profile"
+                    f"{plain(str(file))} holds a map of {points} heights",
+                    "leave out --profile",
+                    "contact.profile",
                 ) from error
             raise
 
@@ -149,6 +151,7 @@ def _require_together(surface: Surface) -> None:
         raise UsageError(
             "several processes press periodic surfaces only, and this one is free",
             "give --periodic, or start one process",
+            "source.periodic",
         )
 
 

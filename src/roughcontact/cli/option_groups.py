@@ -11,8 +11,8 @@ from typing import Any, get_args, get_type_hints
 import typer
 
 from roughcontact.cli.job import require_one_process
-from roughcontact.cli.messages import reported
-from roughcontact.errors import within
+from roughcontact.cli.messages import UsageError, reported
+from roughcontact.errors import InputError, within
 from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
 from roughcontact.recipe.source import File
 
@@ -83,7 +83,11 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         with reported(*paths, as_json=given.get("json", False)):
             whole = [each.parameter.name for each in declared if each.needs_whole]
             require_one_process({option_of(name): given[name] for name in whole})
-            command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+            try:
+                built = {one.name: _built(hints[one.name], one.name, given) for one in parameters}
+            except InputError as error:
+                raise UsageError(error.message, error.remedy, error.place) from error
+            command(**built)
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in flat}
@@ -164,11 +168,9 @@ def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:
     """Return the value of one parameter: what was given, or a group made of what was."""
     if not is_dataclass(kind := _commanded(kind)):
         return tuple(given[name] or ()) if kind == tuple[str, ...] else given[name]
-    hints = get_type_hints(kind)
-    parts = {
-        each.name: _built(hints[each.name], each.name, given)
-        for each in fields(kind)
-        if each.name in given or is_dataclass(_commanded(hints[each.name]))
-    }
-    with within(name):
-        return kind(**parts)  # type: ignore[operator]
+    hints, parts = get_type_hints(kind), {}
+    for each in fields(kind):
+        if each.name in given or is_dataclass(_commanded(hints[each.name])):
+            with within(each.name):
+                parts[each.name] = _built(hints[each.name], each.name, given)
+    return kind(**parts)  # type: ignore[operator]

@@ -29,8 +29,8 @@ class Theories:
 
     TITLE: ClassVar = "Theories"
     theory: str | None = described(
-        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, and "
-        "say which.",
+        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, "
+        "and say which.",
         "persson,gw,...",
         read=Names("theory", THEORIES),
         needs_whole=True,

@@ -99,7 +99,7 @@ def _read(path: Path) -> xarray.Dataset:
     import xarray
 
     if (lack := lacking("h5py", "h5netcdf")) is not None:
-        raise UsageError(f"{path} needs {lack[0]}; {lack[1]}")
+        raise UsageError(f"{path} needs {lack[0]}", lack[1])
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             curve = dataset.load()
@@ -109,12 +109,12 @@ def _read(path: Path) -> xarray.Dataset:
         ) from error
     except (OSError, ValueError) as error:
         raise UsageError(
-            f"{path} is not a curve.nc; write one with: roughcontact curve ... --out DIR"
+            f"{path} is not a curve.nc", "write one with: roughcontact curve ... --out DIR"
         ) from error
     if "jump_lost" in curve or "detachment_lost" in curve:
         raise UsageError(
-            f"{path} holds a path of surfaces that stick, whose conductance is not computed; write a curve without "
-            "adhesion with: roughcontact curve ... --out DIR"
+            f"{path} holds a path of surfaces that stick, whose conductance is not computed",
+            "write a curve without adhesion with: roughcontact curve ... --out DIR",
         )
     return curve
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +14,7 @@ from roughcontact.cli.contact.curve_theories import deviations, exponents, param
 from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
 
 if TYPE_CHECKING:
@@ -135,9 +134,7 @@ class CurveAnswer:
         for key, law in self.theories.laws.items():
             try:
                 found[key] = self.curve.compare(law)
-            except ValueError as error:
-                if not is_ours(error):
-                    raise
+            except InputError as error:
                 failed[key] = str(error)
         return found, failed
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.report import quantity
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
@@ -69,9 +69,7 @@ def theories_of(asked: Theories, surface: Surface, modulus: float, hardness: flo
         try:
             inputs = inputs_for(surface, [name], **inputs)
             [laws[name]] = rc.loading_laws(surface, modulus, name, **inputs)
-        except ValueError as error:
-            if not is_ours(error):
-                raise
+        except InputError as error:
             refused[name] = str(error)
     needed = {need for name in laws for need in LAWS[name].needs}
     new = [name for name in _TAKEN if name in (inputs.keys() - known.keys()) & needed]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
 
 if TYPE_CHECKING:
@@ -40,9 +40,7 @@ def write_tables(
     conducting = {} if conductors is None else conductors.given()
     try:
         table = interface_table(curve, area=value_of(tables, "table_area"), **conducting)
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         note(f"no --table: {error}")
         return ()
     source = provenance(surface, modulus=curve.modulus, command=command_line())
