@@ -26,6 +26,7 @@ from roughcontact.cli.report import (
     screen,
     size_of,
 )
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -85,6 +86,8 @@ class PathAnswer:
         How its files are called: ``adhesive_loop``, and the table of its jumps ``adhesive_loop_jumps``.
     converged : bool
         Whether the tolerance was met.
+    out : Path or None
+        The folder of its files.
     """
 
     job: Job
@@ -94,6 +97,7 @@ class PathAnswer:
     stem: str
     events: str
     converged: bool
+    out: Path | None
 
     def record(self) -> dict[str, Any]:
         """Return the answer as plain values."""
@@ -105,6 +109,7 @@ class PathAnswer:
             **self.found.to_record(),
             "converged": self.converged,
             "whole": self.whole,
+            "recipe": self._recipe,
         }
 
     def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure], ending: str) -> None:
@@ -114,7 +119,9 @@ class PathAnswer:
         from roughcontact.plot.canvas import save
 
         scales = {"modulus": self.found.modulus, "tolerance": self.found.tolerance}
-        source = provenance(self.surface, control=control, command=command_line(), **scales)
+        source = provenance(
+            self.surface, control=control, command=command_line(), recipe=self._recipe, **scales
+        )
         dataset = self.found.to_dataset()
         with doing("Writing files"), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
@@ -156,6 +163,10 @@ class PathAnswer:
             raise typer.Exit(INTERRUPTED)
         if not self.converged:
             raise typer.Exit(MISSED)
+
+    @cached_property
+    def _recipe(self) -> dict[str, Any]:
+        return carried(self.job, self.out)
 
     @cached_property
     def _pressed(self) -> Pressed:

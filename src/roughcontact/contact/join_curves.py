@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,10 +11,18 @@ from roughcontact.contact.curve import CURVE_POINTS, Curve
 from roughcontact.errors import InputError
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CERTIFICATES
+from roughcontact.validation import Mask
 
-__all__ = ["joined"]
+__all__ = ["joined", "part_of"]
 
 _COLUMNS = (*CURVE_POINTS, *names_of(CERTIFICATES), "spots")
+
+
+def part_of(curve: Curve, chosen: Mask) -> Curve:
+    """Return some loads of an elastic curve, those where `chosen`, of shape (n,), is true."""
+    status = tuple(each for each, kept in zip(curve.status, chosen, strict=True) if kept)
+    columns: dict[str, Any] = {name: getattr(curve, name)[chosen] for name in _COLUMNS}
+    return replace(curve, **columns, status=status)
 
 
 def joined(first: Curve, second: Curve) -> Curve:
@@ -56,7 +65,7 @@ def joined(first: Curve, second: Curve) -> Curve:
                 each.name,
             )
     order = np.argsort(np.concatenate([first.depth, second.depth]), kind="stable")
-    columns = {
+    columns: dict[str, Any] = {
         name: np.concatenate([getattr(first, name), getattr(second, name)])[order] for name in _COLUMNS
     }
     status = (*first.status, *second.status)

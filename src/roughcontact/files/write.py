@@ -228,14 +228,15 @@ def plain_cells(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 def write_json(
     record: Mapping[str, Any], path: str | os.PathLike[str], provenance: Attributes | None = None
 ) -> None:
-    """Write a record as one JSON object, with the provenance under ``"provenance"``.
+    """Write a record as one JSON object, with what the provenance adds to it under ``"provenance"``.
 
     Raises
     ------
     WriteError
         If the file cannot be written.
     """
-    whole = dict(record) | ({"provenance": dict(provenance)} if provenance else {})
+    added = {name: value for name, value in (provenance or {}).items() if name not in record}
+    whole = dict(record) | ({"provenance": added} if added else {})
     # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
     write_text(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n", path)
 

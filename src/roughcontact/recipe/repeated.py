@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.validation import Array
+
 __all__ = ["Difference", "differences"]
 
 # What a record says of itself: names, history, versions, and words.
@@ -31,20 +33,16 @@ class Difference:
     after: Any
 
     def __str__(self) -> str:
-        try:
-            old, new = (
-                np.atleast_1d(np.asarray(each, dtype=np.float64)) for each in (self.before, self.after)
-            )
-        except (TypeError, ValueError):
+        old, new = _numbers(self.before), _numbers(self.after)
+        if old is None or new is None:
             return f"{self.name}: {self.before} before, {self.after} now"
         if old.shape != new.shape:
             return f"{self.name}: {old.size} numbers before, {new.size} now"
-        change = np.abs(new - old)
-        scale = float(np.max(np.abs(old), initial=0.0))
-        most = (
-            f"{float(change.max()) / scale:.2g} of the largest" if scale > 0 else f"{float(change.max()):.2g}"
-        )
-        return f"{self.name}: {int(np.count_nonzero(change))} of {change.size} differ, by at most {most}"
+        there = np.isfinite(old) & np.isfinite(new)
+        change, scale = np.abs(new - old)[there], float(np.max(np.abs(old[there]), initial=0.0))
+        most = float(np.max(change, initial=0.0))
+        words = f"{most / scale:.2g} of the largest" if scale > 0 else f"{most:.2g}"
+        return f"{self.name}: {_count(old, new)} of {old.size} differ, by at most {words}"
 
 
 def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Difference]:
@@ -74,9 +72,26 @@ def _differences(before: Mapping[str, Any], after: Mapping[str, Any], path: str)
         old, new = before.get(name), after.get(name)
         if isinstance(old, Mapping) and isinstance(new, Mapping):
             yield from _differences(old, new, f"{path}{name}.")
-        elif _plain(old) != _plain(new):
+        elif not _same(old, new):
             yield Difference(f"{path}{name}", old, new)
 
 
-def _plain(value: Any) -> Any:
-    return [_plain(each) for each in value] if isinstance(value, list | tuple) else value
+def _same(old: Any, new: Any) -> bool:
+    first, second = _numbers(old), _numbers(new)
+    if first is None or second is None:
+        return bool(old == new)
+    return first.shape == second.shape and not _count(first, second)
+
+
+def _count(first: Array, second: Array) -> int:
+    """Return how many numbers differ, to the last digit; what is no number in both is the same."""
+    return int(np.count_nonzero((first != second) & ~(np.isnan(first) & np.isnan(second))))
+
+
+def _numbers(value: Any) -> Array | None:
+    """Return numbers as an array of one axis or more; None where they are words, verdicts, or nothing."""
+    try:
+        found = np.atleast_1d(np.asarray(value))
+    except ValueError:  # lists of several lengths
+        return None
+    return found.astype(np.float64) if found.dtype.kind in "iuf" else None

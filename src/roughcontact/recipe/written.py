@@ -14,12 +14,23 @@ from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from roughcontact.errors import InputError, within
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.content import content
+from roughcontact.files.file_errors import ContentError, ReadError
+from roughcontact.files.netcdf import opened
 from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.recipe_fields import given
 from roughcontact.recipe.source import Combined, File, Source
 
-__all__ = ["FORMAT", "from_plain", "located", "pinned", "read_job", "require_same_files", "to_plain"]
+__all__ = [
+    "FORMAT",
+    "carried",
+    "from_plain",
+    "located",
+    "pinned",
+    "read_job",
+    "require_same_files",
+    "to_plain",
+]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
 
@@ -112,7 +123,7 @@ def _names(kind: Any) -> str:
 
 
 def read_job(path: Path) -> Job:
-    """Return the job in a file: TOML, or a JSON result that carries its recipe. Its files lie where it lies.
+    """Return the job in a file: TOML, or a result (JSON, NetCDF) that carries its recipe. Its files lie where it lies.
 
     Raises
     ------
@@ -121,18 +132,61 @@ def read_job(path: Path) -> Job:
     InputError
         If it states no job.
     """
-    try:
-        text = path.read_bytes().decode()
-        plain = json.loads(text) if path.suffix.casefold() == ".json" else tomllib.loads(text)
-    except OSError as error:
-        raise ReadError(str(path), error.strerror or str(error), "name a job, such as job.toml") from error
-    except ValueError as error:
+    plain = _result_in(path)
+    if plain is None:
+        with content(path) as (_, data):
+            plain = _toml(data)
+    elif plain.get("recipe") is None:
         raise ReadError(
-            str(path), f"it is no recipe: {error}", "write a job by --write-recipe, and edit it"
-        ) from error
-    if isinstance(plain, Mapping) and "recipe" in plain:
+            str(path),
+            "it carries no recipe",
+            "name a job (.toml), or a result of press, curve or adhesion",
+        )
+    else:
         plain = plain["recipe"]
     return located(from_plain(plain), path.parent)
+
+
+def _result_in(path: Path) -> dict[str, Any] | None:
+    """Return the record in a result, of NetCDF its recipe alone; None of a file that is neither JSON nor NetCDF.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    """
+    kind = path.suffix.casefold()
+    if kind not in (".json", ".nc"):
+        return None
+    with content(path) as (_, data):
+        if kind == ".json":
+            return _record(data.decode())
+        with opened(data) as (_, attributes):
+            return {"recipe": _record(str(attributes["recipe"])) if "recipe" in attributes else None}
+
+
+def _record(text: str) -> dict[str, Any]:
+    try:
+        found = json.loads(text)
+    except ValueError as error:
+        raise ContentError(
+            f"it holds no JSON ({error})", "copy the file again, or do the job again"
+        ) from error
+    if not isinstance(found, dict):
+        raise ContentError("it holds no result", "name a result, such as curve.json")
+    return found
+
+
+def _toml(data: bytes) -> dict[str, Any]:
+    try:
+        return tomllib.loads(data.decode())
+    except ValueError as error:
+        raise ContentError(f"it is no TOML ({error})", "write it as docs/recipes.md shows") from error
+
+
+def carried(job: Job, folder: Path | None) -> dict[str, Any]:
+    """Return the recipe that a result in a folder carries: file names count from there, or from the current folder."""
+    return to_plain(pinned(job, folder or Path()))
 
 
 def located(job: Job, folder: Path) -> Job:

@@ -95,7 +95,7 @@ def _follow(
             states, lambda states: collect_states(states, loads), "Approach and retreat", total
         )
         stem = f"adhesive_{job.NAME.rpartition(' ')[2]}"
-        path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged)
+        path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged, answer.out)
         if folder is not None:
             path.write(folder, control, jump_figure, answer.ending)
     law = law_facts(adhesion, modulus, surface.grid.spacing)

@@ -16,6 +16,7 @@ from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, pri
 from roughcontact.recipe.adhesive_jobs import AdhesivePressJob
 from roughcontact.recipe.library_calls import perform
 from roughcontact.recipe.prescribed_loads import kinds_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -53,6 +54,7 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
                 "kind": pressed.kind.value,
                 **state.to_record(),
                 "converged": state.status.converged,
+                "recipe": carried(job, answer.out),
             }
             if folder is not None:
                 [(name, value)] = job.load.named(job.contact.profile).items()
@@ -82,6 +84,7 @@ def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: 
         control=control,
         tolerance=state.problem.tolerance,
         command=command_line(),
+        recipe=record["recipe"],
     )
     with all_or_none(folder) as aside:
         write_netcdf(state.to_dataset(), aside / "adhesive_state.nc", source)

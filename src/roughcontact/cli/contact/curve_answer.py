@@ -16,6 +16,7 @@ from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     import xarray
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from roughcontact.evaluation.conduction import Conductors
     from roughcontact.plot.drawing.engineering_units import Scale
     from roughcontact.recipe.elastic_jobs import CurveJob
+    from roughcontact.solver.loads import Loads
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
@@ -62,6 +64,10 @@ class CurveAnswer:
         Of the first and the last resolved load, if they were asked for.
     pressed : Pressed
         What the surface is to a contact.
+    loads : Loads
+        Those of the curve.
+    out : Path or None
+        The folder of its files.
     """
 
     job: CurveJob
@@ -73,6 +79,8 @@ class CurveAnswer:
     per_area: bool
     errors: tuple[LoadErrors, ...]
     pressed: Pressed
+    loads: Loads
+    out: Path | None
 
     @cached_property
     def tolerance(self) -> float:
@@ -121,6 +129,11 @@ class CurveAnswer:
             for key, law in self.theories.laws.items()
             if key in self.comparisons
         )
+
+    @cached_property
+    def recipe(self) -> dict[str, Any]:
+        """The job, with file names that count from the folder of the answer."""
+        return carried(self.job, self.out)
 
     @property
     def left_out(self) -> dict[str, str]:
@@ -179,6 +192,8 @@ class CurveAnswer:
             "tolerance": self.tolerance,
             "converged": self.converged,
             "notes": list(self.notes),
+            "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
+            "recipe": self.recipe,
         }
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
@@ -193,6 +208,7 @@ class CurveAnswer:
             control=control,
             tolerance=self.tolerance,
             command=command_line(),
+            recipe=self.recipe,
         )
 
     def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:

@@ -7,6 +7,7 @@ from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -16,6 +17,7 @@ from roughcontact.cli.contact.curve_theories import theories_of
 from roughcontact.cli.contact.interface_files import write_tables
 from roughcontact.cli.contact.load_errors import errors_of, require_errors
 from roughcontact.cli.contact.loop_files import write_loop
+from roughcontact.cli.contact.stored_loads import stored_loads
 from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, softer_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
@@ -27,8 +29,13 @@ from roughcontact.cli.report import doing, note_files, quantity, screen
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import numpy.typing as npt
+
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
@@ -63,7 +70,10 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
-    profile, plastic = job.contact.profile, job.plastic
+    from roughcontact.contact.join_curves import joined
+    from roughcontact.solver.loads import Loads
+
+    profile, plastic, in_slabs = job.contact.profile, job.plastic, slabs_of_job() is not None
     more: tuple[str, ...] = ()
     hardness, conductors = hardness_of_job(job), conductors_of(job.conduction)
     with output(answer.out) as folder:
@@ -75,7 +85,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         theories = theories_of(job.theories, surface, modulus, hardness)
         if loads is None:
             loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
-        elif loads.kind != "depth" and slabs_of_job() is None:
+        elif loads.kind != "depth" and not in_slabs:
             _look_ahead(surface, modulus, loads, operator)
         limits = {
             "tolerance": value_of(job.contact, "tolerance"),
@@ -83,24 +93,29 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             "operator": operator,
             "flow": plastic.flow or "removed",
         }
-        computed, notes, outer, loop = _load(surface, modulus, loads, limits, loop=plastic.loop)
-        left = loads.values[len(computed) :]
+        stored = None if in_slabs else stored_loads(job, carried(job, answer.out), loads, answer.out)
+        new = loads.values if stored is None else np.setdiff1d(loads.values, stored.values)
+        if new.size or stored is None:
+            wanted = Loads(loads.kind, new)
+            computed, notes, outer, loop = _load(surface, modulus, wanted, limits, loop=plastic.loop)
+            done = new[: len(computed)]
+            if stored is not None:
+                computed, done = joined(stored.curve, computed), np.union1d(stored.values, done)
+        else:
+            computed, done, notes, outer, loop = stored.curve, stored.values, stored.notes, [], None
+        left = np.setdiff1d(loads.values, done)
         if left.size:
-            rest = ",".join(f"{load:.12g}" for load in left)
-            elsewhere = "" if folder is None else ", and a new --out: this folder would be replaced"
-            notes += (
-                f"stopped: {len(computed)} of {loads.values.size} loads are computed; compute the others with "
-                f"--{loads.kind}s {rest}{elsewhere}",
-            )
+            notes += (_rest(job, loads, left, answer.out),)
         if job.errors.errors and not outer:
             note("no errors: no load is resolved")
         if plastic.loop and loop is None:
             notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
         per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(given(job.units))
         errors = errors_of(job.errors, outer)
-        found = CurveAnswer(job, computed, surface, notes, theories, conductors, per_area, errors, pressed)
+        beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out)
+        found = CurveAnswer(job, computed, surface, notes, *beside)
         if folder is not None:
-            done, unit = loads.values[: len(computed)], kinds_of(profile)[loads.kind].unit
+            unit = kinds_of(profile)[loads.kind].unit
             source = found.source(
                 f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
             )
@@ -115,6 +130,16 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise typer.Exit(INTERRUPTED)
     if not found.converged:
         raise typer.Exit(MISSED)
+
+
+def _rest(job: CurveJob, loads: Loads, left: npt.NDArray[np.float64], out: Path | None) -> str:
+    """Return how to compute the loads that a curve was stopped before."""
+    words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
+    if out is not None and job.plastic.hardness is None and not job.errors.errors:
+        return f"{words}; the same command computes the others"
+    elsewhere = "" if out is None else ", and a new --out: this folder would be replaced"
+    rest = ",".join(f"{load:.12g}" for load in left)
+    return f"{words}; compute the others with --{loads.kind}s {rest}{elsewhere}"
 
 
 def _named_loads(job: CurveJob) -> Loads | None:

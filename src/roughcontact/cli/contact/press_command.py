@@ -19,6 +19,7 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
 from roughcontact.recipe.elastic_jobs import PressJob
 from roughcontact.recipe.prescribed_loads import kinds_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -60,10 +61,10 @@ def press(job: PressJob, *, answer: Answer) -> None:
         errors = errors_of(job.errors, [solution])
         drawn: tuple[str, ...] = ()
         with doing("Stiffness, spots and files"):
-            record = _record(solution, job, pressed)
+            record = _record(solution, job, pressed) | {"recipe": carried(job, answer.out)}
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:
-                source = _source(solution, _control(job))
+                source = _source(solution, _control(job), record["recipe"])
                 drawn = _write(solution, record, folder, source, theory, answer.ending)
             if folder is not None and solution.problem.flow is not None:
                 drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
@@ -101,7 +102,7 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, An
     }
 
 
-def _source(solution: Solution, control: str) -> dict[str, Any]:
+def _source(solution: Solution, control: str, recipe: dict[str, Any]) -> dict[str, Any]:
     """Return what files say of where they come from."""
     from roughcontact.files.provenance import provenance
 
@@ -112,6 +113,7 @@ def _source(solution: Solution, control: str) -> dict[str, Any]:
         control=control,
         tolerance=problem.tolerance,
         command=command_line(),
+        recipe=recipe,
     )
 
 
