@@ -101,7 +101,8 @@ def _declared(name: str, kind: Any, declared: Any, panel: str | None) -> Iterato
     if is_dataclass(kind := _commanded(kind)):
         hints, panel = get_type_hints(kind), getattr(kind, "TITLE", getattr(kind, "PANEL", None))
         for each in fields(kind):
-            yield from _declared(each.name, hints[each.name], each, panel)
+            if each.metadata or is_dataclass(_commanded(hints[each.name])):
+                yield from _declared(each.name, hints[each.name], each, panel)
     elif (spec := declared.metadata.get("spec")) is None:
         yield _of_command(name, kind, declared, panel)
     elif spec.option:

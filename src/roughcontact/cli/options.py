@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import ClassVar
 
-from roughcontact.cli.messages import UsageError
+from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import argument, option
 
 __all__ = ["FORMAT", "JSON", "OUT", "OUTPUT", "Answer", "PictureFormat", "picture_ending"]
@@ -30,9 +31,15 @@ class Answer:
     out: Path | None = OUT
     format: PictureFormat | None = FORMAT
     json: bool = JSON
+    is_kept: bool = True  # no option: of a result that is repeated, only the numbers are looked at
 
     def __post_init__(self) -> None:
         picture_ending(self.format, self.out)
+
+    def note_files(self, folder: Path | None, names: Sequence[str]) -> None:
+        """Say on standard error which files a folder holds now, if there is one that stays."""
+        if folder is not None and self.is_kept:
+            note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 
     @property
     def ending(self) -> str:

@@ -20,7 +20,6 @@ from roughcontact.cli.report import (
     doing,
     emit,
     load_table,
-    note_files,
     print_facts,
     print_table,
     screen,
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
 
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.cli.options import Answer
     from roughcontact.recipe.jobs import Job
     from roughcontact.surface.surface import Surface
 
@@ -86,8 +86,8 @@ class PathAnswer:
         How its files are called: ``adhesive_loop``, and the table of its jumps ``adhesive_loop_jumps``.
     converged : bool
         Whether the tolerance was met.
-    out : Path or None
-        The folder of its files.
+    answer : Answer
+        Where it goes.
     """
 
     job: Job
@@ -97,7 +97,7 @@ class PathAnswer:
     stem: str
     events: str
     converged: bool
-    out: Path | None
+    answer: Answer
 
     def record(self) -> dict[str, Any]:
         """Return the answer as plain values."""
@@ -112,7 +112,7 @@ class PathAnswer:
             "recipe": self._recipe,
         }
 
-    def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure], ending: str) -> None:
+    def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure]) -> None:
         """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
@@ -128,7 +128,7 @@ class PathAnswer:
             write_csv(dataset, aside / f"{self.stem}.csv", source)
             event = self.events.rpartition("_")[2].removesuffix("s")
             write_csv(dataset, aside / f"{self.events}.csv", source, dimension=event)
-            save(drawn(self.found), aside / f"{self.stem}.{ending}")
+            save(drawn(self.found), aside / f"{self.stem}.{self.answer.ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 
     def show(
@@ -136,12 +136,10 @@ class PathAnswer:
         columns: Sequence[str],
         before: Sequence[tuple[str, str]],
         after: Sequence[tuple[str, str]],
-        *,
-        json: bool,
     ) -> None:
         """Print the loads between facts, or one JSON object; note how many loads missed the tolerance."""
         found = self.found
-        if json:
+        if self.answer.json:
             emit(self.record())
         else:
             print_facts([("surface", size_of(self.surface.grid)), *self._pressed.facts(), *before])
@@ -150,10 +148,10 @@ class PathAnswer:
         if missed := sum(not status.converged for status in found.status):
             note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
 
-    def end(self, folder: Path | None, ending: str, total: int | None) -> None:
+    def end(self, folder: Path | None, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
         names = (f"{self.stem}.csv", f"{self.events}.csv", f"{self.stem}.json", f"{self.stem}.nc")
-        note_files(folder, (*names, f"{self.stem}.{ending}"))
+        self.answer.note_files(folder, (*names, f"{self.stem}.{self.answer.ending}"))
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
             note(
@@ -166,7 +164,7 @@ class PathAnswer:
 
     @cached_property
     def _recipe(self) -> dict[str, Any]:
-        return carried(self.job, self.out)
+        return carried(self.job, self.answer.out)
 
     @cached_property
     def _pressed(self) -> Pressed:

@@ -10,12 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli.messages import note
 from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from rich.console import Console
 
     from roughcontact.plot.adhesive_facts import adhesive_curve_facts, adhesive_facts, law_facts
@@ -51,7 +48,6 @@ __all__ = [
     "law_facts",
     "load_table",
     "loop_facts",
-    "note_files",
     "print_facts",
     "print_table",
     "quantity",
@@ -96,12 +92,6 @@ def print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     for line in lines:
         typer.echo("  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip())
-
-
-def note_files(folder: Path | None, names: Sequence[str]) -> None:
-    """Say on standard error which files a folder holds now, if there is one."""
-    if folder is not None:
-        note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 
 
 def tell(record: Mapping[str, Any], facts: Sequence[tuple[str, str]], *, as_json: bool) -> None:

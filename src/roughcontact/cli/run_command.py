@@ -69,8 +69,14 @@ def run(
         return
     with ExitStack() as stack:
         folder = out or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="roughcontact-")))
-        do(job, Answer(folder, format, json))
+        end: typer.Exit | None = None
+        try:
+            do(job, Answer(folder, format, json, is_kept=out is not None))
+        except typer.Exit as missed:
+            end = missed
         _compare(_numbers(source), _numbers(_file(job, folder, source.suffix)))
+        if end is not None:
+            raise end
 
 
 def _file(job: Job, folder: Path, ending: str = ".json") -> Path:
@@ -88,7 +94,8 @@ def _numbers(path: Path) -> dict[str, Any]:
     import xarray
 
     with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-        return {str(name): values.to_numpy() for name, values in dataset.load().variables.items()}
+        values = {str(name): column.to_numpy() for name, column in dataset.load().variables.items()}
+    return {name: value if value.dtype.kind in "iuf" else value.tolist() for name, value in values.items()}
 
 
 def _is_stored(job: Job, folder: Path) -> bool:

@@ -95,15 +95,15 @@ def _follow(
             states, lambda states: collect_states(states, loads), "Approach and retreat", total
         )
         stem = f"adhesive_{job.NAME.rpartition(' ')[2]}"
-        path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged, answer.out)
+        path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged, answer)
         if folder is not None:
-            path.write(folder, control, jump_figure, answer.ending)
+            path.write(folder, control, jump_figure)
     law = law_facts(adhesion, modulus, surface.grid.spacing)
-    path.show(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found), json=answer.json)
+    path.show(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found))
     note_unresolved(found.unresolved)
     if found.ambiguous:
         note(
             "a jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
             "given"
         )
-    path.end(folder, answer.ending, total)
+    path.end(folder, total)

@@ -12,7 +12,7 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, print_facts
+from roughcontact.cli.report import adhesive_facts, doing, emit, print_facts
 from roughcontact.recipe.adhesive_jobs import AdhesivePressJob
 from roughcontact.recipe.library_calls import perform
 from roughcontact.recipe.prescribed_loads import kinds_of
@@ -66,7 +66,7 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
         size, *others = adhesive_facts(state)
         print_facts([size, *pressed.facts(), *others])
     note_unresolved(state.unresolved)
-    note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
+    answer.note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
     if not state.status.converged:
         raise typer.Exit(MISSED)
 

@@ -56,11 +56,11 @@ def detach(job: DetachJob, *, answer: Answer) -> None:
         if folder is not None:
             [(name, value)] = job.load.named(profile).items()
             control = f"drawn back from {name} = {value!r} {kinds_of(profile)[name].unit}"
-            path.write(folder, control, _drawn, answer.ending)
-    path.show(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
+            path.write(folder, control, _drawn)
+    path.show(DETACHMENT_COLUMNS, (), detachment_facts(found))
     if not preload.status.converged:
         note("the preload missed the tolerance")
-    path.end(folder, answer.ending, total)
+    path.end(folder, total)
 
 
 def _drawn(found: DetachmentCurve) -> Figure:

@@ -9,7 +9,7 @@ from roughcontact.cli.messages import UsageError, plain
 from roughcontact.cli.option_groups import argument
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import emit, load_table, note_files, print_facts, print_table
+from roughcontact.cli.report import emit, load_table, print_facts, print_table
 from roughcontact.files.installed import lacking
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.jobs import known_names
@@ -70,7 +70,7 @@ def conductance(file: Path = _CURVE, *, conduction: Conduction, answer: Answer) 
     else:
         print_table(*load_table(found, names))
         print_facts(conduction_facts(found, conduction.of))
-    note_files(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"))
+    answer.note_files(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"))
 
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:

@@ -25,7 +25,7 @@ from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, note_files, quantity, screen
+from roughcontact.cli.report import doing, quantity, screen
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
@@ -125,7 +125,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json, loop)
-    note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
+    answer.note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
     if left.size or (plastic.loop and loop is None):
         raise typer.Exit(INTERRUPTED)
     if not found.converged:

@@ -16,7 +16,7 @@ from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
+from roughcontact.cli.report import doing, emit, print_facts, solution_facts
 from roughcontact.recipe.elastic_jobs import PressJob
 from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
@@ -71,7 +71,9 @@ def press(job: PressJob, *, answer: Answer) -> None:
     per_area = job.load.pressure is not None or all(surface.grid.periodic)
     _tell(solution, record, pressed, errors, json=answer.json, per_area=per_area)
     pictures = (*(() if theory is None else ("distribution",)), *drawn)
-    note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures)))
+    answer.note_files(
+        folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
+    )
     if not solution.status.converged:
         raise typer.Exit(MISSED)
 

@@ -13,7 +13,7 @@ from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import doing, emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.report import doing, emit, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import LENGTH
@@ -131,7 +131,7 @@ def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
         print_facts(_facts(surface, record))
     for line in record["notes"]:
         note(line)
-    note_files(folder, ("spectrum.csv", f"spectrum.{answer.ending}"))
+    answer.note_files(folder, ("spectrum.csv", f"spectrum.{answer.ending}"))
 
 
 def _surface(source: File, fill: bool) -> Surface:
