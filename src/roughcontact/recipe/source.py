@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, placed, within
 from roughcontact.files.quantity import LENGTH
 from roughcontact.recipe.library_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
@@ -226,7 +226,8 @@ class Combined:
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the calls that make both and join them."""
         for name, source in (("lower", self.lower), ("upper", self.upper)):
-            yield from source.calls(line=line)
+            with within(name):
+                yield from source.calls(line=line)
             yield Call("surface.levelled", ("plane",), result=name, place=f"source.{name}", doing="Levelling")
         given = {} if self.turned_about == "y" else {"turned_about": self.turned_about}
         yield Call("rc.combined", (Name("lower"), Name("upper")), given, result="surface", place="source")
@@ -255,7 +256,6 @@ class InPython:
         raise InputError(
             f"the heights were made in Python ({'; '.join(self.history) or 'no history is kept'})",
             "write them by rc.write, and name the file as the source",
-            "source",
         )
 
 
@@ -266,6 +266,13 @@ SOURCES: tuple[type[Any], ...] = (File, SelfAffine, Shape, Example, Combined, In
 def _grid(source: SelfAffine | Shape, *, line: bool) -> Call:
     """Return the call that makes the grid of a new surface; with one length the cells are square."""
     shape, lengths = points(source.points), size(source.size)
+    for name, given in (("size", len(lengths) == 1), ("points", source.points.isdecimal())):
+        if line and not given:
+            with placed(name):
+                raise InputError(
+                    f"a profile has one length, and points along it, unlike {getattr(source, name)!r}",
+                    "give one number",
+                )
     width = lengths[-1] / shape[1]
     height = lengths[0] / shape[0] if len(lengths) == 2 else width
     named = {"periodic": True} if source.periodic else {}
