@@ -50,9 +50,7 @@ def detach(job: DetachJob, *, answer: Answer) -> None:
             states, lambda states: collect_detachments(states, loads), "Drawing back", total
         )
         converged = preload.status.converged and found.converged
-        path = PathAnswer(
-            job, known["surface"], found, whole, "detachment", "detachments", converged, answer.out
-        )
+        path = PathAnswer(job, known["surface"], found, whole, "detachment", "detachments", converged, answer)
         if folder is not None:
             [(name, value)] = job.load.named(profile).items()
             control = f"drawn back from {name} = {value!r} {kinds_of(profile)[name].unit}"
