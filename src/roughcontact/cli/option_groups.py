@@ -9,9 +9,6 @@ from typing import Any, get_type_hints
 
 import typer
 
-from roughcontact.cli.job import require_one_process
-from roughcontact.cli.messages import reported
-
 __all__ = ["argument", "flag", "grouped", "listed", "option"]
 
 _Declared = tuple[str, Any, Any, str | None]  # name, type, declaration and panel of an option
@@ -64,8 +61,12 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     whole = [name for name, _, option, _ in declared if option.metadata.get("needs_whole")]
 
     def run(**given: Any) -> None:
-        with reported(as_json=given.get("json", False)):
-            require_one_process({flag(name): given[name] for name in whole})
+        if whole:  # the others run, and may tell it, where what is imported here is broken
+            from roughcontact.cli.job import require_one_process
+            from roughcontact.cli.messages import reported
+
+            with reported(as_json=given.get("json", False)):
+                require_one_process({flag(name): given[name] for name in whole})
         command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
