@@ -28,6 +28,10 @@ QUESTIONS = {
     "memory": "memory",
     "hardness": "plastic",
     "how many threads": "threads",
+    "tab key": "completion",
+    "shell completion": "completion",
+    "check the installation": "doctor",
+    "report a defect": "doctor",
     "progress in a notebook": "notebooks",
     "press": "reference/roughcontact.press",
 }
