@@ -64,8 +64,8 @@ def listed(*names: str) -> Callable[[str], list[str]]:
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
-    What was given wrongly, and what a command on a recipe refuses, is reported. The names of options that the short help leaves
-    out are ``more`` of what is returned.
+    What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
+    leaves out are ``more`` of what is returned.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
