@@ -36,7 +36,7 @@ def test_a_caller_sets_the_place_or_puts_its_own_in_front(found, at, below):
 
 @pytest.mark.parametrize("context", [placed, within])
 def test_errors_of_others_pass_unchanged(context):
-    with pytest.raises(ValueError, match="^could not convert") as refused, context("source"):
+    with pytest.raises(ValueError, match=r"^could not convert") as refused, context("source"):
         float("many")
     assert not hasattr(refused.value, "place")
 

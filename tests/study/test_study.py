@@ -151,7 +151,7 @@ def test_the_room_opens_at_its_public_names():
         ({"parameters": {"hurst": "rough"}}, "hurst: 'rough' should be a valid number"),
         (
             {"parameters": {"hurst": 1, "size": "1 N"}},
-            "size: '1 N' is not a length; expected a length such as 5um",
+            "size: '1 N' is not a length: write a length such as 5um",
         ),
         ({"parameters": {"hurst": 1, "label": None}}, "None has no place in a study file"),
         ({"parameters": 5}, "parameters: 5 should be a valid dictionary"),

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.arrays import max_abs
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, require_numbers, scalar
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Force:
     def __post_init__(self) -> None:
         require_numbers(self, value="N")
         if not 0 < self.value < math.inf:
-            raise ValueError(f"the force must be positive and finite [N], not {self.value}")
+            raise about("the force", f"must be positive and finite [N], not {self.value}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +76,9 @@ class Depth:
     def __post_init__(self) -> None:
         require_numbers(self, value="m")
         if not 0 <= self.value < math.inf:
-            raise ValueError(
-                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
+            raise InputError(
+                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}",
+                place="value",
             )
 
 
@@ -132,7 +134,7 @@ def checked_tolerance(tolerance: Any) -> float:
     """
     value = scalar(tolerance, "tolerance")
     if not 1e-14 < value < 1e-2:
-        raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
+        raise about("the tolerance", f"must lie between 1e-14 and 1e-2, not {value}")
     return value
 
 
