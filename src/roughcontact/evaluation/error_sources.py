@@ -14,7 +14,7 @@ from roughcontact.contact.loads.load_search import SurfaceKind
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import notes_on_sources
 from roughcontact.evaluation.perimeter import corrected_area
@@ -183,11 +183,11 @@ def _check(patches: Sequence[Solution]) -> None:
             and np.allclose(problem.grid.spacing, first.grid.spacing, rtol=SAME, atol=0)
         )
         if not same:
-            raise InputError(
-                "patches must have one size and one load to have a mean",
+            raise about(
+                "patches",
+                "must have one size and one load to have a mean",
                 f"crop them to one size, and press each by "
                 f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}",
-                place="patches",
             )
 
 

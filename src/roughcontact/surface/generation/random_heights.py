@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.slabs.exchange import plane_of_waves
 from roughcontact.slabs.slab_array import SlabArray
@@ -77,9 +77,7 @@ def random_heights(
     """
     require_amplitudes(amplitudes)
     if nodal and any(grid.periodic):
-        raise InputError(
-            "nodal repeats the first row at the end: a periodic grid would hold it twice", place="nodal"
-        )
+        raise about("nodal", "repeats the first row at the end: a periodic grid would hold it twice")
     if nodal and min(grid.shape) < 3:
         raise InputError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}", place="nodal")
     if slabs is not None:
