@@ -17,7 +17,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 THESIS = sorted((Path(__file__).parents[1] / "reproduction" / "src").rglob("*.py"))  # its figures
 # Each room may look into those before it, and into itself.
 ORDER = [
-    {"cached", "memory", "threads", "units", "version"},
+    {"cached", "memory", "progress", "threads", "units", "version"},
     {"validation"},
     {"late"},
     {"kernels"},

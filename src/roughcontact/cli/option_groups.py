@@ -11,6 +11,7 @@ import typer
 
 from roughcontact.cli.job import require_one_process
 from roughcontact.cli.messages import reported
+from roughcontact.cli.progress_view import ProgressForm, progress_shown
 
 __all__ = ["argument", "flag", "grouped", "option"]
 
@@ -40,23 +41,36 @@ def argument(text: str, metavar: str, default: Any = ...) -> Any:
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
+_PROGRESS = option(
+    "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+    default=ProgressForm.AUTO,
+    rich_help_panel="Answer",
+)
+
+
 def flag(name: str) -> str:
     """Return the option that the field of this name becomes."""
     return f"--{name.replace('_', '-')}"
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command as typer takes it: groups of options, which are dataclasses, become options side by side."""
+    """Return a command as typer takes it: groups of options, which are dataclasses, become options side by side.
+
+    A command that has ``--json`` gets ``--progress`` too.
+    """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [each for one in parameters for each in _declared(one.name, hints[one.name], one.default)]
+    if any(name == "json" for name, *_ in declared):
+        declared.append(("progress", ProgressForm, _PROGRESS, None))
     flat = [_parameter(*each) for each in declared]
     whole = [name for name, _, option, _ in declared if option.metadata.get("needs_whole")]
 
     def run(**given: Any) -> None:
         with reported(as_json=given.get("json", False)):
             require_one_process({flag(name): given[name] for name in whole})
-        command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+        with progress_shown(given.pop("progress", ProgressForm.AUTO)):
+            command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in flat}

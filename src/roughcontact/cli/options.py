@@ -13,7 +13,6 @@ from roughcontact.cli.material_options import known_material, modulus_of, softer
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
 from roughcontact.cli.option_groups import argument, flag, option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import doing
 from roughcontact.cli.unit_options import parse_modulus, parse_number, parse_size, parse_tolerance
 from roughcontact.materials import MATERIALS
 
@@ -122,7 +121,7 @@ class Source:
         import roughcontact as rc
 
         slabs = slabs_of_job()
-        with as_typed(self.file), doing(f"Reading {self.file.name}"):
+        with as_typed(self.file):
             try:
                 return rc.read(self.file, **self._keywords(periodic), slabs=slabs)
             except rc.ReadError as error:
@@ -140,7 +139,7 @@ class Source:
         """
         import roughcontact as rc
 
-        with as_typed(self.file), doing(f"Reading {self.file.name}"):
+        with as_typed(self.file):
             try:
                 return rc.read_line(self.file, **self._keywords(periodic))
             except rc.ReadError as error:
@@ -154,7 +153,7 @@ class Source:
         """Return the map of heights as the file holds it, or its profile; say so of a profile."""
         from roughcontact.files.read import read_either
 
-        with as_typed(self.file), doing(f"Reading {self.file.name}"):
+        with as_typed(self.file):
             surface = read_either(self.file, **self._keywords(periodic))
         if surface.grid.ndim == 1:
             note(f"{plain(str(self.file))} holds a profile of {surface.grid.size} heights")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import note
-from roughcontact.cli.report import doing, quantity
+from roughcontact.cli.report import quantity
 from roughcontact.files.own_errors import is_ours
 
 if TYPE_CHECKING:
@@ -86,12 +86,10 @@ def best_state(solve: Callable[..., Any], surface: Surface, *given: Any, **named
     """Return the state of a surface, the best that was reached where the tolerance was missed."""
     from roughcontact.contact.convergence import ConvergenceError
 
-    cells = " x ".join(str(n) for n in surface.grid.shape)
-    with doing(f"Pressing {cells} cells"):
-        try:
-            return solve(surface, *given, **named)
-        except ConvergenceError as error:
-            return error.solution
+    try:
+        return solve(surface, *given, **named)
+    except ConvergenceError as error:
+        return error.solution
 
 
 def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:

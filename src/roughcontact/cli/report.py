@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -34,8 +32,6 @@ from roughcontact.plot.facts import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from rich.console import Console
-
 __all__ = [
     "ADHESIVE_COLUMNS",
     "AREAL_COLUMNS",
@@ -44,7 +40,6 @@ __all__ = [
     "adhesive_facts",
     "bend_words",
     "curve_facts",
-    "doing",
     "emit",
     "law_facts",
     "load_table",
@@ -53,27 +48,12 @@ __all__ = [
     "print_facts",
     "print_table",
     "quantity",
-    "screen",
     "size_of",
     "solution_facts",
     "surface_facts",
     "surface_record",
     "tell",
 ]
-
-
-def screen() -> Console:
-    """Return standard error as a console, for progress."""
-    from rich.console import Console
-
-    return Console(stderr=True)
-
-
-def doing(words: str) -> AbstractContextManager[object]:
-    """Say on a terminal what is being done, as long as it takes."""
-    if not sys.stderr.isatty():
-        return nullcontext()
-    return screen().status(f"{words} ...")
 
 
 def emit(record: Mapping[str, Any]) -> None:

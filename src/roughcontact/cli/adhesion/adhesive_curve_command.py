@@ -103,7 +103,7 @@ def _answer(
 ) -> None:
     """Follow loads, or a loop with `points` on its approach; print what was found, and write it where asked."""
     from roughcontact.adhesion.adhesive_curve import collect_states
-    from roughcontact.adhesion.adhesive_loading import states_under
+    from roughcontact.adhesion.adhesive_loading import followed, states_under
     from roughcontact.adhesion.adhesive_loop import until_off
     from roughcontact.plot.jumps import jump_figure
     from roughcontact.solver.loads import Loads
@@ -114,12 +114,11 @@ def _answer(
         states = states_under(
             surface, modulus, adhesion, loads, reading.body(surface, modulus), asked.residual
         )
-        if points is not None:
-            states, loads = until_off(states, points), Loads("depth", loads.values[1:])
-        total = loads.values.size if points is None else None
-        found, whole = collected(
-            states, lambda states: collect_states(states, loads), "Approach and retreat", total
-        )
+        if points is None:
+            states, total = followed(states, loads), loads.values.size
+        else:
+            states, total, loads = until_off(states, points), None, Loads("depth", loads.values[1:])
+        found, whole = collected(states, lambda states: collect_states(states, loads))
         file = reading.source.file
         stem = f"adhesive_{command}"
         path = PathAnswer(command, file, surface, found, whole, stem, f"{stem}_jumps", found.converged)

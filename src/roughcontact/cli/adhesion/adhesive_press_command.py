@@ -14,7 +14,8 @@ from roughcontact.cli.load_options import AdhesiveLoad
 from roughcontact.cli.messages import plain, reported
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed, best_state
-from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, print_facts
+from roughcontact.cli.report import adhesive_facts, emit, note_files, print_facts
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -58,7 +59,7 @@ def press(
             state: AdhesiveState = best_state(
                 rc.adhesive_state, surface, modulus, adhesion, **given, **limits
             )
-            with doing("Stability and files"):
+            with task("Stability and files"):
                 record = {
                     "command": "adhesion press",
                     "file": plain(str(file)),

@@ -56,9 +56,7 @@ def detach(
             limits = {"operator": reading.body(surface, modulus), "tolerance": answer.residual}
             preload = best_state(rc.press, surface, modulus, **given, **limits)
             states = states_drawn_back(preload, energy, loads)
-            found, whole = collected(
-                states, lambda states: collect_detachments(states, loads), "Drawing back", total
-            )
+            found, whole = collected(states, lambda states: collect_detachments(states, loads))
             converged = preload.status.converged and found.converged
             path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachments", converged)
             if folder is not None:

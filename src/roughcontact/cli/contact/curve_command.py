@@ -8,7 +8,6 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli import options
 from roughcontact.cli.contact.conductance_command import Materials
@@ -23,9 +22,10 @@ from roughcontact.cli.load_options import RisingLoads, unit_of_loads
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, note_files, quantity, screen
+from roughcontact.cli.report import note_files, quantity
 from roughcontact.cli.units_of_answer import Units
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
@@ -132,7 +132,7 @@ def curve(
                     f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
                 )
             if folder is not None:
-                with doing("Writing files"):
+                with task("Writing files"):
                     answer.write(folder, source, ending)
                     more = tables.write(folder, computed, surface, conductors)
                     if loop is not None:
@@ -155,8 +155,7 @@ def _suggested(
     from roughcontact.halfspace.operators.operator import geometry_of
     from roughcontact.solver.loads import Loads
 
-    with doing("Looking for the loads that suit this surface"):
-        found = load_range(surface, modulus, operator=operator, hardness=hardness)
+    found = load_range(surface, modulus, operator=operator, hardness=hardness)
     loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
@@ -180,8 +179,7 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
     from roughcontact.contact.loads.load_outlook import load_outlook
 
     name = f"{loads.kind}s"
-    with doing("Looking which of these loads the grid resolves"):
-        ahead = load_outlook(surface, modulus, loads, operator)
+    ahead = load_outlook(surface, modulus, loads, operator)
     if ahead.resolved >= min(_FEWEST, ahead.count):
         return
     ends = ((ahead.below, "too small: the cells set the stiffness"), (ahead.above, "near full contact"))
@@ -197,8 +195,8 @@ def _load(
 ) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
-    There is a loop where more loads are given than the `count` of the curve. A bar on standard error moves on at every
-    load. Ctrl-C ends the curve with the loads that are done.
+    There is a loop where more loads are given than the `count` of the curve. Ctrl-C ends the curve with the loads that
+    are done.
     """
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
@@ -221,23 +219,9 @@ def _load(
             if not notes:  # nothing to keep
                 raise
 
-    columns = (
-        TextColumn("Pressing"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(elapsed_when_finished=True),
-    )
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("Pressing", total=total)
-
-        def moving(path: Iterator[Solution]) -> Iterator[Solution]:
-            for solution in path:
-                progress.advance(task)
-                yield solution
-
-        curve = collect(moving(watched(path)))
-        loop = None
-        if len(curve) == count < total:
-            with suppress(KeyboardInterrupt):
-                loop = closed_loop(curve, turn[0], moving(path))
+    curve = collect(watched(path))
+    loop = None
+    if len(curve) == count < total:
+        with suppress(KeyboardInterrupt):
+            loop = closed_loop(curve, turn[0], path)
     return curve, notes[0], ends, loop

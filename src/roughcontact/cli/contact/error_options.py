@@ -10,7 +10,7 @@ import typer
 
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import option
-from roughcontact.cli.report import doing, print_facts, print_table, quantity
+from roughcontact.cli.report import print_facts, print_table, quantity
 from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.drawing.engineering_units import Scale, scale
 
@@ -95,12 +95,11 @@ class Errors:
         found = []
         for solution in solutions:
             at = quantity("force", solution.force)
-            with doing(f"Errors at {at}: half the cells, no short waves, other levelling"):
-                try:
-                    budget = error_budget(solution, short_cutoff=self._cutoff())
-                except ConvergenceError as error:
-                    note(f"no errors at {at}: {error}")
-                    continue
+            try:
+                budget = error_budget(solution, short_cutoff=self._cutoff())
+            except ConvergenceError as error:
+                note(f"no errors at {at}: {error}")
+                continue
             found.append(LoadErrors(solution.force, budget))
         return tuple(found)
 

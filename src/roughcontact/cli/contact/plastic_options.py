@@ -12,7 +12,7 @@ from roughcontact.cli.contact.profile_options import ProfileBody, kinds_of
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none
-from roughcontact.cli.report import doing, quantity
+from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import parse_load
 
 if TYPE_CHECKING:
@@ -105,8 +105,7 @@ class AfterLoad:
 
         [(name, load)] = given.items()
         loads: dict[str, Any] = {f"{name}s": [load] if first is None else [first, load]}
-        with doing("Pressing and unloading"):
-            *_, last = rc.loading_path(surface, modulus, **loads, flow=_reading(self.flow), **limits)
+        *_, last = rc.loading_path(surface, modulus, **loads, flow=_reading(self.flow), **limits)
         return last
 
     def draw(self, surface: Surface, solution: Solution, folder: Path, ending: str) -> tuple[str, ...]:

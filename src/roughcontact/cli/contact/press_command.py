@@ -20,7 +20,8 @@ from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed, best_state
-from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
+from roughcontact.cli.report import emit, note_files, print_facts, solution_facts
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -90,7 +91,7 @@ def press(
                     note("nothing flowed: the contact is elastic")
             found = errors.of([solution])
             budget = {"errors": found[0].to_record() if found else None}
-            with doing("Stiffness, spots and files"):
+            with task("Stiffness, spots and files"):
                 record = _record(solution, file, pressed) | budget
                 [(name, value)] = given.items()
                 control = f"{name} = {value!r} {kinds_of(body)[name].unit}"

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from roughcontact.cli import options
 from roughcontact.cli.messages import note, plain, reported
-from roughcontact.cli.report import doing, surface_facts, surface_record, tell
+from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.surface.steps import PreparationOptions, steps
+from roughcontact.progress.events import task
 
 __all__ = ["EXAMPLES", "prepare"]
 
@@ -44,7 +45,7 @@ def prepare(
         if not wanted:
             note("no step is asked for: the surface is written as it was read")
         for step in wanted:
-            with doing(step.doing):
+            with task(step.doing):
                 surface = step.apply(surface)
         save_surface(surface, out)
         record = {"command": "surface prepare", "file": plain(str(out))} | surface_record(surface)

@@ -15,10 +15,11 @@ from roughcontact.cli.messages import UsageError, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import doing, emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.report import emit, note_files, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.unit_options import LENGTH, parse_positive
 from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     import xarray
@@ -107,7 +108,7 @@ def spectrum(
         band, ending = asked.band(), picture_ending(format, out)
         with output(out) as folder:
             surface = _surface(source, periodic, asked.fill)
-            with doing("Spectrum, law and files"):
+            with task("Spectrum, law and files"):
                 found, law = _analysed(surface, asked, band, level)
                 record = _record(surface, found, law, source.file)
                 if folder is not None:

@@ -12,7 +12,7 @@ from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
 from roughcontact.cli.unit_options import (
@@ -24,6 +24,7 @@ from roughcontact.cli.unit_options import (
     parse_seed,
     parse_size,
 )
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     from roughcontact.grid import Grid
@@ -76,7 +77,7 @@ def info(
                 print_facts([("file", beside["file"]), *_channel_facts(channels)])
             raise
         require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        with doing("Looking for spikes, steps and form"):
+        with task("Looking for spikes, steps and form"):
             spikes, warnings = preparation_warnings(surface)
         lines = [str(warning) for warning in warnings]
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
@@ -85,7 +86,7 @@ def info(
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
         with nullcontext() if out is None else output_folder(out) as folder:
             if folder is not None:
-                with doing("Drawing"):
+                with task("Drawing"):
                     _draw(surface, spikes, folder / f"surface.{ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
         if folder is not None:
@@ -140,17 +141,16 @@ def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSO
             if (text := getattr(recipe, name)) is not None
         }
         band = None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band")
-        with doing("Adding up the waves"):
-            surface = rc.self_affine(
-                grid,
-                exponent,
-                height,
-                np.random.default_rng(chosen),
-                rms_band=band,
-                nodal=recipe.nodal,
-                slabs=slabs,
-                **waves,  # type: ignore[arg-type]
-            )
+        surface = rc.self_affine(
+            grid,
+            exponent,
+            height,
+            np.random.default_rng(chosen),
+            rms_band=band,
+            nodal=recipe.nodal,
+            slabs=slabs,
+            **waves,  # type: ignore[arg-type]
+        )
         made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
         made = f"made by roughcontact {rc.__version__}: {made}"
         surface = replace(surface, provenance=(*surface.provenance, made))
