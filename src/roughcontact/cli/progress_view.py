@@ -124,7 +124,7 @@ class _Pace:
 
     last: Event
     before: float = field(init=False)
-    since: float = field(default_factory=time.monotonic)
+    since: float = field(default_factory=lambda: time.monotonic())
 
     def __post_init__(self) -> None:
         self.before = self.last.done

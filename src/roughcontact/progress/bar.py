@@ -19,7 +19,7 @@ _UNCOUNTED = "{desc}: {n:g} {unit} [{elapsed}]{postfix}"
 def bar(**options: Any) -> Iterator[None]:
     """Show a bar of tqdm for each long task in this block: in a notebook as a widget, elsewhere on standard error.
 
-    Bars of tasks inside another task vanish when they end.
+    Bars of tasks that count nothing, or that are inside another task, vanish when they end.
 
     Parameters
     ----------
@@ -52,7 +52,12 @@ def bar(**options: Any) -> Iterator[None]:
         one = shown.get(event.number)
         if one is None:
             form = _UNCOUNTED if event.total is None else _COUNTED
-            given = {"desc": event.task, "total": event.total, "unit": event.unit, "leave": event.level == 0}
+            given = {
+                "desc": event.task,
+                "total": event.total,
+                "unit": event.unit,
+                "leave": not event.level and bool(event.unit),
+            }
             one = shown[event.number] = tqdm(
                 **{**given, "initial": event.done, "bar_format": form, **options}
             )

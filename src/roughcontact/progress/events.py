@@ -155,7 +155,7 @@ class RunningTask:
         self._last = replace(last, state="running", done=done, note=note)
         if (now := time.monotonic()) >= self._due:
             if not self._told:
-                self._tell(replace(self._last, state="started"))
+                self._tell(replace(last, state="started"))
             self._due = now + self._listener.interval
             self._tell(self._last)
 
