@@ -28,7 +28,8 @@ QUESTIONS = {
     "memory": "memory",
     "hardness": "plastic",
     "how many threads": "threads",
-    "progress in a notebook": "notebooks",
+    "progress in a notebook": "progress",
+    "how far is a long job": "progress",
     "press": "reference/roughcontact.press",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

@@ -26,6 +26,11 @@ def bar(**options: Any) -> Iterator[None]:
     **options
         Keywords of ``tqdm``, such as ``file`` or ``disable``.
 
+    Yields
+    ------
+    None
+        Bars are shown until the block ends.
+
     Raises
     ------
     ModuleNotFoundError

@@ -86,6 +86,11 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
         Least time between two events of a task that runs [s]. A task inside another one is reported once it has lasted
         so long. First and last events of outer tasks are always reported.
 
+    Yields
+    ------
+    None
+        The listener stays until the block ends.
+
     Examples
     --------
     >>> import roughcontact as rc
@@ -160,7 +165,18 @@ class RunningTask:
             self._tell(self._last)
 
     def advance(self) -> None:
-        """Report that one more is done."""
+        """Report that one more is done.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> with rc.progress.listening(lambda event: print(event.state, event.done)):
+        ...     with rc.progress.task("Trying", 4, "trials") as trying:
+        ...         trying.advance()
+        started 0
+        running 1
+        finished 1
+        """
         self.reached(self._last.done + 1, self._last.note)
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
@@ -183,7 +199,7 @@ _UNHEARD: AbstractContextManager[None] = nullcontext()
 def task(
     words: str, total: float | None = None, unit: str = "", *, done: float = 0, shape: Sequence[int] = ()
 ) -> AbstractContextManager[RunningTask | None]:
-    """Return a task as a block, which yields what it reports by: a `RunningTask`, or None if nobody listens.
+    """Return a task as a block that reports how far it is.
 
     Parameters
     ----------
@@ -197,6 +213,12 @@ def task(
         How much was done before.
     shape : sequence of int
         Cells of an array that the words are followed by.
+
+    Returns
+    -------
+    context manager
+        Its value is a `RunningTask`, or None if nobody listens. A task that returns is "finished", with what was
+        reported as done; one that raises is "stopped".
 
     Examples
     --------
