@@ -32,7 +32,8 @@ QUESTIONS = {
     "shell completion": "completion",
     "check the installation": "doctor",
     "report a defect": "doctor",
-    "progress in a notebook": "notebooks",
+    "progress in a notebook": "progress",
+    "how far is a long job": "progress",
     "press": "reference/roughcontact.press",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

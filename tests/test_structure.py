@@ -20,7 +20,7 @@ THESIS = sorted((Path(__file__).parents[1] / "reproduction" / "src").rglob("*.py
 # Each room may look into those before it, and into itself.
 ORDER = [
     {"errors"},
-    {"cached", "memory", "threads", "units", "version"},
+    {"cached", "memory", "progress", "threads", "units", "version"},
     {"validation"},
     {"late"},
     {"kernels"},

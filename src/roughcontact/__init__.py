@@ -13,6 +13,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact import (
         mdr as mdr,
         plot as plot,
+        progress as progress,
         statistics as statistics,
         study as study,
         theory as theory,

@@ -10,6 +10,7 @@ from typing import Any, get_args, get_type_hints
 
 import typer
 
+from roughcontact.cli.progress_view import ProgressForm, progress_shown
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
 from roughcontact.recipe.source import File
@@ -61,21 +62,36 @@ def listed(*names: str) -> Callable[[str], list[str]]:
     return complete
 
 
+_PROGRESS = option(
+    "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+    "[auto|json|none]",
+    default=ProgressForm.AUTO,
+    everyday=False,
+    rich_help_panel="Answer",
+)
+
+
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
     What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
-    leaves out are ``more`` of what is returned.
+    leaves out are ``more`` of what is returned. A command that has ``--json`` gets ``--progress`` too.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
+    if any(each.parameter.name == "json" for each in declared):
+        declared.append(_of_command("progress", ProgressForm, _PROGRESS, None))
     more = frozenset(each.parameter.name for each in declared if not each.everyday)
     flat = [*(each.parameter for each in declared), *([_HELP_ALL] if more else [])]
 
     def run(**given: Any) -> None:
+        with progress_shown(given.pop("progress", ProgressForm.AUTO)):
+            done(given)
+
+    def done(given: Mapping[str, Any]) -> None:
         if not any(each.spec for each in declared):
             command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
             return

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
+from roughcontact.progress.events import tracked
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, RngLike, as_generator, numeric
 
@@ -157,7 +158,7 @@ def midpoint_surface(
     if borders not in ("three", "wrap"):
         raise about("borders", f"must be 'three' or 'wrap', not {borders!r}")
     heights, wrap = np.zeros(grid.shape), borders == "wrap"
-    for level in range(levels):
+    for level in tracked(range(levels), "Displacing midpoints", "levels"):
         step, m = 2 ** (levels - level), 2**level
         half, limit = step // 2, first * 2 ** (-hurst * level)
         corners = heights[::step, ::step]
