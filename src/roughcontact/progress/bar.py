@@ -16,7 +16,7 @@ _UNCOUNTED = "{desc}: {n:g} {unit} [{elapsed}]{postfix}"
 
 
 @contextmanager
-def bar(**options: Any) -> Iterator[None]:
+def bar(**options: object) -> Iterator[None]:
     """Show a bar of tqdm for each long task in this block: in a notebook as a widget, elsewhere on standard error.
 
     Bars of tasks that count nothing, or that are inside another task, vanish when they end.

@@ -24,7 +24,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
   const [command, python] = [statement(by("curve_command")), statement(by("curve_python"))];
   const theories = theoryList(by("theories"), known, beside);
   const say = (text) => (by("curve_said").textContent = text);
-  const search = progressBar(by("progress"), say); // for the loads: of those, every point counts
+  const search = progressBar(by("progress"), by("curve_said")); // for the loads: of those, every point counts
 
   // What the user wants of the loads, as the server takes it.
   function wanted() {

@@ -33,7 +33,7 @@ const names = {}; // of files, by what the server calls them
 const wanted = { look: false, press: false, cut: false, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
-const working = progressBar(by("working"), say);
+const working = progressBar(by("working"), by("said"));
 const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
   crop: (part) => { by("crop").click(); crop.dragged(part); },

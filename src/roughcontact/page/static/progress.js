@@ -1,10 +1,15 @@
-// How far the worker is: words when a task begins, and a bar while it goes on.
+// How far the worker is: words while an outer task lasts, and a bar once it lasts long.
 
-export function progressBar(bar, say) {
+export function progressBar(bar, said) {
+  let before = "";
   return {
-    // Events come of tasks that last; a short one is no more than its words.
     heard({ task, state, done, total, level }) {
-      if (!level && state === "started") say(`${task} …`);
+      const words = `${task} …`;
+      if (!level && state === "started") {
+        before = said.textContent.endsWith("…") ? "" : said.textContent;
+        said.textContent = words;
+      }
+      if (!level && /finished|stopped/.test(state) && said.textContent === words) said.textContent = before; // a warning
       if (state !== "running") return;
       bar.classList.remove("idle");
       if (total) [bar.max, bar.value] = [total, done];
