@@ -17,6 +17,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid
+from roughcontact.progress.events import tracked
 from roughcontact.solver.subdomain import bounding_box
 from roughcontact.validation import Array, numeric, require, scalar
 
@@ -182,7 +183,8 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
 
     shallow, deep = min(grid.spacing) / 2, max(part.lengths)
     depths = np.geomspace(shallow, deep, 2 + int(np.log(deep / shallow) / np.log(STEP)))
-    best = int(np.argmax([strongest(depth)[0] for depth in depths]))
+    tried = tracked(depths.tolist(), "Looking for the largest stress", "depths")
+    best = int(np.argmax([strongest(depth)[0] for depth in tried]))
     ends = depths[max(0, best - 1)], depths[min(len(depths) - 1, best + 1)]
     found = minimize_scalar(
         lambda z: -strongest(float(np.exp(z)))[0],

@@ -18,6 +18,7 @@ from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
+from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, number, numeric
@@ -163,7 +164,8 @@ def slide_path(
     name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
         raise InputError(f"a path needs at least one load, in a row, not {given}")
-    return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
+    loads = [problem.load(**{name.removesuffix("s"): value}) for value in given]
+    return tracked(_follow(problem, loads), "Sliding", "loads", len(loads))
 
 
 def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:
