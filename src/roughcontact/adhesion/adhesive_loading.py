@@ -17,6 +17,7 @@ from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.loads import Loads
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.validation import Array, numeric
 
 __all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "states_under"]
@@ -198,6 +199,7 @@ def adhesive_curve(
     return collect_states(states_under(surface, modulus, adhesion, loads, operator, tolerance), loads)
 
 
+@analysed_on_host
 def states_under(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],
