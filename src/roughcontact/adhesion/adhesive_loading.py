@@ -18,6 +18,7 @@ from roughcontact.material import Solid, as_modulus
 from roughcontact.progress.events import task, tracked
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.loads import Loads
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.validation import Array, numeric
 
 __all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "followed", "states_under"]
@@ -206,6 +207,7 @@ def followed(states: Iterator[AdhesiveState], loads: Loads) -> Iterator[Adhesive
     return tracked(states, "Approach and retreat", "loads", len(loads.values))
 
 
+@analysed_on_host
 def states_under(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

@@ -102,6 +102,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     >>> f"{stress.von_mises.max() / 1e6:.1f} MPa"
     '16.5 MPa'
     """
+    solution = solution.on_host()
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
@@ -138,6 +139,7 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
     >>> rc.displacement_below(solution, [0.0, 3e-6], rc.Solid(1e9, 0.3)).z.shape
     (2, 32, 32)
     """
+    solution = solution.on_host()
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
 
@@ -174,6 +176,7 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     >>> f"{peak.depth * 1e6:.1f} um below the surface"
     '2.0 um below the surface'
     """
+    solution = solution.on_host()
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, on_host
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
@@ -272,7 +272,7 @@ def _slid(step: SlipStep, force: Array) -> Slipped:
     q = step.limit * as_like(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
-    shift = numbers(xp.mean(level, axis=1))
+    shift = on_host(xp.mean(level, axis=1))
     shift += (float(xp.max(as_like(direction, level) @ level)) - direction @ shift) * direction
     along = as_like(direction, level) @ step.slipped(u, shift)
     residual = step.residual(q, u, along * as_like(direction[:, None], along))

@@ -17,14 +17,12 @@ from roughcontact.errors import about
 from roughcontact.plot import curves, loops, maps, profile_plot
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
-from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 
 __all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
-@on_host_only
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights: a map in colour, of a profile a curve.
 
