@@ -96,7 +96,6 @@ class _Worker:
         """Kill the process, whatever it is doing."""
         with contextlib.suppress(ProcessLookupError):
             self.process.kill()
-        await self.process.wait()
         await asyncio.wait({self.listener})
 
     def _send(self, header: Mapping[str, Any]) -> None:
@@ -114,6 +113,7 @@ class _Worker:
                 self.messages.put_nowait(start + body)
                 if header_of(body[:words])["type"] in ("ready", "end"):
                     self.idle.set()
+        await self.process.wait()
         if not self.idle.is_set():
             self.messages.put_nowait(_end("stopped") if self.cancelled else _end("died", message=_DIED))
             self.idle.set()
