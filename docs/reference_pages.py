@@ -36,6 +36,7 @@ TITLES = {  # in this order
     "plot": "Pictures",
     "files": "Files",
     "memory": "Memory",
+    "progress": "Progress",
 }
 
 

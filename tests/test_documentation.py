@@ -26,7 +26,7 @@ NOT_HERE = {"cluster.md", "law.md", "reproduction.md"}
 # Counts of a study that take minutes, and what is run in their place.
 FEWER = {"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"}
 # Libraries that a block may want and a machine may lack.
-OPTIONAL = re.compile(r"^import (torch)$", re.MULTILINE)
+OPTIONAL = {"torch": "import torch\n", "tqdm": "rc.progress.bar("}
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 
@@ -34,7 +34,8 @@ COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 def blocks():
     for page in PAGES:
         for number, (code, printed) in enumerate(BLOCK.findall(page.read_text(encoding="utf-8"))):
-            lacking = [each for each in OPTIONAL.findall(code) if importlib.util.find_spec(each) is None]
+            wanted = [name for name, sign in OPTIONAL.items() if sign in code]
+            lacking = [each for each in wanted if importlib.util.find_spec(each) is None]
             skipped = pytest.mark.skipif(bool(lacking), reason=f"{', '.join(lacking)}: not installed")
             yield pytest.param(code, printed, id=f"{page.name}-{number}", marks=skipped)
 

@@ -21,7 +21,6 @@ __all__ = [
     "max_abs",
     "multiply",
     "namespace",
-    "numbers",
     "on_host",
     "require_floating",
     "require_no_unit",
@@ -97,14 +96,6 @@ def as_like(values: Array, array: Any) -> Any:
     if isinstance(array, np.ndarray):
         return values
     return namespace(array).asarray(values, dtype=array.dtype, device=array_api_compat.device(array))
-
-
-def numbers(array: Any) -> Array:
-    """Return the few entries of an array, such as the sums of its fields, on the host: each is fetched by itself."""
-    if isinstance(array, np.ndarray):
-        return array
-    entries = namespace(array).reshape(array, (-1,))
-    return np.array([float(entries[i]) for i in range(entries.shape[0])]).reshape(tuple(array.shape))
 
 
 def inner(a: Any, b: Any) -> float:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.units import in_si
 from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
 
@@ -60,26 +60,26 @@ class Grid:
     ) -> None:
         sizes: tuple[int, ...] = tuple(np.atleast_1d(shape).tolist())
         if len(sizes) not in (1, 2):
-            raise InputError(f"shape must have one or two axes, not {len(sizes)}: {sizes}", place="shape")
+            raise about("shape", f"must have one or two axes, not {len(sizes)}: {sizes}")
         if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
-            raise InputError(f"shape must hold positive whole numbers of cells, not {sizes}", place="shape")
+            raise about("shape", f"must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise InputError(f"spacing must be positive, finite numbers [m], not {steps}", place="spacing")
+            raise about("spacing", f"must be positive, finite numbers [m], not {steps}")
         # Of a line the spacing may be the area of cells of which it is a list.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
-            raise InputError(
-                f"spacing must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
+            raise about(
+                "spacing",
+                f"must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
                 f"their digits, not {steps}",
                 "give lengths in other units",
-                place="spacing",
             )
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
         repeats = _per_axis(periodic, len(sizes), "periodic")
         if any(b not in (True, False) for b in repeats):
-            raise InputError(f"periodic must hold True or False, not {repeats}", place="periodic")
+            raise about("periodic", f"must hold True or False, not {repeats}")
         object.__setattr__(self, "periodic", tuple(bool(b) for b in repeats))
 
     @property
@@ -197,18 +197,12 @@ class RadialGrid:
     def __post_init__(self) -> None:
         given = np.asarray(in_si(self.edges, "m", "edges"))
         if given.dtype.kind not in "fiu":
-            raise InputError(
-                f"edges must be radii [m], real numbers, not of type {given.dtype}", place="edges"
-            )
+            raise about("edges", f"must be radii [m], real numbers, not of type {given.dtype}")
         edges = np.array(given, dtype=np.float64)
         if edges.ndim != 1 or len(edges) < 2:
-            raise InputError(
-                f"edges must hold the radii of at least two circles, not shape {edges.shape}", place="edges"
-            )
+            raise about("edges", f"must hold the radii of at least two circles, not shape {edges.shape}")
         if not (np.isfinite(edges).all() and edges[0] >= 0 and (np.diff(edges) > 0).all()):
-            raise InputError(
-                "edges must be finite radii [m] that increase strictly, from 0 or above", place="edges"
-            )
+            raise about("edges", "must be finite radii [m] that increase strictly, from 0 or above")
         for width in (np.diff(edges).min(), edges[-1]):
             moderate(float(width), "edges and widths of rings [m]")
         edges.flags.writeable = False

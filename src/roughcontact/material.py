@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import moderate, require_numbers, scalar, shown
 
 __all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
@@ -36,16 +36,11 @@ class Solid:
     def __post_init__(self) -> None:
         require_numbers(self, young_modulus="Pa")
         if not self.young_modulus > 0:
-            raise InputError(
-                f"young_modulus must be positive [Pa], not {self.young_modulus}", place="young_modulus"
-            )
+            raise about("young_modulus", f"must be positive [Pa], not {self.young_modulus}")
         if self.young_modulus < math.inf:
             moderate(self.young_modulus, "young_modulus [Pa]")
         if not -1 < self.poisson_ratio <= 0.5:
-            raise InputError(
-                f"poisson_ratio must lie above -1 and at most at 0.5, not {self.poisson_ratio}",
-                place="poisson_ratio",
-            )
+            raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
 
     @property
     def shear_modulus(self) -> float:

@@ -211,10 +211,10 @@ def as_generator(rng: RngLike) -> np.random.Generator:
     try:
         return np.random.default_rng(rng)
     except (TypeError, ValueError) as error:
-        raise InputError(
-            f"rng must be a numpy.random.Generator or a seed, not {shown(rng)}",
+        raise about(
+            "rng",
+            f"must be a numpy.random.Generator or a seed, not {shown(rng)}",
             "give a whole number from 0 up, such as rng=1, or None for numbers that differ from run to run",
-            place="rng",
         ) from error
 
 

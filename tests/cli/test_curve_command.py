@@ -66,10 +66,6 @@ def test_a_person_gets_one_line_a_load(invoke, rough):
     assert "full-contact stiffness" in answer.stdout
 
 
-def test_progress_goes_to_standard_error(invoke, rough):
-    assert "12/12" in invoke("curve", rough, *FORCES, *MODULUS, "--json").stderr
-
-
 def test_loads_can_be_pressures_or_depths(invoke, rough, surface):
     def ask(*loads):
         return json.loads(invoke("curve", rough, *loads, *MODULUS, "--level", "none", "--json").stdout)

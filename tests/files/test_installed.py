@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 
 import roughcontact as rc
-from roughcontact.files.installed import broken_package, lacking
+from roughcontact.files.installed import Requirement, broken_package, lacking, requirements
 
 PIP = re.escape(sys.executable) + r" -m pip install "
 
@@ -103,3 +103,29 @@ def test_netcdf_without_h5py_is_one_sentence(tmp_path, monkeypatch):
         file.flush()
         (tmp_path / "classic.nc").write_bytes(stream.getvalue())
     assert rc.read(tmp_path / "classic.nc").grid.shape == (24, 24)
+
+
+def test_the_metadata_of_the_installation_are_read_whole(monkeypatch):
+    lines = [
+        "numpy>=2.0",
+        "h5py>=3.11; python_version < '3.15'",
+        "gone>=1; python_version < '3.1'",
+        "surfacetopography<2,>=1.27; extra == 'formats'",
+        "no-such-package>=7; python_version < '3.99' and extra == 'page'",
+    ]
+    monkeypatch.setattr("importlib.metadata.requires", lambda name: lines)
+    found = {each.name: each for each in requirements()}
+    late = {"h5py"} if sys.version_info < (3, 15) else set()
+    assert found.keys() - late == {"numpy", "surfacetopography", "no-such-package"}
+    assert (found["numpy"].version, found["numpy"].problem) == (np.__version__, None)
+    assert (found["surfacetopography"].least, found["surfacetopography"].extra) == ("1.27", "formats")
+    assert (found["no-such-package"].version, found["no-such-package"].extra) == (None, "page")
+
+
+def test_a_package_that_is_missing_or_old_is_a_problem():
+    assert Requirement("numpy", "2.0", "", "2.0").problem is None
+    assert Requirement("numpy", "2.9", "", "2.10.0rc1").problem is None
+    old = Requirement("numpy", "2.0", "", "1.26.4").problem
+    assert re.fullmatch(rf'the package numpy 1\.26\.4 is older than 2\.0; run: {PIP}"numpy>=2\.0"', old)
+    gone = Requirement("pint", "0.24.4", "", None).problem
+    assert re.fullmatch(rf'the package pint is not installed; run: {PIP}"pint>=0\.24\.4"', gone)

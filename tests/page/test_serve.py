@@ -125,7 +125,7 @@ def test_another_host_another_origin_and_a_gigabyte_are_refused(served):
 def test_a_worker_that_is_killed_is_said_and_replaced(served):
     session = served.begin()
     messages = served.request(session, "curve", {"source": LARGE})
-    assert next(messages)["type"] == "doing"
+    assert next(messages)["type"] == "progress"
     for worker in served.workers:
         worker.kill()
     end = last(messages)
@@ -138,7 +138,7 @@ def test_a_worker_that_is_killed_is_said_and_replaced(served):
 def test_an_order_is_stopped_and_the_next_one_answered(served):
     session = served.begin()
     messages = served.request(session, "curve", {"source": LARGE}, key="long")
-    assert next(messages)["type"] == "doing"
+    assert next(messages)["type"] == "progress"
     assert served.ask("POST", f"/stop?session={session}&queue=front&key=long")[0] == 200
     assert last(messages)["how"] == "stopped"
     assert last(served.request(session, "press", {"source": MADE, "load": LOAD}, key="2"))["how"] == "done"
@@ -155,7 +155,7 @@ def test_a_server_that_ends_leaves_no_process_and_no_file(tmp_path, name):
     session = served.begin()
     served.put(session, "part.npy", b"heights")
     messages = served.request(session, "curve", {"source": LARGE}, queue="back")
-    assert next(messages)["type"] == "doing"
+    assert next(messages)["type"] == "progress"
     assert len(served.left()) == 1
     workers = served.workers
     assert workers

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.mdr.lines.lattice_sums import lambda_rms
 from roughcontact.validation import Array, moderate, number, positive_scalar, scalar
 
@@ -59,9 +59,8 @@ def calibrated_lambda(
     """
     scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= 0):
-        raise InputError(
-            f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}",
-            place="hurst",
+        raise about(
+            "hurst", f"must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
         moderate(positive_scalar(value, name), name)
@@ -151,9 +150,7 @@ def force_ratio(
     """
     low, high = window
     if not (0 < low < high < math.inf):
-        raise InputError(
-            f"window must be a lower and a higher stiffness k/(E* L), not {low} and {high}", place="window"
-        )
+        raise about("window", f"must be a lower and a higher stiffness k/(E* L), not {low} and {high}")
     below, above = _inside(line, window, "line"), _inside(surface, window, "surface")
     # Both are straight between all their points together, so that the trapezoidal rule is exact.
     x = np.unique(np.concatenate([np.log(window), below[0], above[0]]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -59,12 +59,7 @@ def store_of(folder: str | os.PathLike[str], study: Study) -> Path:
     return Path(folder) / STUDIES / study.name
 
 
-def run_study(
-    study: Study,
-    folder: str | os.PathLike[str],
-    executor: Executor,
-    on_progress: Callable[[Summary], None] | None = None,
-) -> Summary:
+def run_study(study: Study, folder: str | os.PathLike[str], executor: Executor) -> Summary:
     """Run a study in its store under `folder`; what is done already is not done again.
 
     Parameters
@@ -75,8 +70,6 @@ def run_study(
         Its folder ``studies`` holds a store a study.
     executor : Executor
         Such as `roughcontact.study.Processes`.
-    on_progress : callable, optional
-        Is told after every case how many are done.
 
     Returns
     -------
@@ -91,7 +84,7 @@ def run_study(
     >>> roughcontact_thesis.run_study(study, "figures", rc.study.Serial()).done
     2
     """
-    return run(study, store_of(folder, study), executor, on_progress=on_progress)
+    return run(study, store_of(folder, study), executor)
 
 
 def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLike[str]) -> xarray.Dataset:

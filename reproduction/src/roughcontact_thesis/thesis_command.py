@@ -11,9 +11,10 @@ from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import PictureFormat, picture_ending
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import doing, print_facts
+from roughcontact.cli.report import print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.errors import placed
+from roughcontact.progress.events import task
 from roughcontact.recipe.texts import whole
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -
     else:
         simple = cast("SimpleFigure", found)
         first = simple.SEED if seed is None else seed
-        with doing(f"Computing {name}"):
+        with task(f"Computing {name}"):
             data = simple.case(first)
         more = [("seed", str(first))]
     picture = f"{name}.{wanted.ending}"
@@ -111,7 +112,7 @@ def _draw(picture: str, found: FigureModule, data: Any, folder: Path) -> None:
     from roughcontact.plot.canvas import save
     from roughcontact_thesis.figures import drawn
 
-    with doing(f"Drawing {picture}"), all_or_none(folder) as aside:
+    with task(f"Drawing {picture}"), all_or_none(folder) as aside:
         save(drawn(found, data), aside / picture)
 
 
@@ -126,7 +127,7 @@ def _ensemble(
     scale, seed, workers = options
     studies = planned(found, scale, seed)
     if workers is not None:
-        _run(name, studies, folder, workers)
+        _run(studies, folder, workers)
     data = averages_of(found, studies, folder)
     write_netcdf(data, folder / f"{name}.nc", provenance(command=command_line()))
     lines = [("averages", str(folder / f"{name}.nc"))]
@@ -138,16 +139,15 @@ def _ensemble(
     return data, lines
 
 
-def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> None:
-    """Run studies and show how far they are."""
-    from roughcontact.cli.study.study_progress import progress
+def _run(studies: tuple[Study, ...], folder: Path, workers: int) -> None:
+    """Run studies."""
     from roughcontact.study import Processes, Serial
     from roughcontact_thesis.reproduce import run_study, store_of
 
     executor = Serial() if workers == 1 else Processes(workers or None)
     for study in studies:
-        with resumable(command_line()), progress(f"{name}, {study.name}") as show:
-            summary = run_study(study, folder, executor, show)
+        with resumable(command_line()):
+            summary = run_study(study, folder, executor)
         if summary.failed:
             cases = f"{summary.failed} case{'s' if summary.failed > 1 else ''}"
             command = shlex.join(

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
 from roughcontact.adhesion.exponential_law import ExponentialLaw
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
@@ -72,16 +72,12 @@ class Adhesion:
         require_numbers(self, work="J/m^2", range="m")
         work = positive(self.work, "work of adhesion [J/m^2]", zero=True)
         if not np.any(work > 0):
-            raise InputError(
-                "the work of adhesion is zero everywhere", "leave the adhesion out", place="work"
-            )
+            raise about("the work", "of adhesion is zero everywhere", "leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
         object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
         if self.law not in tuple(LAWS):  # it may be anything, what has no hash too
             names = ", ".join(map(repr, LAWS))
-            raise InputError(
-                f"the law of adhesion must be one of {names}, not {shown(self.law)}", place="law"
-            )
+            raise about("the law", f"of adhesion must be one of {names}, not {shown(self.law)}")
 
     @property
     def strength(self) -> float:

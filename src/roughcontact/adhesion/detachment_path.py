@@ -16,6 +16,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
+from roughcontact.progress.events import task, tracked
 from roughcontact.solver.loads import Loads
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, numeric, positive, require
@@ -120,7 +121,7 @@ def states_drawn_back(
     )
     if loads is not None:
         loads = _falling(loads.as_forces(problem.grid), preload)
-    with one_blas_thread():
+    with one_blas_thread(), task("Inverting the influence matrix of", shape=(int(preload.contact.sum()),)):
         stuck = StuckContact(
             problem.operator,
             problem.separation,
@@ -128,7 +129,8 @@ def states_drawn_back(
             np.broadcast_to(energy, problem.grid.shape),
             mean_compliance(problem.grid, problem.modulus),
         )
-    return _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
+    states = _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
+    return tracked(states, "Drawing back", "loads", 1 if loads is None else len(loads.values))
 
 
 def _falling(loads: Loads, preload: Solution) -> Loads:
@@ -161,7 +163,7 @@ def _drawn_back(
         with one_blas_thread():
             events: list[Detachment] = []
             before = stuck.area
-            for event in stuck.drawn_back(here, goal, by_force):
+            for event in tracked(stuck.drawn_back(here, goal, by_force), "Letting cells go", "events"):
                 if event.force_before < lowest:
                     lowest, area = event.force_before, before
                 events.append(event)

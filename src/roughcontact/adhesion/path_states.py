@@ -19,6 +19,7 @@ from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.progress.events import task
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -196,7 +197,8 @@ def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Ite
                 # From afar. Where nothing pulls any more, the bodies draw near again.
                 reached = path.start(goal, _initial_displacement(problem.control, goal, path.counter))
             else:
-                reached = path.continue_to(reached, goal)
+                with task("Following the branch", 100, "%") as path.task:
+                    reached = path.continue_to(reached, goal)
             if isinstance(problem.control, ForceControl):
                 reached = _polished(path, reached)
             state = state_of(problem, reached, path.counter.products - before)

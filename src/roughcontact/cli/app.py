@@ -12,7 +12,11 @@ from roughcontact.cli.late_group import late_group
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
-    from roughcontact.cli import run_command as run_command, serve_command as serve_command
+    from roughcontact.cli import (
+        doctor_command as doctor_command,
+        run_command as run_command,
+        serve_command as serve_command,
+    )
     from roughcontact.cli.adhesion import (
         adhesive_curve_command as adhesive_curve_command,
         adhesive_press_command as adhesive_press_command,

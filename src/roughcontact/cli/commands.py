@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["ADHESION", "ALONE", "STUDY", "SURFACE", "do"]
 
 ALONE = {name: f"contact.{name}_command" for name in ("press", "curve", "conductance")}
-ALONE |= {"run": "run_command", "serve": "serve_command"}
+ALONE |= {name: f"{name}_command" for name in ("run", "serve", "doctor")}
 ADHESION = {
     "press": "adhesion.adhesive_press_command",
     "curve": "adhesion.adhesive_curve_command",

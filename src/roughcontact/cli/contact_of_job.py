@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, as_typed, note, plain
-from roughcontact.cli.report import doing, quantity
+from roughcontact.cli.report import quantity
 from roughcontact.files.file_errors import ReadError
+from roughcontact.progress.events import task
 from roughcontact.recipe.bodies import hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import Job, known_names, surface_calls
@@ -64,7 +65,7 @@ def prepared(job: Job, check: Callable[[Surface], None] = lambda surface: None) 
     known: dict[str, Any] = known_names() | {"read_either": read_either}
     for call in surface_calls(job):
         before = known.get("surface")
-        with _reading(call, job) if call.function in _READERS else doing(call.doing):
+        with _reading(call, job) if call.function in _READERS else task(call.doing):
             perform(_adapted(call, job), known)
         after: Any = known.get("surface")
         if after is not before and call.place == "source":
@@ -82,12 +83,10 @@ def best_state(call: Call, known: dict[str, Any]) -> Any:
     """Return the state that a call finds, the best that was reached where the tolerance was missed."""
     from roughcontact.contact.convergence import ConvergenceError
 
-    cells = " x ".join(str(n) for n in known["surface"].grid.shape)
-    with doing(f"Pressing {cells} cells"):
-        try:
-            perform(call, known)
-        except ConvergenceError as error:
-            return error.solution
+    try:
+        perform(call, known)
+    except ConvergenceError as error:
+        return error.solution
     return known[call.result.rpartition(" ")[2]]
 
 
@@ -123,7 +122,7 @@ def _adapted(call: Call, job: Job) -> Call:
 def _reading(call: Call, job: Job) -> Iterator[None]:
     """Name a file as it was typed, and options where the library names its functions for maps and for profiles."""
     file = Path(call.given[0])
-    with as_typed(file), doing(f"Reading {file.name}"):
+    with as_typed(file):
         try:
             yield
         except ReadError as error:

@@ -45,13 +45,14 @@ _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
 class UsageError(InputError):
-    """An option that makes no sense; its place is the option, and stands in front where the text does not name it."""
+    """An option or a field that makes no sense; its place stands in front where the text does not name it."""
 
     def __str__(self) -> str:
-        options, text = self.place or "", super().__str__()
-        if not options.startswith("--") or all(option in text for option in options.split(", ")):
+        place, text = self.place or "", super().__str__()
+        is_shown = place.startswith("--") or "." in place  # and no parameter of a function
+        if not is_shown or all(part in text for part in place.split(", ")):
             return text
-        return joined(f"{options}: {self.message}", self.remedy)
+        return joined(f"{place}: {self.message}", self.remedy)
 
 
 def note(text: str) -> None:

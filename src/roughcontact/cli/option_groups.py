@@ -10,8 +10,7 @@ from typing import Any, get_args, get_type_hints
 
 import typer
 
-from roughcontact.cli.job import require_one_process
-from roughcontact.cli.messages import UsageError, reported
+from roughcontact.cli.progress_view import ProgressForm, progress_shown
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
 from roughcontact.recipe.source import File
@@ -27,7 +26,7 @@ class _Declared:
 
     parameter: inspect.Parameter
     everyday: bool
-    needs_whole: bool = False
+    spec: Spec | None = None
 
 
 def option(
@@ -63,25 +62,47 @@ def listed(*names: str) -> Callable[[str], list[str]]:
     return complete
 
 
+_PROGRESS = option(
+    "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+    "[auto|json|none]",
+    default=ProgressForm.AUTO,
+    everyday=False,
+    rich_help_panel="Answer",
+)
+
+
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
-    What was given wrongly, and what the command refuses, is reported. The names of options that the short help leaves
-    out are ``more`` of what is returned.
+    What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
+    leaves out are ``more`` of what is returned. A command that has ``--json`` gets ``--progress`` too.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
+    if any(each.parameter.name == "json" for each in declared):
+        declared.append(_of_command("progress", ProgressForm, _PROGRESS, None))
     more = frozenset(each.parameter.name for each in declared if not each.everyday)
     flat = [*(each.parameter for each in declared), *([_HELP_ALL] if more else [])]
 
     def run(**given: Any) -> None:
+        with progress_shown(given.pop("progress", ProgressForm.AUTO)):
+            done(given)
+
+    def done(given: Mapping[str, Any]) -> None:
+        if not any(each.spec for each in declared):
+            command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+            return
+        # Late: a command without a recipe reports by itself, also where what is imported here is broken.
+        from roughcontact.cli.job import require_one_process
+        from roughcontact.cli.messages import UsageError, reported
+
         paths = [Path(given["file"])] if isinstance(given.get("file"), str) else []
         paths += [value for value in given.values() if isinstance(value, Path)]
         with reported(*paths, as_json=given.get("json", False)):
-            whole = [each.parameter.name for each in declared if each.needs_whole]
+            whole = [each.parameter.name for each in declared if each.spec and each.spec.needs_whole]
             require_one_process({option_of(name): given[name] for name in whole})
             try:
                 built = {one.name: _built(hints[one.name], one.name, given) for one in parameters}
@@ -132,7 +153,7 @@ def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: st
     metavar = f"[{'|'.join(spec.choices)}]" if spec.choices else spec.example
     if spec.positional:
         info = typer.Argument(default, metavar=metavar, help=spec.help)
-        return _Declared(_parameter(name, kind, info), everyday=True)
+        return _Declared(_parameter(name, kind, info), True, spec)
     several = kind == tuple[str, ...]
     names, proposed = words_of(name, spec), spec.choices or spec.names
     info = typer.Option(
@@ -144,7 +165,7 @@ def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: st
         autocompletion=listed(*proposed) if proposed else None,
     )
     parameter = _parameter(name, list[str] | None if several else kind, info)
-    return _Declared(parameter, spec.everyday or default is ..., spec.needs_whole)
+    return _Declared(parameter, spec.everyday or default is ..., spec)
 
 
 def _parameter(name: str, kind: Any, info: Any) -> inspect.Parameter:

@@ -1,4 +1,4 @@
-"""Paths of adhesive states: followed with progress on a terminal, then printed, and written into a folder."""
+"""Paths of adhesive states: followed as far as they go, then printed, and written into a folder."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from roughcontact.cached import cached_property
 from roughcontact.cli.contact_of_job import name_of
@@ -17,14 +16,13 @@ from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import (
-    doing,
     emit,
     load_table,
     print_facts,
     print_table,
-    screen,
     size_of,
 )
+from roughcontact.progress.events import task
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
@@ -43,7 +41,7 @@ Collected = TypeVar("Collected")
 
 
 def collected(
-    states: Iterable[State], collect: Callable[[Iterator[State]], Collected], words: str, total: int | None
+    states: Iterable[State], collect: Callable[[Iterator[State]], Collected]
 ) -> tuple[Collected, bool]:
     """Return what is collected of the states of a path, and whether it is whole.
 
@@ -53,22 +51,17 @@ def collected(
     stopped: list[bool] = []
 
     def watched() -> Iterator[State]:
-        done = 0
+        some = False
         try:
             for state in states:
-                done += 1
-                progress.advance(task)
+                some = True
                 yield state
         except KeyboardInterrupt:
-            if not done:
+            if not some:
                 raise
             stopped.append(True)
 
-    columns = (TextColumn(words), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("", total=total)
-        found = collect(watched())
-    return found, not stopped
+    return collect(watched()), not stopped
 
 
 @dataclass(frozen=True)
@@ -123,7 +116,7 @@ class PathAnswer:
             self.surface, control=control, command=command_line(), recipe=self._recipe, **scales
         )
         dataset = self.found.to_dataset()
-        with doing("Writing files"), all_or_none(folder) as aside:
+        with task("Writing files"), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
             write_csv(dataset, aside / f"{self.stem}.csv", source)
             event = self.events.rpartition("_")[2].removesuffix("s")

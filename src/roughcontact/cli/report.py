@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -13,8 +11,6 @@ import typer
 from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from roughcontact.plot.adhesive_facts import adhesive_curve_facts, adhesive_facts, law_facts
     from roughcontact.plot.facts import (
         bend_words,
@@ -43,7 +39,6 @@ __all__ = [
     "adhesive_facts",
     "bend_words",
     "curve_facts",
-    "doing",
     "emit",
     "law_facts",
     "load_table",
@@ -51,27 +46,12 @@ __all__ = [
     "print_facts",
     "print_table",
     "quantity",
-    "screen",
     "size_of",
     "solution_facts",
     "surface_facts",
     "surface_record",
     "tell",
 ]
-
-
-def screen() -> Console:
-    """Return standard error as a console, for progress."""
-    from rich.console import Console
-
-    return Console(stderr=True)
-
-
-def doing(words: str) -> AbstractContextManager[object]:
-    """Say on a terminal what is being done, as long as it takes."""
-    if not sys.stderr.isatty():
-        return nullcontext()
-    return screen().status(f"{words} ...")
 
 
 def emit(record: Mapping[str, Any]) -> None:

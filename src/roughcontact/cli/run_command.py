@@ -12,7 +12,7 @@ import typer
 
 from roughcontact.cli.commands import do
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import note
+from roughcontact.cli.messages import note, reported
 from roughcontact.cli.option_groups import argument
 from roughcontact.cli.options import FORMAT, JSON, OUT, Answer, PictureFormat
 from roughcontact.cli.report import emit
@@ -54,6 +54,11 @@ def run(
 
     The answer of a job goes to a folder named like its file, and loads that are stored there are not computed again.
     """
+    with reported(source, out, as_json=json):
+        _run(source, out, format, json=json)
+
+
+def _run(source: Path, out: Path | None, format: PictureFormat | None, *, json: bool) -> None:
     from roughcontact.recipe.written import read_job, require_same_files
 
     job = read_job(source)

@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias, TypeVar
 import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace, on_host
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -166,5 +166,5 @@ def lifting_work(loads: Sequence[tuple[float, float]]) -> tuple[float, float]:
 def flow_reading(flow: str) -> bool:
     """Return whether a reading of flow raises the surface; refuse what is none."""
     if flow not in ("removed", "raised"):
-        raise InputError(f"flow must be 'removed' or 'raised', not {flow!r}", place="flow")
+        raise about("flow", f"must be 'removed' or 'raised', not {flow!r}")
     return flow == "raised"

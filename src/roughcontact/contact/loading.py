@@ -17,6 +17,7 @@ from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
+from roughcontact.progress.events import tracked
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
@@ -182,9 +183,11 @@ def solutions_along(
     )
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
+    method = solver or ActiveSet()
+    path = follow(problem, controls, method)
     if keeps:
-        return follow_history(problem, controls, solver or ActiveSet(), raises=raises)
-    return follow(problem, controls, solver or ActiveSet())
+        path = follow_history(problem, controls, method, raises=raises)
+    return tracked(path, "Pressing", "loads", len(controls))
 
 
 def suitable(

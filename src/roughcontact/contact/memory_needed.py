@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import platform
 from typing import Any
 
@@ -17,7 +18,7 @@ from roughcontact.slabs.agreement import by_each
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.validation import shown
 
-__all__ = ["memory_needed", "require_memory_for"]
+__all__ = ["largest_maps", "memory_needed", "require_memory_for"]
 
 # Bytes per cell beside the heights: of a load on few cells and of the heaviest, and of a curve likewise. They depend on
 # the geometry, and on whether a constant pressure moves nothing: then all cells are solved for, however light the load.
@@ -86,6 +87,15 @@ def memory_needed(
         cells *= cells
     light, full = (cells * each for each in (row[2:] if curve else row[:2]))
     return light, full + min(full, MOST)
+
+
+def largest_maps(memory: float) -> tuple[int, int]:
+    """Return the cells a side of free square maps that fit a memory [bytes]: for light loads, and in full contact."""
+    light, full, *_ = BYTES[Geometry.SURFACE, False]
+    heights = 8  # bytes of a cell
+    return math.isqrt(int(memory / (light + heights))), math.isqrt(
+        int(max(0, memory - MOST) / (full + heights))
+    )
 
 
 def require_memory_for(surface: Body, operator: Operator | None = None, *, curve: bool = False) -> None:

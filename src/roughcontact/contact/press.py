@@ -17,6 +17,7 @@ from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
+from roughcontact.progress.events import task
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Depth, Solver, Start, State, Status
 from roughcontact.solver.loads import control_of
@@ -93,10 +94,11 @@ def press(
     'converged'
     """
     control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
-    solution = solve(
-        make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
-        solver=solver,
-    )
+    with task("Pressing", shape=surface.grid.shape):
+        solution = solve(
+            make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
+            solver=solver,
+        )
     if not solution.status.converged:
         raise ConvergenceError(solution)
     return solution

@@ -12,7 +12,7 @@ import numpy as np
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.flow import Flow
 from roughcontact.contact.size_law import SizeLaw
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
@@ -113,7 +113,7 @@ class ContactProblem:
         checked_tolerance(self.tolerance)
         if isinstance(self.hardness, int | float):
             if not scalar(self.hardness, "hardness") > 0:
-                raise InputError(f"the hardness must be positive [Pa], not {self.hardness}", place="hardness")
+                raise about("the hardness", f"must be positive [Pa], not {self.hardness}")
         elif tuple(self.hardness.shape) != self.grid.shape:
             raise InputError(
                 f"a hardness is one number [Pa], or one for each cell of the grid {self.grid.shape}, not an array of "

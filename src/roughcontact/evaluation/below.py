@@ -17,6 +17,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid
+from roughcontact.progress.events import tracked
 from roughcontact.solver.subdomain import bounding_box
 from roughcontact.validation import Array, numeric, require, scalar
 
@@ -101,6 +102,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     >>> f"{stress.von_mises.max() / 1e6:.1f} MPa"
     '16.5 MPa'
     """
+    solution = solution.on_host()
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
@@ -137,6 +139,7 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
     >>> rc.displacement_below(solution, [0.0, 3e-6], rc.Solid(1e9, 0.3)).z.shape
     (2, 32, 32)
     """
+    solution = solution.on_host()
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
 
@@ -173,6 +176,7 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     >>> f"{peak.depth * 1e6:.1f} um below the surface"
     '2.0 um below the surface'
     """
+    solution = solution.on_host()
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
 
@@ -182,7 +186,8 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
 
     shallow, deep = min(grid.spacing) / 2, max(part.lengths)
     depths = np.geomspace(shallow, deep, 2 + int(np.log(deep / shallow) / np.log(STEP)))
-    best = int(np.argmax([strongest(depth)[0] for depth in depths]))
+    tried = tracked(depths.tolist(), "Looking for the largest stress", "depths")
+    best = int(np.argmax([strongest(depth)[0] for depth in tried]))
     ends = depths[max(0, best - 1)], depths[min(len(depths) - 1, best + 1)]
     found = minimize_scalar(
         lambda z: -strongest(float(np.exp(z)))[0],

@@ -11,7 +11,7 @@ import numpy as np
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
@@ -233,9 +233,8 @@ def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
 def _require_part(of: str) -> None:
     """Refuse what is neither the interface nor the total."""
     if of not in _PARTS:
-        raise InputError(
-            f"of must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}",
-            place="of",
+        raise about(
+            "of", f"must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
         )
 
 

@@ -14,13 +14,14 @@ from roughcontact.contact.loads.load_search import SurfaceKind
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import notes_on_sources
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Force
 from roughcontact.surface.finest_waves import is_rough_to_cells
 from roughcontact.surface.preparation.filters import require_cells
@@ -115,7 +116,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         notes.append("Levelling is left out: a form larger than the roughness is the body itself.")
     values, parts = _table(patches), []
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
-        for source, change in zip(sources, otherwise, strict=True):
+        maps = list(zip(sources, otherwise, strict=True))
+        for source, change in tracked(maps, "Errors: pressing maps made otherwise", "maps"):
             again = _table([_again(each, change) for each in patches])
             parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
             if np.isnan(again).all(axis=0).any():
@@ -183,11 +185,11 @@ def _check(patches: Sequence[Solution]) -> None:
             and np.allclose(problem.grid.spacing, first.grid.spacing, rtol=SAME, atol=0)
         )
         if not same:
-            raise InputError(
-                "patches must have one size and one load to have a mean",
+            raise about(
+                "patches",
+                "must have one size and one load to have a mean",
                 f"crop them to one size, and press each by "
                 f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}",
-                place="patches",
             )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_numpy
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.height_warnings import IMPOSSIBLE, height_warnings, highest
@@ -176,8 +176,8 @@ def plain_lengths(unit: Any, size: Any) -> tuple[Length | None, Size | None]:
         try:
             unit = scalar(in_si(1.0 * unit, "m", "unit"), "unit")  # a unit, or a quantity
         except TypeError as error:
-            raise InputError(
-                f"unit must be a text such as 'nm', or metres per unit, not {shown(unit)}", place="unit"
+            raise about(
+                "unit", f"must be a text such as 'nm', or metres per unit, not {shown(unit)}"
             ) from error
     size = in_si(size, "m", "size")
     return unit, tuple(size) if isinstance(size, Iterable) and not isinstance(size, str) else size
@@ -190,5 +190,5 @@ def cell_of(size: Size, shape: tuple[int, ...]) -> tuple[float, ...]:
     lengths = tuple(size)
     if len(lengths) != len(shape):
         wanted = "a width or two lengths (Ly, Lx)" if len(shape) == 2 else "one length"
-        raise InputError(f"size needs {wanted}, not {len(lengths)}: {lengths}", place="size")
+        raise about("size", f"needs {wanted}, not {len(lengths)}: {lengths}")
     return tuple(parse_length(length) / n for length, n in zip(lengths, shape, strict=True))

@@ -6,7 +6,7 @@ import math
 import re
 import unicodedata
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 
 __all__ = ["is_length", "length_factor", "parse_length", "stated_length"]
 
@@ -64,9 +64,7 @@ def length_factor(unit: str | float) -> float:
         return _by_pint(unit) if factor is None else factor
     factor = float(unit)
     if not (math.isfinite(factor) and factor > 0):
-        raise InputError(
-            f"unit must be a positive number of metres or one of {_KNOWN}, not {unit}", place="unit"
-        )
+        raise about("unit", f"must be a positive number of metres or one of {_KNOWN}, not {unit}")
     return factor
 
 

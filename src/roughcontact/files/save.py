@@ -37,6 +37,7 @@ from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
@@ -113,8 +114,10 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     )
     hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
     kind = _require_kind(path, type(what).__name__, formats, hint)
+    encoded = analysed_on_host(formats[kind])
+    here = what.on_host() if isinstance(what, Solution | TangentialSolution) else what
     with written_aside(path) as aside:
-        aside.write_bytes(formats[kind](what))
+        aside.write_bytes(encoded(here))
 
 
 def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:

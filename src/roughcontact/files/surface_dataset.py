@@ -16,7 +16,7 @@ from roughcontact.files.netcdf import StoredVariable, height_map_of
 from roughcontact.files.provenance import provenance
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
-from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["dataset_without_heights", "surface_dataset", "surface_of"]
 
 
-@on_host_only
+@analysed_on_host
 def surface_dataset(surface: Surface) -> xarray.Dataset:
     """Return the heights as a dataset of xarray, with units, places of the cells, and provenance.
 

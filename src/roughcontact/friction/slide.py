@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, on_host
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
@@ -18,6 +18,7 @@ from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
+from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, number, numeric
@@ -163,7 +164,8 @@ def slide_path(
     name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
         raise InputError(f"a path needs at least one load, in a row, not {given}")
-    return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
+    loads = [problem.load(**{name.removesuffix("s"): value}) for value in given]
+    return tracked(_follow(problem, loads), "Sliding", "loads", len(loads))
 
 
 def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:
@@ -270,7 +272,7 @@ def _slid(step: SlipStep, force: Array) -> Slipped:
     q = step.limit * as_like(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
-    shift = numbers(xp.mean(level, axis=1))
+    shift = on_host(xp.mean(level, axis=1))
     shift += (float(xp.max(as_like(direction, level) @ level)) - direction @ shift) * direction
     along = as_like(direction, level) @ step.slipped(u, shift)
     residual = step.residual(q, u, along * as_like(direction[:, None], along))

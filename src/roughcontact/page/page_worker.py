@@ -13,6 +13,7 @@ import sys
 import threading
 import traceback
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
@@ -22,10 +23,12 @@ from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.server.page_request import Job, PageRequest, Send
 from roughcontact.page.stopping import Stopped, Stopping
+from roughcontact.progress.events import listening
 
 __all__ = ["main", "perform"]
 
 _SHARE = 0.75  # of the memory that is free when it starts
+_INTERVAL = 0.3  # seconds between two messages about how far a task is
 
 
 def main() -> None:
@@ -58,12 +61,18 @@ def main() -> None:
 
 
 def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping: Stopping) -> None:
-    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program."""
+    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program.
+
+    How far it is goes before, as messages of the type "progress".
+    """
     end: dict[str, Any] = {"type": "end", "how": "done"}
     try:
         stopping.begin(given["number"])
         request = _request(given)
-        with contextlib.redirect_stdout(io.StringIO()):
+        with (
+            contextlib.redirect_stdout(io.StringIO()),
+            listening(lambda event: send({"type": "progress", **asdict(event)}), interval=_INTERVAL),
+        ):
             _job(given["job"])(request, cache, send)
     except Stopped:
         end["how"] = "stopped"

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
@@ -68,7 +68,7 @@ def profile_curve(
         rows = heights.shape[0]
         chosen = rows // 2 if row is None else row
         if not -rows <= chosen < rows:
-            raise InputError(f"row must lie between {-rows} and {rows - 1}, not at {chosen}", place="row")
+            raise about("row", f"must lie between {-rows} and {rows - 1}, not at {chosen}")
         heights = heights[chosen]
         marked = None if marked is None else marked[chosen]
     elif row is not None:

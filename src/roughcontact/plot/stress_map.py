@@ -64,6 +64,7 @@ def von_mises_section(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'depth [µm]')
     """
+    solution = solution.on_host()
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
     if row is None:

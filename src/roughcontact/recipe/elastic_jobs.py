@@ -10,7 +10,7 @@ from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
 from roughcontact.recipe.library_calls import Call, Name
-from roughcontact.recipe.outputs import Errors, PressureTheory, Tables, Theories, Units
+from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
@@ -110,7 +110,7 @@ class CurveJob:
     conduction: Conduction = field(default_factory=Conduction)
     theories: Theories = field(default_factory=Theories)
     errors: Errors = field(default_factory=Errors)
-    tables: Tables = field(default_factory=Tables)
+    tables: InterfaceTables = field(default_factory=InterfaceTables)
     units: Units = field(default_factory=Units)
 
     def __post_init__(self) -> None:

@@ -9,7 +9,7 @@ from roughcontact.errors import within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.library_calls import Call, perform
-from roughcontact.recipe.source import File, Shape
+from roughcontact.recipe.source import File, SmoothBody
 
 __all__ = ["JOBS", "Job", "calls_of", "is_of_profile", "known_names", "surface_calls", "surface_of"]
 
@@ -77,7 +77,7 @@ def known_names() -> dict[str, Any]:
 
 def _default_level(job: Job) -> str:
     """Return how the heights of a job are levelled where nothing is said."""
-    if isinstance(job, SurfaceJob) or isinstance(job.source, Shape):
+    if isinstance(job, SurfaceJob) or isinstance(job.source, SmoothBody):
         return "none"
     # A file that does not say that its map repeats itself says nothing about a tilt.
     return "plane" if isinstance(job.source, File) and job.source.periodic else "auto"

@@ -12,7 +12,7 @@ from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AR
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
 
-__all__ = ["TABLES", "THEORIES", "Errors", "PressureTheory", "Tables", "Theories", "Units"]
+__all__ = ["TABLES", "THEORIES", "Errors", "InterfaceTables", "PressureTheory", "Theories", "Units"]
 
 # Those of `theory.laws`, which needs NumPy: the help and the completion of options do not wait for it.
 THEORIES = (
@@ -100,7 +100,7 @@ class Errors:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tables:
+class InterfaceTables:
     """Tables of the interface for other programs."""
 
     TITLE: ClassVar = "Tables"

@@ -12,7 +12,7 @@ from roughcontact.recipe.library_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, points, size, whole
 
-__all__ = ["SOURCES", "Combined", "Example", "File", "InPython", "SelfAffine", "Shape", "Source"]
+__all__ = ["SOURCES", "Combined", "Example", "File", "InPython", "SelfAffine", "SmoothBody", "Source"]
 
 _WAVE = Amount(LENGTH, "a wavelength")
 _SIZE = described(
@@ -151,7 +151,7 @@ _SHAPES = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Shape:
+class SmoothBody:
     """A body without roughness, its crest in the middle."""
 
     KIND: ClassVar = "shape"
@@ -259,11 +259,11 @@ class InPython:
         )
 
 
-Source: TypeAlias = File | SelfAffine | Shape | Example | Combined | InPython
-SOURCES: tuple[type[Any], ...] = (File, SelfAffine, Shape, Example, Combined, InPython)
+Source: TypeAlias = File | SelfAffine | SmoothBody | Example | Combined | InPython
+SOURCES: tuple[type[Any], ...] = (File, SelfAffine, SmoothBody, Example, Combined, InPython)
 
 
-def _grid(source: SelfAffine | Shape, *, line: bool) -> Call:
+def _grid(source: SelfAffine | SmoothBody, *, line: bool) -> Call:
     """Return the call that makes the grid of a new surface; with one length the cells are square."""
     shape, lengths = points(source.points), size(source.size)
     for name, given in (("size", len(lengths) == 1), ("points", source.points.isdecimal())):

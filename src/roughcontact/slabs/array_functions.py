@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.slabs.communicator import Communicator
 from roughcontact.slabs.rows import Edges, edges_of
 from roughcontact.slabs.slab_array import Local, SlabArray
@@ -99,9 +99,7 @@ class SlabFunctions:
     def concat(self, arrays: list[SlabArray], *, axis: int = 0) -> SlabArray:
         """Return arrays one beside the other."""
         if axis == 0:
-            raise InputError(
-                "arrays in slabs are joined along their rows, not one below the other", place="arrays"
-            )
+            raise about("arrays", "in slabs are joined along their rows, not one below the other")
         return arrays[0].like(np.concatenate([x.local for x in arrays], axis=axis))
 
     def repeat(self, x: SlabArray, repeats: int, *, axis: int) -> SlabArray:

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid
 from roughcontact.solver.control import Control, Depth, Force
 from roughcontact.validation import Array, exactly_one, number, require, scalar
@@ -126,5 +126,5 @@ def control_of(kind: str, value: float, grid: AnyGrid) -> Control:
     if kind == "depth":
         return Depth(value)
     if not 0 < value < math.inf:
-        raise InputError(f"the pressure must be positive and finite [Pa], not {value}", place="pressure")
+        raise about("the pressure", f"must be positive and finite [Pa], not {value}")
     return Force(value * grid.area)

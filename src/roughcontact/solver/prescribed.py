@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_array, is_numpy, max_abs, multiply, namespace
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
@@ -136,14 +136,12 @@ def prescribe(
             f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}", place="operator"
         )
     if not (isinstance(max_steps, int | np.integer) and max_steps >= 2):
-        raise InputError(
-            f"max_steps must be a whole number, two at least, not {max_steps!r}", place="max_steps"
-        )
+        raise about("max_steps", f"must be a whole number, two at least, not {max_steps!r}")
     tolerance = checked_tolerance(tolerance)
     region = checked_region(region, operator.grid.shape)
     xp = namespace(region)
     if not bool(xp.any(region)):
-        raise InputError("the region holds no cell: nothing can be displaced", place="region")
+        raise about("the region", "holds no cell: nothing can be displaced")
     if is_semidefinite(operator) and bool(xp.all(region)):
         raise InputError("all cells of a periodic grid: no pressure moves their mean", "leave a cell free")
     displacement, initial = in_si(displacement, "m", "displacement"), in_si(initial, "Pa", "initial")
@@ -158,11 +156,9 @@ def prescribe(
         )
     size = max_abs(target)
     if not 0 < size < math.inf:
-        raise InputError(
-            "the displacement must be finite, and not zero everywhere on the region [m]", place="displacement"
-        )
+        raise about("the displacement", "must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
-        raise InputError("the initial pressure must be finite [Pa]", place="initial")
+        raise about("the initial", "pressure must be finite [Pa]")
     subdomain = _subdomain(operator, region)
     part, inside, wanted = operator, region, target
     if subdomain is not None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, moderate
 
 __all__ = ["height_range", "is_elsewhere", "own_heights"]
@@ -31,24 +31,24 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
     if is_elsewhere(heights):
         own = heights
         if not namespace(own).isdtype(own.dtype, "real floating"):
-            raise InputError(
-                f"heights that are not NumPy's must be real floating numbers [m], not of type {own.dtype}",
+            raise about(
+                "heights",
+                f"that are not NumPy's must be real floating numbers [m], not of type {own.dtype}",
                 "convert whole numbers to float64",
-                place="heights",
             )
         if wants_gradient(own):
             raise InputError("nothing here is differentiated", "give heights without gradients, .detach()")
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
-            raise InputError(f"heights must be real numbers [m], not of type {given.dtype}", place="heights")
+            raise about("heights", f"must be real numbers [m], not of type {given.dtype}")
         own = np.array(given, dtype=np.float64)
         own.flags.writeable = False
     if tuple(own.shape) != shape:
-        raise InputError(
-            f"heights of shape {tuple(own.shape)} do not fit the grid of shape {shape}",
+        raise about(
+            "heights",
+            f"of shape {tuple(own.shape)} do not fit the grid of shape {shape}",
             "give Grid(heights.shape, spacing)",
-            place="heights",
         )
     _check_range(own)
     return own  # type: ignore[no-any-return]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.errors import InputError
@@ -14,8 +14,6 @@ from roughcontact.slabs.exchange import is_in_slabs
 __all__ = ["analysed_on_host", "on_host_only", "on_host_or_in_slabs"]
 
 
-P = ParamSpec("P")
-R = TypeVar("R")
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -44,14 +42,14 @@ def _refusing(function: F, refused: Callable[[Any], bool]) -> F:
     return checked  # type: ignore[return-value]
 
 
-def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
+def analysed_on_host(function: F) -> F:
     """Return a function of surfaces that is given a copy of heights of another library in NumPy's memory.
 
     For what returns numbers and NumPy's arrays. Heights in slabs are refused: no process holds all of them.
     """
 
     @wraps(function)
-    def there(*args: P.args, **kwargs: P.kwargs) -> R:
+    def there(*args: Any, **kwargs: Any) -> Any:
         if not any(map(_is_elsewhere, (*args, *kwargs.values()))):
             return function(*args, **kwargs)
 
@@ -67,7 +65,7 @@ def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
 
         return function(*map(copied, args), **{name: copied(given) for name, given in kwargs.items()})
 
-    return there
+    return there  # type: ignore[return-value]
 
 
 def _is_elsewhere(given: Any) -> bool:

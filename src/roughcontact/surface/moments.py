@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.wave_grid import (
     Spectrum,
@@ -70,9 +70,7 @@ class Moments:
                 place=name,
             )
         if self.dimension not in (1, 2):
-            raise InputError(
-                f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}", place="dimension"
-            )
+            raise about("dimension", f"must be 2 (a surface) or 1 (a line), not {self.dimension}")
 
     @property
     def rms_height(self) -> float:

@@ -67,6 +67,10 @@ class Surface:
         object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 
+    def __repr__(self) -> str:
+        """Say where the heights lie and come from, not the heights."""
+        return f"Surface({self.grid}, {'; '.join(self.provenance) or 'heights as given'})"
+
     def __add__(self, other: Surface) -> Surface:
         """Return the sum of the heights of two surfaces on one grid; missing where either is missing."""
         return self._joined(other, 1) if isinstance(other, Surface) else NotImplemented

@@ -74,7 +74,7 @@ def _follow(
 ) -> None:
     """Follow loads, or a loop with `points` on its approach; print what was found, and write it where asked."""
     from roughcontact.adhesion.adhesive_curve import collect_states
-    from roughcontact.adhesion.adhesive_loading import states_under
+    from roughcontact.adhesion.adhesive_loading import followed, states_under
     from roughcontact.adhesion.adhesive_loop import until_off
     from roughcontact.plot.adhesive_facts import ADHESIVE_COLUMNS
     from roughcontact.plot.jumps import jump_figure
@@ -88,12 +88,11 @@ def _follow(
         note_long_range(adhesion, surface)
         loads, tolerance = loads_for(adhesion), value_of(job.contact, "tolerance")
         states = states_under(surface, modulus, adhesion, loads, known.get("operator"), tolerance)
-        if points is not None:
-            states, loads = until_off(states, points), Loads("depth", loads.values[1:])
-        total = loads.values.size if points is None else None
-        found, whole = collected(
-            states, lambda states: collect_states(states, loads), "Approach and retreat", total
-        )
+        if points is None:
+            states, total = followed(states, loads), loads.values.size
+        else:
+            states, total, loads = until_off(states, points), None, Loads("depth", loads.values[1:])
+        found, whole = collected(states, lambda states: collect_states(states, loads))
         stem = f"adhesive_{job.NAME.rpartition(' ')[2]}"
         path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged, answer)
         if folder is not None:

@@ -12,7 +12,8 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import adhesive_facts, doing, emit, print_facts
+from roughcontact.cli.report import adhesive_facts, emit, print_facts
+from roughcontact.progress.events import task
 from roughcontact.recipe.adhesive_jobs import AdhesivePressJob
 from roughcontact.recipe.library_calls import perform
 from roughcontact.recipe.prescribed_loads import kinds_of
@@ -46,7 +47,7 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
         note_long_range(known["adhesion"], known["surface"])
         pressed = Pressed.of(known["surface"], known["modulus"], None)
         state: AdhesiveState = best_state(call, known)
-        with doing("Stability and files"):
+        with task("Stability and files"):
             record = {
                 "command": job.NAME,
                 "file": name_of(job.source),

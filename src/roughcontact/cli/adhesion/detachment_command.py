@@ -46,9 +46,7 @@ def detach(job: DetachJob, *, answer: Answer) -> None:
         known = contact_of(job)
         preload = best_state(next(job.calls()), known)
         states = states_drawn_back(preload, value_of(job.adhesion, "work"), loads)
-        found, whole = collected(
-            states, lambda states: collect_detachments(states, loads), "Drawing back", total
-        )
+        found, whole = collected(states, lambda states: collect_detachments(states, loads))
         converged = preload.status.converged and found.converged
         path = PathAnswer(job, known["surface"], found, whole, "detachment", "detachments", converged, answer)
         if folder is not None:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from roughcontact.cli.contact.conductance_command import conductors_of
 from roughcontact.cli.contact.curve_answer import CurveAnswer
@@ -25,7 +24,8 @@ from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, quantity, screen
+from roughcontact.cli.report import quantity
+from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
@@ -119,7 +119,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             source = found.source(
                 f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
             )
-            with doing("Writing files"):
+            with task("Writing files"):
                 found.write(folder, source, answer.ending)
                 more = write_tables(job.tables, folder, computed, surface, conductors)
                 if loop is not None:
@@ -164,8 +164,7 @@ def _suggested(
     from roughcontact.halfspace.operators.operator import geometry_of
     from roughcontact.solver.loads import Loads
 
-    with doing("Looking for the loads that suit this surface"):
-        found = load_range(surface, modulus, operator=operator, hardness=hardness)
+    found = load_range(surface, modulus, operator=operator, hardness=hardness)
     loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
@@ -189,8 +188,7 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
     from roughcontact.contact.loads.load_outlook import load_outlook
 
     name = f"{loads.kind}s"
-    with doing("Looking which of these loads the grid resolves"):
-        ahead = load_outlook(surface, modulus, loads, operator)
+    ahead = load_outlook(surface, modulus, loads, operator)
     if ahead.resolved >= min(_FEWEST, ahead.count):
         return
     ends = ((ahead.below, "too small: the cells set the stiffness"), (ahead.above, "near full contact"))
@@ -206,15 +204,14 @@ def _load(
 ) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
-    With `loop` the loads are unloaded and loaded again. A bar on standard error moves on at every
-    load. Ctrl-C ends the curve with the loads that are done.
+    With `loop` the loads are unloaded and loaded again. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
-    path, total = solutions_along(surface, modulus, every, **limits), every.values.size
+    path = solutions_along(surface, modulus, every, **limits)
     notes: list[tuple[str, ...]] = []
     ends: list[Solution] = []
     turn: list[Solution] = []
@@ -231,23 +228,9 @@ def _load(
             if not notes:  # nothing to keep
                 raise
 
-    columns = (
-        TextColumn("Pressing"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(elapsed_when_finished=True),
-    )
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("Pressing", total=total)
-
-        def moving(path: Iterator[Solution]) -> Iterator[Solution]:
-            for solution in path:
-                progress.advance(task)
-                yield solution
-
-        curve = collect(moving(watched(path)))
-        closed = None
-        if loop and len(curve) == count:
-            with suppress(KeyboardInterrupt):
-                closed = closed_loop(curve, turn[0], moving(path))
+    curve = collect(watched(path))
+    closed = None
+    if loop and len(curve) == count:
+        with suppress(KeyboardInterrupt):
+            closed = closed_loop(curve, turn[0], path)
     return curve, notes[0], ends, closed

@@ -13,7 +13,7 @@ from roughcontact.recipe.recipe_fields import value_of
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.evaluation.conduction import Conductors
-    from roughcontact.recipe.outputs import Tables
+    from roughcontact.recipe.outputs import InterfaceTables
     from roughcontact.surface.surface import Surface
 
 __all__ = ["write_tables"]
@@ -27,7 +27,7 @@ _FILES = {
 
 
 def write_tables(
-    tables: Tables, folder: Path, curve: Curve, surface: Surface, conductors: Conductors | None
+    tables: InterfaceTables, folder: Path, curve: Curve, surface: Surface, conductors: Conductors | None
 ) -> tuple[str, ...]:
     """Write the tables into a folder, and return the names of their files; say why where a curve allows none."""
     from roughcontact.evaluation.interface_table import interface_table

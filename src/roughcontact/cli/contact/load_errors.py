@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli.messages import note
-from roughcontact.cli.report import doing, print_facts, print_table, quantity
+from roughcontact.cli.report import print_facts, print_table, quantity
 from roughcontact.errors import placed
 from roughcontact.plot.drawing.engineering_units import Scale, scale
 from roughcontact.recipe.recipe_fields import value_of
@@ -75,11 +75,10 @@ def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors,
     found = []
     for solution in solutions:
         at = quantity("force", solution.force)
-        with doing(f"Errors at {at}: half the cells, no short waves, other levelling"):
-            try:
-                budget = error_budget(solution, short_cutoff=value_of(asked, "shortest_wave"))
-            except ConvergenceError as error:
-                note(f"no errors at {at}: {error}")
-                continue
+        try:
+            budget = error_budget(solution, short_cutoff=value_of(asked, "shortest_wave"))
+        except ConvergenceError as error:
+            note(f"no errors at {at}: {error}")
+            continue
         found.append(LoadErrors(solution.force, budget))
     return tuple(found)

@@ -16,7 +16,8 @@ from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, emit, print_facts, solution_facts
+from roughcontact.cli.report import emit, print_facts, solution_facts
+from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import PressJob
 from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
@@ -60,7 +61,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
             note("nothing flowed: the contact is elastic")
         errors = errors_of(job.errors, [solution])
         drawn: tuple[str, ...] = ()
-        with doing("Stiffness, spots and files"):
+        with task("Stiffness, spots and files"):
             record = _record(solution, job, pressed) | {"recipe": carried(job, answer.out)}
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:

@@ -17,10 +17,10 @@ from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.output import command_line
+from roughcontact.cli.progress_view import duration
 from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.cli.study.study_engine import Workplace
-from roughcontact.cli.study.study_progress import duration
 
 if TYPE_CHECKING:
     import xarray
@@ -78,17 +78,13 @@ def run(
 ) -> None:
     """Compute what is left of a study. Ctrl-C stops it; run again, it goes on."""
     with reported(source, out, as_json=json), own_cases():
-        from roughcontact.cli.study.study_progress import progress
         from roughcontact.study.run import run as run_study
 
         study, folder = _found(source, out)
         engine = workplace.open()
         again = [*workplace.typed(), *(["--retry"] if retry else [])]
-        with (
-            resumable(_command("run", folder, *again), as_json=json),
-            progress(study.name) as show,
-        ):
-            summary = run_study(study, folder, engine, retry=retry, on_progress=show)
+        with resumable(_command("run", folder, *again), as_json=json):
+            summary = run_study(study, folder, engine, retry=retry)
         _tell(study, folder, summary, as_json=json)
         if summary.failed:
             note(f"{summary.failed} cases failed; why says: {_command('status', folder, '--failed')}")

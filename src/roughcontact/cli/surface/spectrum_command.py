@@ -13,11 +13,12 @@ from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.report import doing, emit, print_facts, quantity, size_of
+from roughcontact.cli.report import emit, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import LENGTH
 from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.source import File
@@ -119,7 +120,7 @@ def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
     """
     with output(answer.out) as folder:
         surface = _surface(source, asked.fill)
-        with doing("Spectrum, law and files"):
+        with task("Spectrum, law and files"):
             found, law = _analysed(surface, asked)
             record = _record(surface, found, law, name_of(source))
             if folder is not None:

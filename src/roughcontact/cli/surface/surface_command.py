@@ -12,9 +12,10 @@ from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, note, plain, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
-from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
+from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.source import File, SelfAffine
@@ -61,7 +62,7 @@ def info(source: File, *, answer: Answer) -> None:
             if not answer.json:
                 print_facts([("file", file), *_channel_facts(channels)])
             raise
-        with doing("Looking for spikes, steps and form"):
+        with task("Looking for spikes, steps and form"):
             spikes, warnings = preparation_warnings(surface)
         lines = [str(warning) for warning in warnings]
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
@@ -70,7 +71,7 @@ def info(source: File, *, answer: Answer) -> None:
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
         with nullcontext() if answer.out is None else output_folder(answer.out) as folder:
             if folder is not None:
-                with doing("Drawing"):
+                with task("Drawing"):
                     _draw(surface, spikes, folder / f"surface.{answer.ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=answer.json)
         if folder is not None:

@@ -22,6 +22,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
+from roughcontact.progress.events import task
 from roughcontact.solver.control import Force
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.preparation.spikes import find_spikes
@@ -137,7 +138,8 @@ def load_range(
         return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
     first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
     problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
-    return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
+    with task("Finding the loads that suit the surface"):
+        return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
 
 
 def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.influence.love_singly_periodic import SinglyPeriodicLove
 from roughcontact.halfspace.influence.ring_influence import ring_matrix
@@ -205,9 +205,9 @@ def body_on(
         )
     own, value = capabilities(operator).modulus, as_modulus(modulus)
     if own is not None and not math.isclose(own, value, rel_tol=1e-9):
-        raise InputError(
-            f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for",
+        raise about(
+            "the operator",
+            f"has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for",
             "give both the same",
-            place="operator",
         )
     return operator

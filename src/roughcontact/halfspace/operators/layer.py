@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
@@ -86,7 +86,7 @@ def layer(
     if any(grid.periodic) != all(grid.periodic):
         raise InputError("a layer is free or periodic along both axes; one periodic axis is not offered")
     if not (math.isfinite(thickness) and thickness > 0):
-        raise InputError(f"the thickness must be positive and finite [m], not {thickness}", place="thickness")
+        raise about("the thickness", f"must be positive and finite [m], not {thickness}")
     moderate(thickness, "the thickness [m]")
     partner = 0.0 if against is None else 1 / as_modulus(against)
     stack = Stack(value, float(thickness), _base(modulus, base), partner)
@@ -102,9 +102,7 @@ def _base(modulus: float | Solid, base: str | Solid) -> Base:
     if base == "rigid-frictionless":
         return Frictionless()
     if base != "bonded" and not isinstance(base, Solid):
-        raise InputError(
-            f"base must be 'rigid-frictionless', 'bonded' or a Solid, not {base!r}", place="base"
-        )
+        raise about("base", f"must be 'rigid-frictionless', 'bonded' or a Solid, not {base!r}")
     if not isinstance(modulus, Solid):
         raise InputError(
             "a bonded layer answers by its Poisson's ratio too",

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.cached import cached_property
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.subsurface.love_field import (
     DISPLACEMENT_PARITY,
@@ -272,27 +272,22 @@ def _checked(pressure: Array, grid: AnyGrid) -> tuple[Array, Grid]:
             f"a pressure of shape {p.shape} does not fit the grid of shape {grid.shape}", place="pressure"
         )
     if not np.isfinite(p).all():
-        raise InputError("the pressure must be finite [Pa]: zero where nothing touches", place="pressure")
+        raise about("the pressure", "must be finite [Pa]: zero where nothing touches")
     return p, grid
 
 
 def _depths(depth: float | Array) -> float | Array:
     z = np.asarray(depth, dtype=np.float64)
     if z.ndim > 1 or not z.size:
-        raise InputError(
-            f"depth must be a number or a list of numbers [m], not of shape {z.shape}", place="depth"
-        )
+        raise about("depth", f"must be a number or a list of numbers [m], not of shape {z.shape}")
     if not (np.isfinite(z).all() and (z >= 0).all()):
-        raise InputError(
-            f"the depth counts from the surface into the body: at least 0 and finite [m], not {depth}",
-            place="depth",
+        raise about(
+            "the depth", f"counts from the surface into the body: at least 0 and finite [m], not {depth}"
         )
     return z if z.ndim else float(z)
 
 
 def _ratio(poisson_ratio: float) -> float:
     if not -1 < poisson_ratio <= 0.5:
-        raise InputError(
-            f"poisson_ratio must lie above -1 and at most at 0.5, not {poisson_ratio}", place="poisson_ratio"
-        )
+        raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {poisson_ratio}")
     return float(poisson_ratio)

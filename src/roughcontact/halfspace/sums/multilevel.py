@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.arrays import require_numpy
-from roughcontact.errors import InputError
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.sums.levels import Kernel, LevelSum
@@ -55,14 +55,12 @@ class Multilevel:
 
     def __post_init__(self) -> None:
         if self.order not in range(2, 17, 2):
-            raise InputError(
-                f"the order of the interpolation must be even, from 2 to 16, not {self.order}", place="order"
-            )
+            raise about("the order", f"of the interpolation must be even, from 2 to 16, not {self.order}")
         if self.near < self.order - 1:
-            raise InputError(
-                f"near must be at least {self.order - 1}, one less than the order, not {self.near}: "
+            raise about(
+                "near",
+                f"must be at least {self.order - 1}, one less than the order, not {self.near}: "
                 "else the stencils of pairs that are not near overlap",
-                place="near",
             )
 
     def __call__(self, influence: Influences, grid: Grid) -> MultilevelSum:

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.bodies.disc import sample_radii
@@ -384,7 +384,5 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     """
     w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
-        raise InputError(
-            f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves", place="work"
-        )
+        raise about("the work", f"of adhesion must be positive [J/m^2], not {w}; without, indent serves")
     return JKRContact(checked_profile(profile), as_modulus(modulus), w)

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.units import in_si
 from roughcontact.validation import Array, number, require, scalar, shown
 
@@ -111,9 +111,7 @@ class Profile:
         """
         end = scalar(radius, "the radius of a cut [m]")
         if not (math.isfinite(end) and 0 < end <= self.radius):
-            raise InputError(
-                f"the radius of a cut must lie between 0 and {self.radius:g} m, not {radius}", place="radius"
-            )
+            raise about("the radius", f"of a cut must lie between 0 and {self.radius:g} m, not {radius}")
         return replace(self, radius=end, edge=True)
 
     def __add__(self, other: Profile) -> Profile:

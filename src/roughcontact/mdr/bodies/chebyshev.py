@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array
 
 __all__ = ["Panels", "fit", "interpolate"]
@@ -112,17 +112,15 @@ def fit(function: Function, end: float, *, tolerance: float) -> Panels:
     while len(todo):
         count += len(todo)
         if count > 2 * MOST:
-            raise InputError(
-                f"the function is not piecewise smooth to {tolerance:g}",
+            raise about(
+                "the function",
+                f"is not piecewise smooth to {tolerance:g}",
                 "give samples of it instead (sampled)",
-                place="function",
             )
         own = _each(function, todo, NODES)
         if not np.isfinite(own).all():
             where = todo[~np.isfinite(own).all(axis=1)][0]
-            raise InputError(
-                f"the function is not finite between {where[0]:g} and {where[1]:g}", place="function"
-            )
+            raise about("the function", f"is not finite between {where[0]:g} and {where[1]:g}")
         size = np.abs(own).sum(axis=1)
         largest = max(largest, float(size.max()))
         # What lies below the rounding of the largest value is noise of the function itself.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile, checked_radii
 from roughcontact.mdr.bodies.disc import disc_radius
@@ -313,7 +313,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     """Return depths and contact radii."""
     checked_profile(profile)
     if not (np.isfinite(loads).all() and (loads >= 0).all()):
-        raise InputError(f"loads must be finite and not negative; {name} is {loads}", place="loads")
+        raise about("loads", f"must be finite and not negative; {name} is {loads}")
     if name == "contact_radius":
         return _atchecked_radii(profile, loads)
     if name == "force":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.chebyshev import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.bodies.terms import TableTerm
@@ -34,9 +34,9 @@ def from_function(function: Function, radius: float, *, transformed: bool) -> Pr
         # Two, since a function of single numbers may take an array of one.
         start = float(np.asarray(function(np.zeros(2)), dtype=np.float64).ravel()[0])
     except (TypeError, ValueError) as error:
-        raise InputError(
-            f"the function must take an array of radii, as np.cosh does and math.cosh does not, but: {error}",
-            place="function",
+        raise about(
+            "the function",
+            f"must take an array of radii, as np.cosh does and math.cosh does not, but: {error}",
         ) from error
     require(
         np.isfinite(start),

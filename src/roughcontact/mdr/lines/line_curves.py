@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
@@ -166,7 +166,7 @@ class LineCurves:
             Mean stiffness [N/m], shape (loads,).
         """
         if mean not in ("arithmetic", "geometric"):
-            raise InputError(f"mean must be 'arithmetic' or 'geometric', not {mean!r}", place="mean")
+            raise about("mean", f"must be 'arithmetic' or 'geometric', not {mean!r}")
         if mean == "arithmetic":
             springs = self.springs.mean(axis=0)
         else:

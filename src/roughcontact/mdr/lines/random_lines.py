@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.random_phases import (
     Amplitudes,
@@ -179,9 +179,8 @@ def line_heights(
     """
     amplitude = _amplitude(grid, spectrum, rms, rms_band)
     if waves.shape[1:] != amplitude.shape:
-        raise InputError(
-            f"waves of shape {waves.shape} do not fit the {amplitude.size} wavenumbers of the grid",
-            place="waves",
+        raise about(
+            "waves", f"of shape {waves.shape} do not fit the {amplitude.size} wavenumbers of the grid"
         )
     return _lines(grid, amplitude, waves)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.lines.line_curves import LineCurves
 from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, require
@@ -191,16 +191,14 @@ def checked_lines(heights: Array) -> Array:
     (1, 2)
     """
     if not hasattr(heights, "__len__"):
-        raise InputError(
-            f"heights must be an array, not a {type(heights).__name__}",
+        raise about(
+            "heights",
+            f"must be an array, not a {type(heights).__name__}",
             "join the curves of batches by LineCurves.joined",
-            place="heights",
         )
     lines = np.atleast_2d(number(heights, "heights"))
     if lines.ndim != 2 or lines.size == 0:
-        raise InputError(
-            f"heights must be one line or a row a line, not of shape {np.shape(heights)}", place="heights"
-        )
+        raise about("heights", f"must be one line or a row a line, not of shape {np.shape(heights)}")
     if not np.isfinite(lines).all():
         raise InputError(
             f"{int((~np.isfinite(lines)).sum())} heights are missing or infinite",

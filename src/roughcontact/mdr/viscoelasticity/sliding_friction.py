@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.lines.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.viscoelasticity.sliding_state import SlidingState, sliding_state
@@ -130,9 +130,7 @@ def sliding_friction(
     stiffness = as_modulus(modulus)
     rates = np.atleast_1d(number(speeds, "speeds [m/s]"))
     if rates.ndim != 1 or not len(rates) or not (np.isfinite(rates).all() and (rates > 0).all()):
-        raise InputError(
-            f"speeds must be positive and finite [m/s], at least one in one row, not {rates}", place="speeds"
-        )
+        raise about("speeds", f"must be positive and finite [m/s], at least one in one row, not {rates}")
     require(np.diff(rates) > 0, "speeds must increase strictly", place="speeds")
     positive_scalar(relaxation_time, "relaxation_time")
     if lines.shape[1] < 2 or not (np.ptp(lines, axis=1) > 0).all():

@@ -18,7 +18,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, scalar, shown
 
 __all__ = [
@@ -110,10 +110,7 @@ class Viscoelastic:
                 scalar(value, f"{name} of a viscoelastic material")
         scalar(self.dashpot, "viscosity")
         if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
-            raise InputError(
-                f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}",
-                place="moduli",
-            )
+            raise about("moduli", f"and viscosities must not be negative: {self.equilibrium}, {self.dashpot}")
         if not all(math.isfinite(v) and v > 0 for v in (*self.moduli, *self.times)):
             raise InputError(
                 f"moduli {self.moduli} and times {self.times} of elements must be positive", place="moduli"
@@ -303,10 +300,10 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
     """
     lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
     if any(values.ndim != 1 for values in lists):
-        raise InputError(
-            "moduli and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
+        raise about(
+            "moduli",
+            "and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
             f"not {shown(moduli)} and {shown(times)}",
-            place="moduli",
         )
     E, tau = (tuple(values.tolist()) for values in lists)
     return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
@@ -372,9 +369,7 @@ def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Arr
         if (wrong := values[~np.isfinite(values)]).size:
             raise InputError(f"{name} must be finite, not {wrong[0]}", place=name)
     if (back := np.nonzero(np.diff(t) < 0)[0]).size:
-        raise InputError(
-            f"times must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s", place="times"
-        )
+        raise about("times", f"must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
     return t, load
 
 

@@ -28,8 +28,6 @@ __all__ = ["compared", "curve", "theories", "whole_curve"]
 def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the loads, every point when it is there, and what the curve says as a whole."""
     recipe = replace(request.recipe, load=None, loads=request.recipe.loads or PageLoads())
-    if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
-        send({"type": "doing", "words": "Looking for the loads that suit this surface"})
     loads, notes = cache.loads(recipe, request.files)
     conductors = conductors_of(recipe.bodies)
     send({"type": "loads", "count": len(loads.values), "notes": notes, "columns": columns(conductors)})

@@ -18,6 +18,7 @@ from roughcontact.page.jobs.session_cache import SessionCache, modulus_of
 from roughcontact.page.recipe import FileSource, PageLoads
 from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.page.statement import Statement, stated
+from roughcontact.progress.events import task
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -33,9 +34,8 @@ def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
     kind = request.more.get("kind")
     if kind not in _KINDS:
         raise InputError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}")
-    send({"type": "doing", "words": "Writing files"})
     statement = stated(request.recipe, request.file)
-    with tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
+    with task("Writing files"), tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
         folder = Path(name)
         if kind == "zip":
             _everything(request, cache, statement, folder)

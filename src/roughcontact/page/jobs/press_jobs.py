@@ -27,7 +27,6 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     send({"type": "span", **span})
     if request.recipe.load is None:  # the page does not know yet which loads suit the surface
         return
-    send({"type": "doing", "words": "Pressing"})
     solution = cache.solution(request.recipe, request.files)
     grid = solution.problem.grid
     most = request.whole("pixels", 1024, 4096)

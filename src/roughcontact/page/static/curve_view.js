@@ -4,6 +4,7 @@ import { chart, clear } from "./charts.js";
 import { curveTable } from "./curve_table.js";
 import { UNITS } from "./load_bar.js";
 import { facts, list } from "./numbers.js";
+import { progressBar } from "./progress.js";
 import { statement } from "./statement.js";
 import { theoryList } from "./theory_list.js";
 import { trouble } from "./trouble.js";
@@ -23,6 +24,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
   const [command, python] = [statement(by("curve_command")), statement(by("curve_python"))];
   const theories = theoryList(by("theories"), known, beside);
   const say = (text) => (by("curve_said").textContent = text);
+  const search = progressBar(by("progress"), by("curve_said")); // for the loads: of those, every point counts
 
   // What the user wants of the loads, as the server takes it.
   function wanted() {
@@ -55,8 +57,8 @@ export function curveView({ recipe, known, usual, failed, ended }) {
   }
 
   function heard(run, header) {
-    if (header.type === "doing") say(`${header.words} …`);
-    else if (header.type === "stated") {
+    if (header.type === "progress") return run.count || search.heard(header);
+    if (header.type === "stated") {
       command(header.command);
       python(header.python);
     } else if (header.type === "loads") {
@@ -103,7 +105,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     try {
       const sent = request("back", "theories", { ...recipe.now, load: null, loads: loads() }, {}, (header) => run === current && heard(run, header));
       const end = await sent.ended;
-      if (end.message && run === current) say(end.message);
+      if (end.message && run === current) say([end.message, end.remedy].filter(Boolean).join(" "));
       run.theories = theories.chosen;
     } catch (error) {
       failed(error);

@@ -22,7 +22,7 @@ export function exports(root, { wanted, say, failed }) {
     // What is under the hand is known in front; the curve behind.
     const queue = kind === "zip" || of === "curve" ? "back" : "front";
     const sent = request(queue, "export", recipe, { kind, of: of || "load" }, (header, data) => {
-      if (header.type === "doing") say(`${header.words} …`);
+      if (header.type === "progress" && header.state === "started") say(`${header.task} …`);
       if (header.type !== "file") return;
       const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([data])), download: header.name });
       link.click();

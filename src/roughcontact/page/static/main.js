@@ -9,6 +9,7 @@ import { exports } from "./exports.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { numbersView } from "./numbers.js";
+import { progressBar } from "./progress.js";
 import { BLANK, EXAMPLES, example, fresh, history, titleOf } from "./recipe.js";
 import { settings } from "./settings.js";
 import { shortcuts } from "./shortcuts.js";
@@ -32,6 +33,7 @@ const names = {}; // of files, by what the server calls them
 const wanted = { look: false, press: false, cut: false, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
+const working = progressBar(by("working"), by("said"));
 const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
   crop: (part) => { by("crop").click(); crop.dragged(part); },
@@ -129,6 +131,7 @@ async function perform(job) {
   }
   clearTimeout(front.timer);
   front = null;
+  working.end();
   ended(end, job);
   if (job === "look" && end.how !== "done" && !wanted.look) {
     wanted.press = wanted.study = false;
@@ -145,7 +148,7 @@ async function perform(job) {
 
 function heard(header, data) {
   if (header.type === "map") { map.set(header.map, header, data); place.done(); }
-  else if (header.type === "doing") say(`${header.words} …`);
+  else if (header.type === "progress") working.heard(header);
   else if (header.type === "channels") { fields.channels(header.channels); surfaceCard.channels(header.channels); }
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
   else if (header.type === "bodies") bodies.say(header);

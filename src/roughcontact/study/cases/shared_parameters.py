@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, model_validator
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.study.case import Length, Parameters, Positive, Pressure
 from roughcontact.surface.generation.fourier import self_affine
@@ -98,10 +98,10 @@ class RoughSquare(Parameters):
         if self.rms_band is not None:
             longest, shortest = self.rms_band
             if not longest >= shortest > 2 / self.points:
-                raise InputError(
-                    f"rms_band must go from its longest wave down to one above two cells, {2 / self.points:g} on "
+                raise about(
+                    "rms_band",
+                    f"must go from its longest wave down to one above two cells, {2 / self.points:g} on "
                     f"{self.points} points, not from {longest:g} to {shortest:g}",
-                    place="rms_band",
                 )
         return self
 

@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.study.executors.keys import NO_PAGES, require_keys
 from roughcontact.study.executors.processes import usable_cores
 from roughcontact.study.executors.submission import Cluster, connected, submitted
@@ -69,7 +69,7 @@ class Dask:
         if sum(given is not None for given in (address, workers, cluster)) > 1:
             raise InputError("a scheduler has workers of its own", "give one of address, workers and cluster")
         if workers is not None and workers < 1:
-            raise InputError(f"workers is {workers}; at least one is needed", place="workers")
+            raise about("workers", f"is {workers}; at least one is needed")
         require_cluster("distributed", "Dask")
         self._target = cluster if address is None else address
         if self._target is None:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
@@ -187,13 +187,11 @@ def structure_profile(
     """
     along = surface.grid.ndim - 1 if direction == "x" else 0
     if direction not in ("x", "y") or (direction == "y" and surface.grid.ndim == 1):
-        raise InputError(f"direction must be 'x', or 'y' on a surface, not {direction!r}", place="direction")
+        raise about("direction", f"must be 'x', or 'y' on a surface, not {direction!r}")
     size = surface.grid.shape[along]
     steps = default_lags(size) if lags is None else np.asarray(lags)
     if steps.ndim != 1 or steps.dtype.kind not in "iu" or (steps < 1).any() or (steps >= size).any():
-        raise InputError(
-            f"lags must be whole numbers of cells from 1 to {size - 1}, not {steps}", place="lags"
-        )
+        raise about("lags", f"must be whole numbers of cells from 1 to {size - 1}, not {steps}")
     values, pairs = np.empty(steps.size), np.empty(steps.size)
     for i, (jumps, known) in enumerate(_jumps(surface, along, steps)):
         values[i], pairs[i] = np.mean(jumps[known] ** 2), 2 * np.count_nonzero(known)

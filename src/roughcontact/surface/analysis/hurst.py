@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import chdtri
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.preprocess import SpectralWindow
@@ -210,9 +210,7 @@ def fit_spectrum(
     'H = 0.8'
     """
     if limit not in ("auto", "none", "rolloff", "long_cutoff"):
-        raise InputError(
-            f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}", place="limit"
-        )
+        raise about("limit", f"must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
         raise InputError(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.validation import numeric, require
 
@@ -122,9 +122,7 @@ def _of_one_kind(spectra: Sequence[PowerSpectrum]) -> list[PowerSpectrum]:
     require(len(spectra) > 0, "there is no spectrum to merge")
     kinds = {spectrum.kind for spectrum in spectra}
     if len(kinds) > 1:
-        raise InputError(
-            "spectra of surfaces (C2D) and of profiles (C1D) cannot be merged",
-            "see surface_spectrum",
-            place="spectra",
+        raise about(
+            "spectra", "of surfaces (C2D) and of profiles (C1D) cannot be merged", "see surface_spectrum"
         )
     return [spectrum.within() for spectrum in spectra]

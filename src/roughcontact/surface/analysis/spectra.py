@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, prepared, tapers
@@ -90,9 +90,7 @@ def power_spectrum(
     if ndim == 1 and direction != "x":
         raise InputError(f"a line has profiles along 'x' only, not {direction!r}", place="direction")
     if per_decade is not None and not 0 < per_decade <= FINEST:
-        raise InputError(
-            f"per_decade must be positive and at most {FINEST:g}, not {per_decade}", place="per_decade"
-        )
+        raise about("per_decade", f"must be positive and at most {FINEST:g}, not {per_decade}")
     if direction == "ring":
         return _rings(surface, window, level, per_decade)
     return _profiles(surface, 0 if direction == "y" else ndim - 1, window, level, per_decade)

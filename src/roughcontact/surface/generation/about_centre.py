@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, number, require
@@ -26,7 +26,7 @@ def from_centre(grid: Grid, centre: Centre) -> tuple[Array, ...]:
         centre = [length / 2 for length in grid.lengths]
     given = np.atleast_1d(number(centre, "centre [m]"))
     if given.shape != (grid.ndim,) or not np.isfinite(given).all():
-        raise InputError(f"centre needs {grid.ndim} finite coordinates [m], not {centre}", place="centre")
+        raise about("centre", f"needs {grid.ndim} finite coordinates [m], not {centre}")
     parts = []
     for n, step, c, periodic in zip(grid.shape, grid.spacing, given, grid.periodic, strict=True):
         part = (np.arange(n) + 0.5) * step - c

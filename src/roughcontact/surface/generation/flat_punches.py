@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.about_centre import RIM, Centre, placed, plane, positive
 from roughcontact.surface.surface import Surface
@@ -79,9 +79,7 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
     """
     positive(outer=outer)
     if not 0 <= inner < outer:
-        raise InputError(
-            f"the inner radius must lie between 0 and the outer one {outer} m, not {inner}", place="inner"
-        )
+        raise about("the inner", f"radius must lie between 0 and the outer one {outer} m, not {inner}")
     y, x = plane(grid, centre)
     squared = y**2 + x**2
     inside = (squared >= inner * inner * (1 - RIM)) & (squared <= outer * outer * (1 + RIM))

@@ -7,8 +7,9 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
+from roughcontact.progress.events import tracked
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, RngLike, as_generator, numeric
 
@@ -153,11 +154,11 @@ def midpoint_surface(
     levels = _levels(grid, 2)
     first, generator = _first(hurst, displacement, rms, distribution), as_generator(rng)
     if half_steps not in ("same", "saupe"):
-        raise InputError(f"half_steps must be 'same' or 'saupe', not {half_steps!r}", place="half_steps")
+        raise about("half_steps", f"must be 'same' or 'saupe', not {half_steps!r}")
     if borders not in ("three", "wrap"):
-        raise InputError(f"borders must be 'three' or 'wrap', not {borders!r}", place="borders")
+        raise about("borders", f"must be 'three' or 'wrap', not {borders!r}")
     heights, wrap = np.zeros(grid.shape), borders == "wrap"
-    for level in range(levels):
+    for level in tracked(range(levels), "Displacing midpoints", "levels"):
         step, m = 2 ** (levels - level), 2**level
         half, limit = step // 2, first * 2 ** (-hurst * level)
         corners = heights[::step, ::step]
@@ -226,14 +227,11 @@ def _first(
 ) -> float:
     """Return the largest first displacement [m], of any size if the rms height is set afterwards."""
     if not 0 <= hurst <= 1:
-        raise InputError(
-            f"hurst must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3",
-            place="hurst",
+        raise about(
+            "hurst", f"must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
         )
     if distribution not in ("uniform", "gaussian"):
-        raise InputError(
-            f"distribution must be 'uniform' or 'gaussian', not {distribution!r}", place="distribution"
-        )
+        raise about("distribution", f"must be 'uniform' or 'gaussian', not {distribution!r}")
     if (displacement is None) == (rms is None):
         raise InputError(
             "the scale of the heights is not given once",

@@ -14,7 +14,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.about_centre import (
     RIM,
@@ -142,7 +142,7 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     y, x = plane(grid, centre)
     across = {"x": y, "y": x}.get(axis)
     if across is None:
-        raise InputError(f"axis must be 'x' or 'y', not {axis!r}", place="axis")
+        raise about("axis", f"must be 'x' or 'y', not {axis!r}")
     heights = np.broadcast_to(_round(across**2, radius), grid.shape)
     return placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
 
@@ -256,7 +256,7 @@ def wave(
     positive(amplitude=amplitude, wavelength=moderate(wavelength, "wavelength [m]"))
     wanted = {"x": (-1,), "y": (-2,), "both": (-2, -1)}.get(axis)
     if wanted is None or (grid.ndim == 1 and axis != "x"):
-        raise InputError(f"axis must be 'x', 'y' or 'both', on a line 'x', not {axis!r}", place="axis")
+        raise about("axis", f"must be 'x', 'y' or 'both', on a line 'x', not {axis!r}")
     parts, heights = from_centre(grid, centre), np.zeros(grid.shape)
     for which in wanted:
         waves = grid.lengths[which] / wavelength

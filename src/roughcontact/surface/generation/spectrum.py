@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.wave_grid import Support
 from roughcontact.surface.moments import Moments, grid_moments
@@ -63,7 +63,7 @@ class SelfAffineSpectrum:
     def __post_init__(self) -> None:
         require_numbers(self, rolloff="m", long_cutoff="m", short_cutoff="m")
         if not -1 <= self.hurst <= 3:
-            raise InputError(f"hurst must lie between -1 and 3, not {self.hurst}", place="hurst")
+            raise about("hurst", f"must lie between -1 and 3, not {self.hurst}")
         for name in ("rolloff", "long_cutoff", "short_cutoff"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):
@@ -75,11 +75,9 @@ class SelfAffineSpectrum:
                 place="short_cutoff, long_cutoff",
             )
         if self.dimension not in (1, 2):
-            raise InputError(
-                f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}", place="dimension"
-            )
+            raise about("dimension", f"must be 2 (a surface) or 1 (a line), not {self.dimension}")
         if not (math.isfinite(self.scale) and self.scale > 0):
-            raise InputError(f"scale must be positive and finite, not {self.scale}", place="scale")
+            raise about("scale", f"must be positive and finite, not {self.scale}")
 
     @property
     def q_min(self) -> float:
@@ -162,7 +160,7 @@ class SelfAffineSpectrum:
         '1e-06 m'
         """
         if not (math.isfinite(rms) and rms > 0):
-            raise InputError(f"rms must be positive and finite [m], not {rms}", place="rms")
+            raise about("rms", f"must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
         m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
@@ -223,13 +221,9 @@ class StretchedSpectrum:
     def __post_init__(self) -> None:
         require_numbers(self, angle="rad")
         if not (math.isfinite(self.ratio) and self.ratio > 0):
-            raise InputError(
-                f"the ratio of an anisotropy must be positive and finite, not {self.ratio}", place="ratio"
-            )
+            raise about("the ratio", f"of an anisotropy must be positive and finite, not {self.ratio}")
         if not math.isfinite(self.angle):
-            raise InputError(
-                f"the angle of an anisotropy must be finite [rad], not {self.angle}", place="angle"
-            )
+            raise about("the angle", f"of an anisotropy must be finite [rad], not {self.angle}")
         if getattr(self.spectrum, "dimension", 2) != 2:
             raise InputError(
                 "a line has no direction", "leave out the anisotropy, or make a surface (dimension=2)"

@@ -12,7 +12,7 @@ from typing import Literal, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, pair, positive_scalar
 
 __all__ = [
@@ -125,26 +125,20 @@ def wave_powers(
         If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave at all.
     """
     if support not in ("square", "disc"):
-        raise InputError(f"support must be 'square' or 'disc', not {support!r}", place="support")
+        raise about("support", f"must be 'square' or 'disc', not {support!r}")
     if getattr(spectrum, "dimension", len(shape)) != len(shape):
-        raise InputError(
-            f"the spectrum has dimension {spectrum.dimension}, "  # type: ignore[union-attr]
+        raise about(
+            "the spectrum",
+            f"has dimension {spectrum.dimension}, "  # type: ignore[union-attr]
             f"but the grid {len(shape)} axes",
             f"make it with dimension={len(shape)}",
-            place="spectrum",
         )
     lengths = wavenumbers(shape, spacing, part)
     density = _density(spectrum, lengths, wave_vectors(shape, spacing, part))
     if density.shape != lengths.shape:
-        raise InputError(
-            f"the spectrum returned shape {density.shape} for waves of shape {lengths.shape}",
-            place="spectrum",
-        )
+        raise about("the spectrum", f"returned shape {density.shape} for waves of shape {lengths.shape}")
     if not (np.isfinite(density).all() and (density >= 0).all()):
-        raise InputError(
-            "the spectrum must be finite and not negative at every wave of the grid but q = 0",
-            place="spectrum",
-        )
+        raise about("the spectrum", "must be finite and not negative at every wave of the grid but q = 0")
     # B^2 = (2 pi)^ndim / area * C
     powers = density * math.prod(2 * math.pi / (n * d) for n, d in zip(shape, spacing, strict=True))
     *others, last = shape
@@ -212,9 +206,7 @@ def wave_amplitudes(
 def require_no_band(rms_band: tuple[float, float] | None) -> None:
     """Refuse a band of waves whose rms height is not said."""
     if rms_band is not None:
-        raise InputError(
-            "rms_band says which waves have the rms height rms", "give rms, too", place="rms_band"
-        )
+        raise about("rms_band", "says which waves have the rms height rms", "give rms, too")
 
 
 def counted_powers(
@@ -253,11 +245,11 @@ def _inside(
     for n, d in zip(shape, spacing, strict=True):
         finest = (n - 1) // 2
         if n * d / shortest * (1 + 1e-9) >= finest + 1:
-            raise InputError(
-                f"rms_band goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
+            raise about(
+                "rms_band",
+                f"goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
                 f"{n * d / (finest + 1):g} m",
                 "end the band above two cells of the coarsest grid",
-                place="rms_band",
             )
     lengths = wavenumbers(shape, spacing, part)
     return (lengths >= 2 * math.pi / longest * (1 - 1e-9)) & (lengths <= 2 * math.pi / shortest * (1 + 1e-9))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
@@ -134,9 +134,7 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
         )
     spacing = grid.spacing[0]
     if section_length is not None and not 0 < section_length < math.inf:
-        raise InputError(
-            f"section_length must be positive and finite [m], not {section_length}", place="section_length"
-        )
+        raise about("section_length", f"must be positive and finite [m], not {section_length}")
     cells = grid.shape[0] // 5 if section_length is None else round(section_length / spacing)
     sections = grid.shape[0] // max(cells, 1)
     if cells < 2 or sections * cells < GRADIENT.size:

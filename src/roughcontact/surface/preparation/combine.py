@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import scipy.sparse
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
@@ -136,9 +136,7 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     ((64, 64), '7.1e-07 m')
     """
     if interpolation not in ("cubic", "linear"):
-        raise InputError(
-            f"interpolation must be 'cubic' or 'linear', not {interpolation!r}", place="interpolation"
-        )
+        raise about("interpolation", f"must be 'cubic' or 'linear', not {interpolation!r}")
     _comparable(surface.grid, grid)
     if surface.grid.shape == grid.shape and np.allclose(
         surface.grid.spacing, grid.spacing, rtol=_SAME, atol=0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from roughcontact.errors import InputError
+from roughcontact.errors import about
 from roughcontact.surface.in_memory import on_host_only, on_host_or_in_slabs
 from roughcontact.surface.preparation.form import round_form
 from roughcontact.surface.preparation.polynomial import polynomial_trend
@@ -104,7 +104,5 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
     elif isinstance(form, int) and not isinstance(form, bool) and 0 <= form <= 12:
         trend, words = polynomial_trend(surface.heights, form), f"polynomial of degree {form}"
     else:
-        raise InputError(
-            f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}", place="form"
-        )
+        raise about("form", f"must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
     return surface.with_heights(surface.heights - trend, f"form removed: {words}")

@@ -163,9 +163,7 @@ def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
     given = number(factor, "factor")
     factors = np.broadcast_to(given, grid.ndim).tolist() if given.shape in ((), (grid.ndim,)) else []
     if not factors or any(k % 1 != 0 or k < 1 for k in factors):
-        raise InputError(
-            f"factor must be one whole number from 1 up, or {grid.ndim}, not {factor}", place="factor"
-        )
+        raise about("factor", f"must be one whole number from 1 up, or {grid.ndim}, not {factor}")
     for k, n, repeats in zip(factors, grid.shape, grid.periodic, strict=True):
         if 2 * k > n:
             raise InputError(

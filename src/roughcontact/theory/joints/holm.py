@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
@@ -106,7 +106,7 @@ def contact_length(radii: Array, positions: Array) -> float:
     if a.ndim != 1 or a.size == 0 or centre.shape != (a.size, 2):
         raise InputError(f"spots need radii (n,) and positions (n, 2), not {a.shape} and {centre.shape}")
     if not (np.isfinite(a).all() and (a > 0).all() and np.isfinite(centre).all()):
-        raise InputError("radii must be positive, and radii and positions finite", place="radii")
+        raise about("radii", "must be positive, and radii and positions finite")
     mutual = 0.0
     # One row of distances at a time: spots may be many.
     for i in range(a.size - 1):

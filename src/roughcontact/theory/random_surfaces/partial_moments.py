@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy import special
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, numeric, require
 
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
@@ -114,10 +114,10 @@ DISTRIBUTIONS: dict[Distribution, Callable[[float, float | Array], Array]] = {
 
 def _checked(order: float) -> float:
     if not -1 < order <= HIGHEST_ORDER:
-        raise InputError(
-            f"the order of a partial moment must lie above -1, where the integral exists, and at most at "
+        raise about(
+            "the order",
+            f"of a partial moment must lie above -1, where the integral exists, and at most at "
             f"{HIGHEST_ORDER:g}, not {order}",
-            place="order",
         )
     return float(order)
 

@@ -10,7 +10,7 @@ from typing import Protocol, TypeAlias, cast
 import numpy as np
 import scipy.fft
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.theory.tools.quadrature import gauss, graded, running
 from roughcontact.validation import Array, number, pair, require, shown
 
@@ -221,16 +221,16 @@ class Waves:
         low = max(getattr(spectrum, "q_min", 0.0), 0.0 if q_min is None else q_min)
         high = min(getattr(spectrum, "q_max", math.inf), math.inf if q_max is None else q_max)
         if not low > 0:
-            raise InputError(
-                "the spectrum has no longest wave, and without one no surface of finite size",
+            raise about(
+                "the spectrum",
+                "has no longest wave, and without one no surface of finite size",
                 "give long_cutoff, or q_min, 2 pi over the side of the surface [rad/m]",
-                place="spectrum",
             )
         if not math.isfinite(high):
-            raise InputError(
-                "the spectrum has no shortest wave, and the contact area depends on it",
+            raise about(
+                "the spectrum",
+                "has no shortest wave, and the contact area depends on it",
                 "give short_cutoff, or q_max [rad/m]",
-                place="spectrum",
             )
         corner = getattr(spectrum, "q_rolloff", 0.0)
         return _of_density(spectrum, low, high, np.array([corner, *breaks], dtype=np.float64))

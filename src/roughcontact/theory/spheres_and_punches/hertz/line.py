@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import lambertw
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.theory.tools.products import Product, checked, solve
 from roughcontact.validation import Array, numeric, positive, require
 
@@ -186,9 +186,7 @@ def line(
 def _replaced(known: dict[str, Array], depth: Array, reference_length: float | None) -> dict[str, Array]:
     """Return what stands for the depth: its scale F'/(pi E*), or the half width."""
     if reference_length is None:
-        raise InputError(
-            "the depth of a line contact means nothing without a reference_length [m]", place="depth"
-        )
+        raise about("the depth", "of a line contact means nothing without a reference_length [m]")
     if known.keys() == {"force", "max_pressure"}:
         half_width = 2 * known["force"] / (np.pi * known["max_pressure"])
     elif "half_width" in known:
