@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Any, get_type_hints
+from numbers import Integral, Real
+from typing import Any, get_args, get_type_hints
 
 from roughcontact.errors import InputError, placed
 
-__all__ = ["Spec", "check", "described", "given", "option_of", "specs", "value_of", "words_of"]
+__all__ = ["Spec", "check", "described", "given", "option_of", "refused", "specs", "value_of", "words_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +99,8 @@ def value_of(part: Any, name: str) -> Any:
 def check(part: Any) -> None:
     """Take every field as text, and refuse what is none, stands alone, or excludes another.
 
-    A class may name in ``ONE_OF`` fields of which exactly one must be given, and in ``AT_MOST`` those of which several
-    exclude each other.
+    A field that holds a part must hold one of its class. A class may name in ``ONE_OF`` fields of which exactly one
+    must be given, and in ``AT_MOST`` those of which several exclude each other.
 
     Raises
     ------
@@ -107,9 +108,12 @@ def check(part: Any) -> None:
         If a value cannot be read, or does not go with the others; its place is the field.
     """
     hints = get_type_hints(type(part))
-    for each, spec in specs(part):
-        value = getattr(part, each.name)
-        if value == each.default:
+    for each in fields(part):
+        value, spec = getattr(part, each.name), each.metadata.get("spec")
+        if spec is None:
+            _require_part(value, hints[each.name], each.name)
+            continue
+        if type(value) is type(each.default) and value == each.default:
             continue
         if spec.needs is not None and not getattr(part, spec.needs):
             raise InputError(
@@ -132,6 +136,12 @@ def option_of(name: str) -> str:
 def words_of(name: str, spec: Spec) -> tuple[str, ...]:
     """Return the option of a field, and its contrary where there is one."""
     return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
+
+
+def _require_part(value: Any, kind: Any, name: str) -> None:
+    if not isinstance(value, kind):
+        classes = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
+        raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
 
 
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
@@ -157,11 +167,11 @@ def _quoted(name: str) -> str:
 def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
     """Return a value as the type of its field: a flag, a text, or texts."""
     if kind == tuple[str, ...]:
-        parts = [value] if isinstance(value, str) else list(value)
+        parts = value if isinstance(value, list | tuple) else [value]
         return tuple(_text(part) for part in parts)
     if kind in (bool, bool | None):
         if not isinstance(value, bool):
-            raise InputError(f"{value!r} is neither true nor false", "write true or false")
+            raise refused(value, "neither true nor false", "write true or false")
         return value
     return _text(value)
 
@@ -172,9 +182,15 @@ def _text(value: Any) -> str:
         from roughcontact.units import as_text  # late, with NumPy: options are texts
 
         value = as_text(value)
-    if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise InputError(
-            f"{value!r} is no value of a recipe",
-            "give a number in SI units or a text with a unit, such as '5 um'",
-        )
-    return value.strip() if isinstance(value, str) else repr(value)
+    if isinstance(value, bool) or not isinstance(value, str | Real):
+        raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
+    if isinstance(value, str):
+        return value.strip()
+    return repr(int(value) if isinstance(value, Integral) else float(value))
+
+
+def refused(value: Any, what: str, remedy: str, place: str | None = None) -> InputError:
+    """Return the error about a value that has no text form: a function, an operator, a surface, a table."""
+    from roughcontact.validation import shown  # late, with NumPy
+
+    return InputError(f"{shown(value)} is {what}", remedy, place)

@@ -18,7 +18,7 @@ from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.netcdf import opened
 from roughcontact.recipe.jobs import JOBS, Job
-from roughcontact.recipe.recipe_fields import given
+from roughcontact.recipe.recipe_fields import given, refused
 from roughcontact.recipe.source import Combined, File, Source
 
 __all__ = [
@@ -70,7 +70,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
             "format",
         )
     name = values.pop("job", None)
-    if name not in JOBS:
+    if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
     job: Job = _part(JOBS[name], values)
     return job
@@ -79,7 +79,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
 def _part(kind: Any, values: Any) -> Any:
     """Return a part made of its fields, each of the type that is declared."""
     if not isinstance(values, Mapping):
-        raise InputError(f"{values!r} is no table of fields", f"write {_names(kind)}")
+        raise refused(values, "no table of fields", f"give a table of {_names(kind)}")
     hints, known = get_type_hints(kind), {each.name: each for each in fields(kind)}
     for name in values:
         if name not in known:
@@ -103,13 +103,13 @@ def _value(name: str, kind: Any, value: Any) -> Any:
 def _of_kind(members: list[Any], values: Any) -> Any:
     """Return a part of the kind that its table names; a table with a file is a file."""
     if not isinstance(values, Mapping):
-        raise InputError(
-            f"{values!r} is no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
+        raise refused(
+            values, "no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
         )
     kinds = {each.KIND: each for each in members}
     left = {name: value for name, value in values.items() if name != "kind"}
     kind = values.get("kind", File.KIND if "file" in values else None)
-    if kind not in kinds:
+    if not isinstance(kind, str) or kind not in kinds:
         raise InputError(f"there is no kind {kind!r} of it", f"choose of {', '.join(kinds)}", "kind")
     return _part(kinds[kind], left)
 
