@@ -126,7 +126,7 @@ class AdhesiveLoad:
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
                     f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
-                    f"give a curve with `{name}s` 0,{text}",
+                    f"compute an adhesion curve with `{name}s` 0,{text}",
                 )
         return {name: value}
 

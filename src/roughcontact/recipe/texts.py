@@ -68,17 +68,18 @@ class Amount:
 
 @dataclass(frozen=True, slots=True)
 class PureNumber:
-    """Reads a number without a unit between two ends, which may be reached."""
+    """Reads a number without a unit between two ends, which may be reached where they count."""
 
     low: float
     high: float
     what: str
     example: str
+    ends: bool = True
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
         value = quantity.parse_number(text, self.example)
-        if not self.low <= value <= self.high:
+        if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
             raise InputError(
                 f"{self.what} lies between {self.low:g} and {self.high:g}, not at {text!r}",
                 f"give a number such as {self.example}",
