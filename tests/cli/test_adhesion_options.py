@@ -246,8 +246,14 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
     ("given", "says"),
     [
         (("adhesion", "press", "--force", "-1uN", *STICKS), "compute an adhesion curve with --forces 0,-1uN"),
-        (("adhesion", "press", "--pressure", "-1kPa", *STICKS), "compute an adhesion curve with --pressures 0,-1kPa"),
-        (("adhesion", "press", *STICKS), "none of --force, --pressure, --depth, --mean-gap is given: give one, such as --force 10mN"),
+        (
+            ("adhesion", "press", "--pressure", "-1kPa", *STICKS),
+            "compute an adhesion curve with --pressures 0,-1kPa",
+        ),
+        (
+            ("adhesion", "press", *STICKS),
+            "--depth, --mean-gap is given: give one, such as --force 10mN",
+        ),
         (("press", "--depth", "-5nm"), "the depth counts from first touch"),
         (
             ("adhesion", "curve", *STICKS),

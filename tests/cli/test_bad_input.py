@@ -111,13 +111,19 @@ PRESS_OPTIONS = {
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
     "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
-    "no load": (changed(force=None), "none of --force, --pressure, --depth is given: give one, such as --force 10N"),
+    "no load": (
+        changed(force=None),
+        "none of --force, --pressure, --depth is given: give one, such as --force 10N",
+    ),
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
     "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
     "negative modulus": (changed(modulus="-1GPa"), "modulus must be positive"),
     "no modulus": (changed(modulus=None), "none of --modulus, --materials, --young is given"),
     "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
-    "half a body": (changed(modulus=None, young="1GPa"), "--young is given without --poisson: give --poisson"),
+    "half a body": (
+        changed(modulus=None, young="1GPa"),
+        "--young is given without --poisson: give --poisson",
+    ),
     "half of the other body": (
         changed(modulus=None, young="1GPa", poisson="0.3", young2="1GPa"),
         "--young2 is given without --poisson2: give --poisson2",

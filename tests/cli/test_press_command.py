@@ -261,13 +261,19 @@ def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (("--materials", "steel"), "'steel' does not name two bodies; name both, such as steel,aluminium or steel,steel"),
+        (
+            ("--materials", "steel"),
+            "'steel' does not name two bodies; name both, such as steel,aluminium",
+        ),
         (("--materials", "steel,aluminium,copper"), "does not name two bodies"),
         (("--materials", "steel,cheese"), "no material named 'cheese'; there are steel"),
         (("--materials", "steel,110GPa"), "'110GPa' is no name"),
         (("--materials", "rigid,rigid"), "one of the two bodies must be elastic"),
         (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
-        (("--materials", "steel,steel", "--poisson", "0.3"), "--poisson belongs to --young, which is not given"),
+        (
+            ("--materials", "steel,steel", "--poisson", "0.3"),
+            "--poisson belongs to --young, which is not given",
+        ),
         (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam; write 110GPa"),
         (("--young", "210", "--poisson", "0.3"), "--young: 210 without a unit"),
         (("--modulus", "1GPa", "--hardness", "2"), "--hardness: 2 without a unit"),
@@ -383,8 +389,14 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--after", "2N"), "--after is about what flows under a hardness, which is not given: give --hardness"),
-        (("--flow", "raised"), "--flow is about what flows under a hardness, which is not given: give --hardness"),
+        (
+            ("--after", "2N"),
+            "--after is about what flows under a hardness, which is not given: give --hardness",
+        ),
+        (
+            ("--flow", "raised"),
+            "--flow is about what flows under a hardness, which is not given: give --hardness",
+        ),
         (("--after", "1N", "--hardness", "1GPa"), "--after 1N is not larger than the force"),
         (("--after", "1MPa", "--hardness", "1GPa"), "--after"),
         (("--after", "2N", "--hardness", "1GPa", "--errors"), "--after is given: leave out one of them"),

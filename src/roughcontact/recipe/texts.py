@@ -250,7 +250,7 @@ def ranges(text: str) -> tuple[slice, ...]:
 
 def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
     ends = text.split(":")
-    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,9}\s*", ends[2]) is None:
+    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
         raise InputError(f"{text!r} is no range", f"write from:to:count, such as {example}")
     low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
     if not 2 <= count <= MOST_LOADS:
