@@ -8,7 +8,7 @@ import json
 import os
 import tomllib
 import types
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
@@ -19,7 +19,16 @@ from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.recipe_fields import given
 from roughcontact.recipe.source import Combined, File, Source
 
-__all__ = ["FORMAT", "from_plain", "located", "pinned", "read_job", "require_same_files", "to_plain"]
+__all__ = [
+    "FORMAT",
+    "from_plain",
+    "located",
+    "pinned",
+    "read_job",
+    "require_same_files",
+    "to_plain",
+    "with_files",
+]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
 
@@ -137,7 +146,7 @@ def read_job(path: Path) -> Job:
 
 def located(job: Job, folder: Path) -> Job:
     """Return a job whose relative file names, which count from a folder, count from the current one."""
-    return _with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
 
 
 def pinned(job: Job, folder: Path) -> Job:
@@ -147,7 +156,7 @@ def pinned(job: Job, folder: Path) -> Job:
         name = os.path.relpath(file.file, folder)
         return replace(file, file=Path(name).as_posix(), sha256=_digest(Path(file.file)))
 
-    return _with_files(job, pin)
+    return with_files(job, pin)
 
 
 def require_same_files(job: Job) -> None:
@@ -168,10 +177,12 @@ def require_same_files(job: Job) -> None:
             )
         return file
 
-    _with_files(job, require)
+    with_files(job, require)
 
 
-def _with_files(job: Job, change: Any) -> Job:
+def with_files(job: Job, change: Callable[[File], File]) -> Job:
+    """Return a job of which every file is changed by a function."""
+
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):
             return replace(source, lower=changed(source.lower), upper=changed(source.upper))
