@@ -5,12 +5,12 @@ import json
 import numpy as np
 import pytest
 import xarray
+from roughcontact.cli.adhesion.adhesion_options import LawChoice
 
 import roughcontact as rc
 from roughcontact.adhesion import adhesive_loading
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
 from roughcontact.adhesion.attraction import LAWS
-from roughcontact.cli.adhesion.adhesion_options import LawChoice
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")

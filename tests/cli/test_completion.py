@@ -7,12 +7,12 @@ import subprocess
 import sys
 
 import pytest
+from roughcontact.cli.contact.theory_options import THEORIES
+from roughcontact.cli.material_options import METALS
 from typer.testing import CliRunner
 
 from roughcontact.adhesion.attraction import LAWS as ATTRACTIONS
 from roughcontact.cli.app import app
-from roughcontact.cli.contact.theory_options import THEORIES
-from roughcontact.cli.material_options import METALS
 from roughcontact.materials import MATERIALS
 from roughcontact.theory.laws import LAWS
 

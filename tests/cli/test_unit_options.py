@@ -3,8 +3,6 @@ import math
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
-
-from roughcontact.cli.messages import UsageError
 from roughcontact.cli.unit_options import (
     CONDUCTIVITY,
     FORCE,
@@ -15,6 +13,8 @@ from roughcontact.cli.unit_options import (
     parse_points,
     parse_size,
 )
+
+from roughcontact.cli.messages import UsageError
 
 
 @pytest.mark.parametrize(
