@@ -22,7 +22,7 @@ from roughcontact.page.stopping import Stopped
 LOADS = {"forces": "50 mN:2 N:7"}
 BODIES = {"materials": "steel,aluminium"}
 CONDUCTION = dict.fromkeys(("resistivity", "conductivity"), "steel,aluminium")
-BESIDE = {"theories": {"theory": "persson,cmy"}, "conduction": CONDUCTION}
+THEORIES = {"theories": ["persson", "cmy"]}
 
 
 @pytest.fixture
@@ -96,7 +96,7 @@ def test_the_last_message_of_a_curve_tells_its_law(ask):
 
 def test_theories_that_do_not_apply_say_why_and_leave_the_command(ask):
     ask(curve, loads=LOADS)
-    said = ask(theories, loads=LOADS, **BESIDE)
+    said = ask(theories, THEORIES, loads=LOADS, conduction=CONDUCTION)
     persson, cmy = sorted(of(said, "theory"), key=lambda each: "refused" in each)
     assert persson["name"] == "persson"
     assert len(persson["predicted"]["contact_area"]) == 7
@@ -117,7 +117,7 @@ def test_theories_that_do_not_apply_say_why_and_leave_the_command(ask):
 def test_conductances_of_points_are_those_of_the_python_that_is_stated(ask):
     points = of(ask(curve, loads=LOADS, conduction=CONDUCTION), "point")
     space = {}
-    exec(of(ask(theories, loads=LOADS, **BESIDE), "stated")[0]["python"], space)
+    exec(of(ask(theories, THEORIES, loads=LOADS, conduction=CONDUCTION), "stated")[0]["python"], space)
     for name in ("thermal_conductance_per_area", "electrical_conductance_per_area"):
         assert [point[name] for point in points] == space["conductance"][name].tolist()
 
@@ -135,7 +135,12 @@ def test_the_table_of_a_curve_is_that_of_its_command(ask, tmp_path):
     beside = {"theories": {"theory": "persson"}, "conduction": CONDUCTION}
     [(header, data)] = [each for each in ask(export, {"kind": "csv"}, loads=LOADS, **beside) if each[1]]
     assert header["name"] == "part-curve.csv"
-    run(of(ask(theories, loads=LOADS, **beside), "stated")[0]["command"] + " --out out")
+    run(
+        of(ask(theories, {"theories": ["persson"]}, loads=LOADS, conduction=CONDUCTION), "stated")[0][
+            "command"
+        ]
+        + " --out out"
+    )
     assert rows(data.decode()) == rows((tmp_path / "out" / "curve.csv").read_text())
 
 

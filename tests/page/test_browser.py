@@ -421,7 +421,7 @@ def test_a_theory_is_drawn_or_says_why_it_is_not(tab, part):
     tab.wait("() => document.querySelector('#curve .legend').textContent.includes('Persson')")
     assert "--theory persson" in tab.text("curve_command")
     cmy.click()
-    tab.wait("() => document.getElementById('theories').textContent.includes('give the hardness')")
+    tab.wait("() => document.getElementById('theories').textContent.includes('give hardness')")
     assert persson.is_checked()
     assert not cmy.is_checked()
 

@@ -272,7 +272,9 @@ def test_the_help_of_a_field_is_shown_where_it_has_the_focus(person, part):
 
 
 def test_surfaces_that_come_without_a_file_are_prepared_alike(person):
-    person.page.select_option("#example", label="Ball: a sphere, 256 × 256 cells")
+    ball = person.page.locator("#example option", has_text="Ball")
+    ball.wait_for(state="attached", timeout=1000 * PATIENCE)
+    person.choose("example", ball.get_attribute("value"))
     person.wait()
     person.write("source.points", "48")
     assert person.command == "roughcontact run press-job.json"

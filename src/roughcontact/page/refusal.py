@@ -45,10 +45,10 @@ def refusal(error: Exception) -> dict[str, Any]:
 
 
 def on_the_page(text: str) -> str:
-    """Return what the library says, in the words of the page."""
+    """Return what the library says, in the words of the page: fields by their labels."""
     for python, words in _WORDS.items():
         text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
-    return text
+    return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)
 
 
 def _refused(message: str, remedy: str | None = None) -> dict[str, Any]:

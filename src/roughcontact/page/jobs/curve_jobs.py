@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,12 +12,13 @@ from roughcontact.page.jobs.curve_answer import answer_of
 from roughcontact.page.jobs.curve_point import columns_of, point_of
 from roughcontact.page.jobs.followed import Followed, collected
 from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.stopping import Stopped
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.jobs import Job, known_names
-from roughcontact.recipe.library_calls import Call, performed
-from roughcontact.recipe.plastic_flow import yields_at
+from roughcontact.recipe.library_calls import performed
+from roughcontact.recipe.recipe_fields import given
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
@@ -65,9 +66,12 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
-    found, refused = compared(request, cache)
-    for name, why in refused.items():
-        send({"type": "theory", "name": name, "refused": why})
+    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
+    for name in request.more.get("theories") or ():
+        try:
+            found |= compared(_with_theories(request.job, [name]), cache)
+        except InputError as error:
+            send({"type": "theory", "name": name, "refused": on_the_page(str(error))})
     for name, (_, comparison) in found.items():
         send(
             {
@@ -78,42 +82,31 @@ def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "predicted": {key: plain_values(values) for key, values in comparison.predicted.items()},
             }
         )
-    shown = request.shown
-    assert isinstance(shown, CurveJob)
-    beside = replace(shown.theories, theory=",".join(found)) if found else type(shown.theories)()
-    send({"type": "stated", **replace(request, shown=replace(shown, theories=beside)).statement})
+    shown = replace(request, shown=_with_theories(request.shown, list(found)))
+    send({"type": "stated", **shown.statement})
 
 
-def compared(
-    request: PageRequest, cache: SessionCache
-) -> tuple[dict[str, tuple[LoadingLaw, Comparison]], dict[str, str]]:
-    """Return each theory that the job names beside its curve, and why others do not apply."""
-    import roughcontact as rc
-    from roughcontact.theory.laws import LAWS
+def compared(job: CurveJob, cache: SessionCache) -> dict[str, tuple[LoadingLaw, Comparison]]:
+    """Return each theory that a job names, beside its curve.
 
-    job = request.job
-    assert isinstance(job, CurveJob)
-    found_curve, hardness = cache.curve(job), yields_at(job.bodies, job.plastic)
-    computed = getattr(found_curve, "loading", found_curve)
+    Raises
+    ------
+    InputError
+        If one does not apply.
+    """
+    computed = cache.curve(job)
+    computed = getattr(computed, "loading", computed)
     known = performed(job.bodies.calls(), known_names() | {"surface": cache.surface(job)})
-    given: dict[str, Any] = {**job.theories.known()}
-    if hardness is not None:
-        given["hardness"] = hardness.value(known) if isinstance(hardness, Call) else hardness
-    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
-    refused: dict[str, str] = {}
-    for name in job.theories.names():
-        try:
-            if hardness is None and "hardness" in LAWS[name].needs:
-                raise InputError(
-                    "it is about spots that flow",
-                    "give the hardness of the softer body, and start the curve again",
-                    "plastic.hardness",
-                )
-            [law] = rc.loading_laws(known["surface"], known["modulus"], name, **given)
-            found[name] = law, computed.compare(law)
-        except InputError as error:
-            refused[name] = str(error)
-    return found, refused
+    asked = [call for call in job.calls() if call.result == "theories"]
+    laws = performed(asked, known)["theories"] if asked else []
+    return {name: (law, computed.compare(law)) for name, law in zip(job.theories.names(), laws, strict=True)}
+
+
+def _with_theories(job: Job, names: Sequence[str]) -> CurveJob:
+    """Return a job of a curve beside which these theories stand."""
+    assert isinstance(job, CurveJob)
+    theory = {"theory": ",".join(names)} if names else {}
+    return replace(job, theories=type(job.theories)(**(given(job.theories) | theory)))
 
 
 def _as_far(job: Job, path: Followed, done: int) -> tuple[Job | None, dict[str, Any]]:

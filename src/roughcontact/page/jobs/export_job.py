@@ -140,7 +140,7 @@ def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, A
     job = request.job
     assert isinstance(job, CurveJob)
     curve = cache.curve(job)
-    theories, _ = compared(request, cache)
+    theories = compared(job, cache)
     comparisons = {name: comparison for name, (_, comparison) in theories.items()}
     dataset = with_theories(curve_dataset(curve), comparisons)
     if named := job.conduction.named():

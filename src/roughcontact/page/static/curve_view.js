@@ -121,7 +121,8 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
     const run = current;
     if (!run || running || !job()) return;
     try {
-      const sent = request("back", "theories", job(), {}, (header) => run === current && heard(run, header));
+      const { theories: _, ...plain } = job();
+      const sent = request("back", "theories", plain, { theories: theories.chosen }, (header) => run === current && heard(run, header));
       const end = await sent.ended;
       if (end.message && run === current) say(end.message);
     } catch (error) {
@@ -134,7 +135,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
   function job() {
     if (!current || !current.end || !current.end.again) return undefined;
     const theory = theories.chosen.join(",");
-    return { ...current.job, ...current.end.part, ...(sticks(current) || !theory ? {} : { theories: { ...recipe.now.theories, theory } }) };
+    return { ...current.job, ...current.end.part, ...(sticks(current) || !theory ? {} : { theories: { theory } }) };
   }
 
   // Points that follow one another on one branch.
