@@ -432,7 +432,7 @@ LEGEND = "() => [...document.querySelectorAll('#curve .legend li')].map((line) =
 def test_a_loop_under_a_hardness_shows_its_branches_and_the_flattened_surface(tab, part):
     assert tab.drop("part.npz", part)
     tab.settled()
-    tab.page.get_by_text("Plastic flow").click()
+    tab.page.get_by_role("heading", name="Plastic flow").click()
     tab.page.fill('[id="plastic.hardness"]', "1.5 GPa")
     tab.page.keyboard.press("Tab")
     tab.settled()

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
-from roughcontact.page.jobs.curve_answer import answer_of
 from roughcontact.page.jobs.curve_point import columns_of, point_of
 from roughcontact.page.jobs.followed import Followed, collected
 from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.stopping import Stopped
@@ -53,7 +53,7 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
         cache.keep_curve(reached, found)
     import numpy as np
 
-    answer = answer_of(found)
+    answer = shown_curve(found)
     send({"type": "curve", **answer.shown(), "stopped": stopped, "part": part, "again": reached is not None})
     if answer.heights is not None:
         place: dict[str, Any] = {

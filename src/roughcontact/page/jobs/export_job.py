@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError
-from roughcontact.page.jobs.curve_answer import answer_of
 from roughcontact.page.jobs.curve_jobs import compared
 from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
@@ -125,7 +125,7 @@ def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
     scales = {"modulus": getattr(found, "loading", found).modulus, "tolerance": 1e-8}
     source = _provenance(request, cache, request.job.NAME, scales)
     stem = request.job.NAME.replace(" ", "-")
-    if (figure := answer_of(found).figure) is not None:
+    if (figure := shown_curve(found).figure) is not None:
         return _writers(stem, found.to_dataset(), found.to_record(), figure, source)
     return _writers(stem, *_beside(request, cache), source)
 

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
 
-__all__ = ["CurveAnswer", "answer_of"]
+__all__ = ["ShownCurve", "shown_curve"]
 
 _REMEDY = "take loads that suit the surface, or a finer map"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CurveAnswer:
+class ShownCurve:
     """A curve as it is shown.
 
     Parameters
@@ -54,18 +54,18 @@ class CurveAnswer:
         return {"facts": self.facts, "notes": list(self.notes), **self.more}
 
 
-def answer_of(found: Any) -> CurveAnswer:
+def shown_curve(found: Any) -> ShownCurve:
     """Return what is shown of a curve of any kind."""
-    return _ANSWERS[type(found).__name__](found)
+    return _SHOWN[type(found).__name__](found)
 
 
-def _of_curve(curve: Curve) -> CurveAnswer:
+def _of_curve(curve: Curve) -> ShownCurve:
     from roughcontact.plot.facts import bend_words, curve_facts
 
     try:
         law = curve.fit()
     except InputError as error:
-        return CurveAnswer(
+        return ShownCurve(
             curve, curve_facts(curve, None), notes=[f"No power law: {error.message}: {_REMEDY}."]
         )
     inside = (curve.force >= law.window[0]) & (curve.force <= law.window[1])
@@ -76,17 +76,17 @@ def _of_curve(curve: Curve) -> CurveAnswer:
         "stiffness": law.stiffness(force).tolist(),
     }
     notes = [] if law.straight else [f"There is {bend_words(law)}."]
-    return CurveAnswer(curve, curve_facts(curve, law), notes=notes, more={"fit": fit})
+    return ShownCurve(curve, curve_facts(curve, law), notes=notes, more={"fit": fit})
 
 
-def _of_loop(loop: Loop) -> CurveAnswer:
+def _of_loop(loop: Loop) -> ShownCurve:
     from roughcontact.plot.facts import loop_facts
     from roughcontact.plot.loops import loop_figure
 
-    return CurveAnswer(loop, loop_facts(loop), lambda: loop_figure(loop), heights=loop.flattened)
+    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), heights=loop.flattened)
 
 
-def _of_path(path: AdhesiveCurve) -> CurveAnswer:
+def _of_path(path: AdhesiveCurve) -> ShownCurve:
     from roughcontact.plot.adhesive_facts import adhesive_curve_facts, law_facts
     from roughcontact.plot.jumps import jump_figure, pieces_of
 
@@ -109,10 +109,10 @@ def _of_path(path: AdhesiveCurve) -> CurveAnswer:
     if path.ambiguous:
         notes.append("A jump is ambiguous: two integrations of the flow after it ended in different states.")
     facts = [*law_facts(path.adhesion, path.modulus, path.spacing), *adhesive_curve_facts(path)]
-    return CurveAnswer(path, facts, lambda: jump_figure(path), notes, {"lines": lines})
+    return ShownCurve(path, facts, lambda: jump_figure(path), notes, {"lines": lines})
 
 
-def _of_detachment(curve: DetachmentCurve) -> CurveAnswer:
+def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
     from roughcontact.plot.detachment_plot import detachment_facts, detachment_force, line_of
 
     def drawn() -> Figure:
@@ -126,10 +126,10 @@ def _of_detachment(curve: DetachmentCurve) -> CurveAnswer:
     if curve.pull_off_force > 0:
         lines.append(_level(curve, lines[0]["x"]))
     facts = [(name, value) for name, value in detachment_facts(curve) if name != "note"]
-    return CurveAnswer(curve, facts, drawn, curve.notes, {"lines": lines})
+    return ShownCurve(curve, facts, drawn, curve.notes, {"lines": lines})
 
 
-_ANSWERS: dict[str, Callable[[Any], CurveAnswer]] = {
+_SHOWN: dict[str, Callable[[Any], ShownCurve]] = {
     "Curve": _of_curve,
     "Loop": _of_loop,
     "AdhesiveCurve": _of_path,
