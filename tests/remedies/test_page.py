@@ -159,6 +159,11 @@ LOADS = [
     row(press("0N"), "must be positive", press("1mN")),
     row(press("1,5N"), "write the decimal point as '.'", press("1.5N")),
     row(press("-1nm", "depth"), "Give 0 or more", press("0nm", "depth")),
+    row(
+        request("press", **PRESSED, contact={"profile": "line"}),
+        "A page presses maps. Press a profile by the command line",
+        request("press", **PRESSED),
+    ),
     row(press("1mN", "weight"), "There are force, pressure, depth", press("1mN")),
     row(
         press("1m", "depth", {"periodic": True}),

@@ -12,6 +12,7 @@ from roughcontact.recipe.source import SOURCES, Combined, InPython
 
 __all__ = ["forms"]
 
+_LEFT_OUT = ("file", "profile")  # a file is dropped, and what a page presses is a map
 _WITHOUT = (Errors, PressureTheory, Tables, Units)  # parts whose answers a page does not show
 
 
@@ -45,7 +46,11 @@ def _form(part: type[Any]) -> dict[str, Any]:
         "title": part.TITLE,
         "one_of": getattr(part, "ONE_OF", ()),
         "at_most": getattr(part, "AT_MOST", ()),
-        "fields": [_field(each, spec, hints[each.name]) for each, spec in specs(part) if spec.option],
+        "fields": [
+            _field(each, spec, hints[each.name])
+            for each, spec in specs(part)
+            if spec.option and each.name not in _LEFT_OUT
+        ],
     }
 
 

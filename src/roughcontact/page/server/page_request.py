@@ -10,6 +10,7 @@ from roughcontact.errors import InputError
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
+from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import Job, calls_of
 from roughcontact.recipe.library_calls import python_of
 from roughcontact.recipe.source import File
@@ -64,6 +65,8 @@ class PageRequest:
             return files[file.file]
 
         job = _explicit(from_plain(plain))
+        if not isinstance(job, SurfaceJob) and job.contact.profile is not None:
+            raise InputError("a page presses maps", "press a profile by the command line", "contact.profile")
         beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
         return cls(
             with_files(job, lambda file: replace(file, file=str(known(file).path))),

@@ -151,7 +151,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
 
   function lines(run, colour, name) {
     const quantity = by("quantity").value;
-    const place = (points, more) => ({ x: points.map((each) => each[along(run)]), y: points.map((each) => each[quantity]), ...more });
+    const place = (points, more) => ({ x: points.map((each) => each[along(current)]), y: points.map((each) => each[quantity]), ...more });
     const series = [];
     const drawn = run.end && run.end.lines && quantity === "force" ? run.end.lines : null;
     for (const part of runs(run.points)) {

@@ -19,6 +19,7 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
   const controls = new Map(fields.map((each) => [each.name, control(each)]));
   const lines = new Map(fields.map((each) => [each.name, line(each)]));
   const values = () => recipe.now[part] || {};
+  let offered = "";
   const chosen = () => group.find((name) => name in values()) || "";
 
   function set(name, value) {
@@ -111,6 +112,8 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
     },
     // The names that a file offers for a field.
     offer(name, list) {
+      if (offered === JSON.stringify(list)) return; // what has the focus keeps it
+      offered = JSON.stringify(list);
       const picked = make("select", { id: `${part}.${name}`, onchange: () => set(name, picked.value) }, option("", "by name"), ...list.map((entry) => option(...entry)));
       controls.get(name).root.replaceWith(picked);
       controls.set(name, { root: picked, show: (value) => (picked.value = value || "") });
@@ -123,10 +126,6 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
 export function rest({ fields, ...form }, other) {
   const known = (other ? other.fields : []).map(({ name }) => name);
   return { ...form, fields: fields.filter(({ name }) => !known.includes(name)) };
-}
-
-export function without({ fields, ...form }, ...names) {
-  return { ...form, fields: fields.filter(({ name }) => !names.includes(name)) };
 }
 
 // The help of the field that has the focus, where no pointer can hover over it.

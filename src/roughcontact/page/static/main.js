@@ -5,7 +5,7 @@ import { dragged } from "./crop.js";
 import { curveView } from "./curve_view.js";
 import { cutView } from "./cut_view.js";
 import { exports } from "./exports.js";
-import { form, helpLine, without } from "./form.js";
+import { form, helpLine } from "./form.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { element, list, numbersView } from "./numbers.js";
@@ -97,7 +97,7 @@ function show() {
   document.title = title ? `${title} – roughcontact` : "roughcontact";
   if (source && shown.kind !== source.kind) {
     shown.kind = source.kind;
-    shown.source = form(recipe, "source", without(forms.sources[source.kind], "file"));
+    shown.source = form(recipe, "source", forms.sources[source.kind]);
     by("source_form").replaceChildren(shown.source.root);
   }
   by("flattened").hidden = !map.has("flattened");
