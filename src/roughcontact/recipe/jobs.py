@@ -7,10 +7,10 @@ from typing import Any, TypeAlias
 
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
-from roughcontact.recipe.library_calls import Call, perform
+from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.source import File, SmoothBody
 
-__all__ = ["JOBS", "Job", "calls_of", "known_names", "surface_calls", "surface_of"]
+__all__ = ["JOBS", "Job", "calls_of", "contact_calls", "known_names", "surface_calls", "surface_of"]
 
 Job: TypeAlias = (
     SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
@@ -39,6 +39,11 @@ def surface_calls(job: Job) -> Iterator[Call]:
 def calls_of(job: Job) -> Iterator[Call]:
     """Yield the calls that do a job, from the file to the answer."""
     yield from surface_calls(job)
+    yield from contact_calls(job)
+
+
+def contact_calls(job: Job) -> Iterator[Call]:
+    """Yield the calls that press the prepared surface; none where heights are all that is asked for."""
     if not isinstance(job, SurfaceJob):
         yield from job.bodies.calls()
         yield from job.contact.calls()
@@ -47,10 +52,7 @@ def calls_of(job: Job) -> Iterator[Call]:
 
 def surface_of(job: Job) -> Any:
     """Return the surface of a job, prepared."""
-    known = known_names()
-    for call in surface_calls(job):
-        perform(call, known)
-    return known["surface"]
+    return performed(surface_calls(job), known_names())["surface"]
 
 
 def known_names() -> dict[str, Any]:

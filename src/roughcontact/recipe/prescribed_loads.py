@@ -111,9 +111,7 @@ class AdhesiveLoad:
         "-2nm",
         everyday=True,
     )
-    mean_gap: str | None = described(
-        "Mean gap, on a periodic map without missing points.", "100nm"
-    )
+    mean_gap: str | None = described("Mean gap, on a periodic map without missing points.", "100nm")
 
     def __post_init__(self) -> None:
         check(self)

@@ -8,7 +8,7 @@ import json
 import os
 import tomllib
 import types
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
@@ -24,12 +24,14 @@ from roughcontact.recipe.source import Combined, File, Source
 __all__ = [
     "FORMAT",
     "carried",
+    "fingerprint",
     "from_plain",
     "located",
     "pinned",
     "read_job",
     "require_same_files",
     "to_plain",
+    "with_files",
 ]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
@@ -191,7 +193,7 @@ def carried(job: Job, folder: Path | None) -> dict[str, Any]:
 
 def located(job: Job, folder: Path) -> Job:
     """Return a job whose relative file names, which count from a folder, count from the current one."""
-    return _with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
 
 
 def pinned(job: Job, folder: Path) -> Job:
@@ -199,9 +201,9 @@ def pinned(job: Job, folder: Path) -> Job:
 
     def pin(file: File) -> File:
         name = os.path.relpath(file.file, folder)
-        return replace(file, file=Path(name).as_posix(), sha256=_digest(Path(file.file)))
+        return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
-    return _with_files(job, pin)
+    return with_files(job, pin)
 
 
 def require_same_files(job: Job) -> None:
@@ -214,7 +216,7 @@ def require_same_files(job: Job) -> None:
     """
 
     def require(file: File) -> File:
-        if file.sha256 is not None and _digest(Path(file.file)) != file.sha256:
+        if file.sha256 is not None and fingerprint(Path(file.file)) != file.sha256:
             raise InputError(
                 f"{file.file} is not the file that the recipe was written for: its SHA-256 differs",
                 "give that file, or leave out sha256 to take this one",
@@ -222,10 +224,12 @@ def require_same_files(job: Job) -> None:
             )
         return file
 
-    _with_files(job, require)
+    with_files(job, require)
 
 
-def _with_files(job: Job, change: Any) -> Job:
+def with_files(job: Job, change: Callable[[File], File]) -> Job:
+    """Return a job of which every file is changed by a function."""
+
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):
             return replace(source, lower=changed(source.lower), upper=changed(source.upper))
@@ -234,10 +238,11 @@ def _with_files(job: Job, change: Any) -> Job:
     return replace(job, source=changed(job.source))
 
 
-def _digest(path: Path) -> str:
+def fingerprint(path: Path) -> str:
+    """Return the SHA-256 of a file, 64 hexadecimal digits."""
     try:
         with path.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+            return hashlib.filefingerprint(file, "sha256").hexdigest()
     except OSError as error:
         raise ReadError(
             str(path), error.strerror or str(error), "give the name of a file that is there"
