@@ -149,7 +149,7 @@ def test_the_figures_are_there_without_a_circle():
 def test_theory_needs_arrays_alone():
     names = set().union(*(imported(tree) for path, tree in trees().items() if room_of(path) == "theory"))
     assert foreign(names) <= {"numpy", "scipy"}
-    below = ("roughcontact.theory", "roughcontact.validation", "roughcontact.late")
+    below = tuple(f"roughcontact.{room}" for room in ("errors", "late", "theory", "validation"))
     assert all(name.startswith(below) for name in names if "roughcontact" in name)
 
 

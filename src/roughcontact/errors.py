@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-__all__ = ["InputError", "placed", "within"]
+__all__ = ["InputError", "about", "correctable", "joined", "placed", "within"]
 
 
 class InputError(ValueError):
@@ -38,9 +39,32 @@ class InputError(ValueError):
         self.place = place
 
     def __str__(self) -> str:
-        if self.remedy is None:
-            return self.message
-        return f"{self.message}{';' if ': ' in self.message else ':'} {self.remedy}"
+        return joined(self.message, self.remedy)
+
+
+def joined(message: str, remedy: str | None) -> str:
+    """Return a message and its remedy in one line."""
+    return message if remedy is None else f"{message}{';' if ': ' in message else ':'} {remedy}"
+
+
+def correctable(error: BaseException) -> InputError | None:
+    """Return what the user can correct of an error: an `InputError`, or trouble of the system with a file as one.
+
+    Every other error is a mistake of this program, for which it returns None.
+    """
+    if isinstance(error, InputError):
+        return error
+    # Of a pipe nobody reads any more, typer knows how to leave quietly.
+    if isinstance(error, OSError) and error.filename is not None and not isinstance(error, BrokenPipeError):
+        file = os.fsdecode(error.filename)
+        return InputError(f"{file}: {error.strerror or error}", place=file)
+    return None
+
+
+def about(what: str, problem: str, remedy: str | None = None) -> InputError:
+    """Return the error about an argument, such as ``"force [N]"`` or ``"the depth"``; its place is that name."""
+    name = what.removeprefix("the ").partition(" [")[0]
+    return InputError(f"{what} {problem}", remedy, name if name.isidentifier() else None)
 
 
 @contextmanager

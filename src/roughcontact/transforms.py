@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import DeviceTable, is_numpy, namespace, require_floating
+from roughcontact.errors import InputError
 from roughcontact.kernels import buffers, loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution
 from roughcontact.kernels.plane_plan import fits
@@ -74,7 +75,7 @@ class Convolution:
     def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
         """Return the machine's kernel for fields of one shape and precision."""
         if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
-            raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
+            raise InputError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
         ready = CompiledConvolution.of(self._kernel(), shape, self.lengths, dtype.name)
         self._ready[shape, dtype] = ready
         if dtype == np.float64:

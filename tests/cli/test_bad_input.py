@@ -106,7 +106,7 @@ PRESS_OPTIONS = {
     "zero force": (changed(force="0N"), "the force must be positive"),
     "force in kilograms": (
         changed(force="1kg"),
-        "--force: '1kg' is not a force; expected a force such as 10N",
+        "--force: '1kg' is not a force; write a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
     "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
@@ -133,7 +133,7 @@ PRESS_OPTIONS = {
     ),
     "decimal comma": (
         changed(modulus=None, young="1GPa", poisson="0,3"),
-        "--poisson: '0,3' holds a comma: write the decimal point as '.'",
+        "--poisson: '0,3' holds a comma; write the decimal point as '.'",
     ),
     "Poisson's ratio in words": (changed(modulus=None, young="1GPa", poisson="third"), "not a number"),
     "a force beyond measure": (changed(force="1e300N"), "--force: '1e300N' is beyond anything"),

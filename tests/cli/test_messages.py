@@ -49,8 +49,9 @@ def test_a_file_that_the_system_refuses_is_one_line(tmp_path, capsys):
         ("def f():\n try:\n  int('many')\n except ValueError:\n  raise", ValueError),
         ("def f():\n return {}['key']", KeyError),
         ("def f():\n raise TypeError('one', 'two')", TypeError),
-        ("def f():\n raise OSError('strange')", None),
-        ("def f():\n raise ValueError(\n  'on two lines'\n )", None),
+        ("def f():\n raise OSError('strange')", OSError),
+        ("def f():\n raise ValueError('of no class of ours')", ValueError),
+        ("def f():\n from roughcontact import InputError\n raise InputError('strange')", None),
     ],
 )
 def test_foreign_errors_show_themselves_as_mistakes_of_ours(source, error):

@@ -268,7 +268,7 @@ def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
         (("--materials", "rigid,rigid"), "one of the two bodies must be elastic"),
         (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
         (("--materials", "steel,steel", "--poisson", "0.3"), "--materials is about the pair: leave out"),
-        (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam: write 110GPa"),
+        (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam; write 110GPa"),
         (("--young", "210", "--poisson", "0.3"), "--young: 210 without a unit"),
         (("--modulus", "1GPa", "--hardness", "2"), "--hardness: 2 without a unit"),
     ],

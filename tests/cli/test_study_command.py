@@ -151,7 +151,7 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
         (["export", "nowhere", "--out", "a.nc"], "there is no study.toml in it"),
         (
             ["export", "nowhere", "--out", "a.xlsx"],
-            "--out: cannot write a.xlsx: give a file .nc (NetCDF) or .csv",
+            "--out: cannot write a.xlsx; give a file .nc (NetCDF) or .csv",
         ),
         (["export", "nowhere", "--out", "no/a.nc"], "there is no folder"),
         (["add", "nowhere", "--samples", "3"], "nowhere: No such file or directory"),
@@ -172,7 +172,7 @@ def test_what_a_folder_refuses_is_told(invoke, here):
     refused = run(invoke, "tried", "--out", "other")
     assert "tried is the folder of the results itself: leave out --out" in refused.stderr
     assert (
-        "the study has 3 already: give more, not 3"
+        "the study has 3 already; give more, not 3"
         in invoke("study", "add", "tried", "--samples", "3").stderr
     )
     (here / "tried.toml").write_text(TEXT.replace("samples = 3", "samples = 3\nseed = 1"))

@@ -63,9 +63,9 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     ("words", "message"),
     [
         (("--table", "abaqus"), "--table writes files: say where by --out"),
-        (("--table", "ansys", "--out", "OUT"), "--table: there is no 'ansys': choose of csv, abaqus"),
-        (("--table", "csv,csv", "--out", "OUT"), "--table: name each table once"),
-        (("--table", ",", "--out", "OUT"), "--table: name each table once"),
+        (("--table", "ansys", "--out", "OUT"), "--table: there is no 'ansys'; choose of csv, abaqus"),
+        (("--table", "csv,csv", "--out", "OUT"), "name each table once"),
+        (("--table", ",", "--out", "OUT"), "name each table once"),
         (("--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
         (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
         (("--table", "lammps", "--table-area", "1mm", "--out", "OUT"), "'1mm' is not an area"),

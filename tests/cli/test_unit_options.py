@@ -55,10 +55,10 @@ def test_any_text_is_a_finite_number_or_a_clear_refusal(text):
     except UsageError as error:
         value, message = 0.0, str(error)
     else:
-        message = "--it: expected a force such as 10N"
+        message = "--it: write a force such as 10N"
     assert math.isfinite(value)
     assert message.startswith("--it: ")
-    assert "expected a force such as 10N" in message
+    assert "write a force such as 10N" in message
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_any_text_is_a_finite_number_or_a_clear_refusal(text):
     ],
 )
 def test_the_message_says_what_is_wrong_and_what_was_expected(text, complaint):
-    with pytest.raises(UsageError, match=r"--force: .*expected a force such as 10N") as caught:
+    with pytest.raises(UsageError, match=r"--force: .*write a force such as 10N") as caught:
         parse(text, FORCE, "--force")
     assert complaint in str(caught.value)
 

@@ -37,9 +37,9 @@ def test_a_digit_behind_a_unit_is_its_power():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("5 kg", "'5 kg' is not a force; expected a force such as 10N"),
-        ("5 newtn", "unknown unit 'newtn' in '5 newtn'; expected a force such as 10N"),
-        ("N", "'N' does not start with a number; expected a force such as 10N"),
+        ("5 kg", "'5 kg' is not a force: write a force such as 10N"),
+        ("5 newtn", "unknown unit 'newtn' in '5 newtn': write a force such as 10N"),
+        ("N", "'N' does not start with a number: write a force such as 10N"),
     ],
 )
 def test_what_is_none_is_refused_with_a_value_error(text, message):
@@ -49,7 +49,7 @@ def test_what_is_none_is_refused_with_a_value_error(text, message):
 
 
 def test_what_is_no_number_is_refused():
-    with pytest.raises(ValueError, match=r"^'0.3 m' is not a number; expected a number such as 0.5$"):
+    with pytest.raises(ValueError, match=r"^'0.3 m' is not a number: write a number such as 0.5$"):
         parse_number("0.3 m", "0.5")
 
 

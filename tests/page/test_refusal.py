@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.page.field_error import at_field
+from roughcontact.errors import placed
 from roughcontact.page.refusal import refusal
 
 
@@ -34,7 +34,7 @@ def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
 
 def test_a_foreign_error_at_a_field_stays_a_mistake_of_ours():
     def failed():
-        with at_field("load"):
+        with placed("load"):
             float("three")
 
     assert caught(failed)["how"] == "mistake"
@@ -54,3 +54,14 @@ def test_the_folder_of_the_server_stays_unsaid(tmp_path):
     assert found["how"] == "refused"
     assert "part.x3p" in found["message"]
     assert str(tmp_path) not in str(found)
+
+
+def test_the_field_of_the_page_is_the_last_part_of_the_place():
+    def failed():
+        with placed("preparation.short_cutoff"):
+            raise rc.InputError("too short", "give more")
+
+    assert caught(failed) == {
+        **{"how": "refused", "message": "Too short.", "remedy": "Give more.", "field": "short_cutoff"}
+    }
+    assert "field" not in caught(lambda: (_ for _ in ()).throw(rc.InputError("too short")))

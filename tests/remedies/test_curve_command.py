@@ -140,7 +140,7 @@ $ {TWO} --table abaqus
 > {TWO} --table abaqus --out new
 
 $ {TWO} --table ansys --out new
-! there is no 'ansys': choose of csv, abaqus, abaqus-mm, lammps
+! there is no 'ansys'; choose of csv, abaqus, abaqus-mm, lammps
 > {TWO} --table csv --out new
 > {TWO} --table abaqus --out new
 > {TWO} --table abaqus-mm --out new
@@ -189,7 +189,7 @@ $ conductance new/curve.nc --resistivity 17nohm*m
 > {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
 
 $ conductance rough.npz --resistivity 17nohm*m
-! is not a curve.nc; write one with: roughcontact curve ... --out DIR
+! is not a curve.nc: write one with: roughcontact curve ... --out DIR
 > {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
 
 $ conductance rough.npz

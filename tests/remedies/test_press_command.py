@@ -30,28 +30,28 @@ $ {PRESS} --force 0N
 > {PRESS} --force 1uN
 
 $ {PRESS} --force 0,5N
-! write the decimal point as '.'; expected a force such as 10N
+! write the decimal point as '.'; write a force such as 10N
 > {PRESS} --force 0.5N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1kg
-! '1kg' is not a force; expected a force such as 10N
+! '1kg' is not a force; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force much
-! 'much' does not start with a number; expected a force such as 10N
+! 'much' does not start with a number; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1newt
-! unknown unit 'newt' in '1newt'; expected a force such as 10N
+! unknown unit 'newt' in '1newt'; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1e300N
-! check its exponent and unit; expected a force such as 10N
+! check its exponent and unit; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --depth -1um
-! the depth counts from first touch: give 0 or more
+! the depth counts from first touch; give 0 or more
 > {PRESS} --depth 0um
 
 $ {PRESS} --periodic --depth 1um
@@ -86,7 +86,7 @@ $ {FORCE} --modulus 110
 > {FORCE} --modulus 110Pa
 
 $ {FORCE} --modulus 1N
-! '1N' is not a pressure; expected a pressure such as 1MPa
+! '1N' is not a pressure; write a pressure such as 1MPa
 > {FORCE} --modulus 1MPa
 
 $ {FORCE} --modulus 1GPa --poisson 0.3
@@ -111,7 +111,7 @@ $ {FORCE} --young 1GPa --poisson 0.7
 > {FORCE} --young 1GPa --poisson 0.5
 
 $ {FORCE} --young 1GPa --poisson third
-! 'third' is not a number; expected a number such as 0.3
+! 'third' is not a number; write a number such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --materials steel
@@ -198,7 +198,7 @@ $ press profile.txt --unit m --modulus 1GPa --depth 10nm
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
 
 $ press profile.txt --unit m --modulus 1GPa --force 1N --profile line
-! expected a force per length such as 10N/mm
+! write a force per length such as 10N/mm
 > press profile.txt --unit m --modulus 1GPa --force 10N/mm --profile line
 
 $ {PRESS} --force 1N/m --profile line
@@ -325,7 +325,7 @@ $ {PRESS} --force 1mN --out taken/inside
 > {PRESS} --force 1mN --out other/inside
 
 $ {PRESS} --force 1mN --short-cutoff 10um
-! belongs to --errors; to filter a map take 'surface prepare'
+! belongs to --errors: to filter a map take 'surface prepare'
 > {PRESS} --force 1mN --short-cutoff 10um --errors
 > surface prepare rough.npz smooth.npz --short-cutoff 10um
 """

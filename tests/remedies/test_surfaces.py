@@ -79,7 +79,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Surface(INFINITE, PLANE),
-        "heights are infinite; mark points without a measurement by NaN",
+        "heights are infinite: mark points without a measurement by NaN",
         lambda: rc.Surface(np.where(np.isinf(INFINITE), np.nan, INFINITE), PLANE),
     ),
     row(
@@ -220,7 +220,7 @@ PREPARED = [
     ),
     row(
         lambda: PROFILE.rotated(),
-        "only a surface of two axes can be turned; flip a line",
+        "only a surface of two axes can be turned: flip a line",
         lambda: ROUGH.rotated(),
         lambda: PROFILE.flipped("x"),
     ),

@@ -9,6 +9,7 @@ from typing import Any
 
 import xarray
 
+from roughcontact.errors import InputError
 from roughcontact.study.export import export
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
@@ -137,7 +138,7 @@ def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLi
 def _exports(studies: Studies, folder: str | os.PathLike[str]) -> Iterator[xarray.Dataset]:
     for study in studies:
         if not (store_of(folder, study) / "study.toml").is_file():
-            raise ValueError(f"the study {study.name!r} was not run in {folder}: run it first")
+            raise InputError(f"the study {study.name!r} was not run in {folder}", "run it first")
         with Store.open(store_of(folder, study)) as store:
             yield export(store, seconds=True)
 

@@ -68,9 +68,13 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
             print_facts([(each, module(each).TITLE) for each in FIGURES])
             return
         if name != "all" and name not in FIGURES:
-            raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
+            raise UsageError(
+                f"there is no figure {name!r}", f"choose one of {', '.join(FIGURES)}, all or list"
+            )
         if wanted.scale not in _SCALES:
-            raise UsageError(f"--scale: {wanted.scale!r} is no scale; write {' or '.join(_SCALES)}")
+            raise UsageError(
+                f"--scale: {wanted.scale!r} is no scale", f"write {' or '.join(_SCALES)}", place="--scale"
+            )
         chosen = None if wanted.seed is None else parse_seed(wanted.seed, "--seed")
         workers = None if wanted.as_is else wanted.workers or 0
         with output(wanted.out):

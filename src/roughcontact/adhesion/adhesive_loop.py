@@ -92,7 +92,10 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     """
     count, begin = whole(int(points), "points"), -BEGIN * adhesion.range
     require(
-        depth > begin, f"the depth must be above {begin:.3g} m, ten ranges of the attraction apart", depth
+        depth > begin,
+        f"the depth must be above {begin:.3g} m, ten ranges of the attraction apart",
+        value=depth,
+        place="depth",
     )
     step = (depth - begin) / count
     there = [-REACH * adhesion.range, *(begin + step * k for k in range(count)), depth]

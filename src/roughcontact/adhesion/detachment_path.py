@@ -13,6 +13,7 @@ from roughcontact.adhesion.detachment import Detachment, StuckContact, mean_comp
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.loads import Loads
@@ -94,20 +95,28 @@ def states_drawn_back(
     problem = preload.problem
     require_areas(problem.operator)
     if preload.plastic.any():
-        raise ValueError(
+        raise InputError(
             f"{int(np.count_nonzero(preload.plastic))} cells of this solution are at the hardness, and detachment is "
-            "elastic: give solution.flattened, the elastic contact after flow, or press without a hardness"
+            "elastic",
+            "give solution.flattened, the elastic contact after flow, or press without a hardness",
         )
     require(
         preload.contact.any(),
-        "nothing is in contact in this solution: press to a force or a depth above zero",
+        "nothing is in contact in this solution",
+        "press to a force or a depth above zero",
     )
     energy = positive(work, "work of adhesion [J/m^2]", zero=True)
-    require(np.any(energy > 0), "the work of adhesion is zero everywhere: give a number above zero")
+    require(
+        np.any(energy > 0),
+        "the work of adhesion is zero everywhere",
+        "give a number above zero",
+        place="work",
+    )
     require(
         energy.shape in ((), problem.grid.shape),
-        f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}: give one number, or one "
-        "for each cell",
+        f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}",
+        "give one number, or one for each cell",
+        place="work",
     )
     if loads is not None:
         loads = _falling(loads.as_forces(problem.grid), preload)
@@ -128,15 +137,15 @@ def _falling(loads: Loads, preload: Solution) -> Loads:
     here = preload.force if name == "force" else preload.depth
     # The force of a solution is good to its tolerance.
     if values[0] > here + preload.problem.tolerance * abs(here) * (name == "force"):
-        raise ValueError(
-            f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it: "
-            f"press to that {name}, or begin with {here:.6g} or less"
+        raise InputError(
+            f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it",
+            f"press to that {name}, or begin with {here:.6g} or less",
         )
     if (np.diff(values) > 0).any():
         at = int(np.argmax(np.diff(values) > 0))
-        raise ValueError(
-            f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}: "
-            "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again"
+        raise InputError(
+            f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}",
+            "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again",
         )
     return loads
 

@@ -90,8 +90,8 @@ class AdhesiveLoad:
         value = parse(text, kinds_of(body)[name], said)
         if name in _PULLS and value < 0:
             raise UsageError(
-                f"{said} {text} pulls, and this command computes an approach: a tension needs a retreat; "
-                f"give 'adhesion curve {said}s 0,{text}'"
+                f"{said} {text} pulls, and this command computes an approach: a tension needs a retreat",
+                f"give 'adhesion curve {said}s 0,{text}'",
             )
         return {name: value}
 

@@ -6,6 +6,7 @@ import math
 
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.unit_options import Kind, parse
+from roughcontact.errors import InputError
 from roughcontact.material import Solid, reduced_modulus
 from roughcontact.materials import Material, handbook
 
@@ -27,8 +28,8 @@ def known_material(text: str) -> Material | None:
         return None
     try:
         return handbook(word.lower())
-    except ValueError as error:
-        raise UsageError(str(error)) from error
+    except InputError as error:
+        raise UsageError(error.message, error.remedy) from error
 
 
 def modulus_of(text: str) -> float:
@@ -42,7 +43,9 @@ def modulus_of(text: str) -> float:
     names = [part.strip() for part in text.split(",")]
     if len(names) != 2 or not all(names):
         raise UsageError(
-            f"--materials: name both bodies, such as steel,aluminium or steel,steel or steel,rigid, not {text!r}"
+            f"{text!r} are not two names",
+            "name both bodies, such as steel,aluminium or steel,steel or steel,rigid",
+            place="--materials",
         )
     solids: list[Solid] = []
     for name in names:
@@ -52,7 +55,7 @@ def modulus_of(text: str) -> float:
         material = known_material(name)
         if material is None:
             raise UsageError(
-                f"--materials: {name!r} is no name; for a number of yours take --young or --modulus"
+                f"{name!r} is no name", "for a number of yours take --young or --modulus", place="--materials"
             )
         solid = material.solid
         if solid not in solids:
@@ -62,7 +65,7 @@ def modulus_of(text: str) -> float:
             )
         solids.append(solid)
     if all(math.isinf(solid.young_modulus) for solid in solids):
-        raise UsageError("--materials: one of the two bodies must be elastic, such as steel,rigid")
+        raise UsageError("one of the two bodies must be elastic, such as steel,rigid", place="--materials")
     return reduced_modulus(*solids)
 
 
@@ -85,13 +88,15 @@ def parse_bodies(text: str, kind: Kind, name: str) -> tuple[float, float]:
     option, parts = f"--{name}", [part for part in text.split(",") if part.strip()]
     if len(parts) not in (1, 2):
         raise UsageError(
-            f"{option}: give one value for both bodies or two, such as {kind.example},{kind.example}, or names of "
-            "materials, such as steel,aluminium"
+            f"{text!r} holds {len(parts)} values",
+            f"give one value for both bodies or two, such as {kind.example},{kind.example}, or names of "
+            "materials, such as steel,aluminium",
+            place=option,
         )
     values = []
     for part in parts:
         material = known_material(part)
         values.append(parse(part, kind, option) if material is None else getattr(material, name))
     if min(values) < 0:
-        raise UsageError(f"{option}: {kind.name} must not be negative, not {text!r}")
+        raise UsageError(f"{kind.name} must not be negative, not {text!r}", place=option)
     return values[0], values[-1]

@@ -126,7 +126,7 @@ class Source:
             try:
                 return rc.read(self.file, **self._keywords(periodic), slabs=slabs)
             except rc.ReadError as error:
-                if "read_line" not in error.remedy:
+                if "read_line" not in str(error.remedy):
                     raise
                 raise rc.ReadError(error.file, error.problem, _NAME_THE_BODY) from error
 
@@ -147,7 +147,9 @@ class Source:
                 if (points := self._points_of_map()) is None:
                     raise
                 raise UsageError(
-                    f"{plain(str(self.file))} holds a map of {points} heights: leave out --profile"
+                    f"{plain(str(self.file))} holds a map of {points} heights",
+                    "leave out --profile",
+                    place="--profile",
                 ) from error
 
     def map_or_line(self, periodic: bool | None = None) -> Surface:
@@ -206,8 +208,9 @@ class Reading:
         surface = read(self.periodic)
         if slabs_of_job() is not None and not all(surface.grid.periodic):
             raise UsageError(
-                "several processes press periodic surfaces only, and this one is free: give --periodic, or start one "
-                "process"
+                "several processes press periodic surfaces only, and this one is free",
+                "give --periodic, or start one process",
+                place="--periodic",
             )
         if self.despike is not None:
             surface = self.despike.remove(surface)
@@ -255,7 +258,9 @@ class Elasticity:
             given, "the elastic constants, such as --modulus 110GPa or --materials steel,aluminium"
         )
         if name != "young" and any(value is not None for value in (self.poisson, self.young2, self.poisson2)):
-            raise UsageError(f"--{name} is about the pair: leave out --poisson, --young2, --poisson2")
+            raise UsageError(
+                f"--{name} is about the pair", "leave out --poisson, --young2, --poisson2", place=f"--{name}"
+            )
         if self.modulus is not None:
             return parse_modulus(self.modulus, "--modulus", "the reduced modulus")
         if self.materials is not None:
@@ -305,9 +310,13 @@ def only_one(given: dict[str, Any], what: str) -> str:
     """
     names = [name for name, value in given.items() if value is not None]
     if not names:
-        raise UsageError(f"give {what} ({' or '.join(map(flag, given))})")
+        raise UsageError(f"{what} is missing", f"give {what} ({' or '.join(map(flag, given))})")
     if len(names) > 1:
-        raise UsageError(f"{' and '.join(map(flag, names))} exclude each other: give one of them")
+        raise UsageError(
+            f"{' and '.join(map(flag, names))} exclude each other",
+            "give one of them",
+            place=", ".join(map(flag, names)),
+        )
     return names[0]
 
 
@@ -316,11 +325,13 @@ def _solid(young: str | None, poisson: str | None, young_option: str, poisson_op
 
     if young is None or poisson is None:
         missing = poisson_option if poisson is None else young_option
-        raise UsageError(f"{young_option} and {poisson_option} belong together: {missing} is missing")
+        raise UsageError(
+            f"{young_option} and {poisson_option} belong together: {missing} is missing", place=missing
+        )
     modulus = parse_modulus(young, young_option, "Young's modulus")
     ratio = parse_number(poisson, poisson_option, "0.3")
     if not -1 < ratio <= 0.5:
         raise UsageError(
-            f"{poisson_option}: Poisson's ratio lies above -1 and at most at 0.5, not at {poisson!r}"
+            f"Poisson's ratio lies above -1 and at most at 0.5, not at {poisson!r}", place=poisson_option
         )
     return rc.Solid(modulus, ratio)

@@ -24,5 +24,5 @@ def picture_ending(given: PictureFormat | None, out: Path | None) -> str:
         If a format is given and no folder for pictures.
     """
     if given is not None and out is None:
-        raise UsageError("--format is that of pictures: say where by --out")
+        raise UsageError("--format is that of pictures", "say where by --out", place="--format")
     return (given or PictureFormat.PNG).value

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import note
 from roughcontact.cli.report import doing, quantity
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.loads.load_search import SurfaceKind
@@ -102,8 +102,6 @@ def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex
         flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
         summits = rc.find_summits(flat)
         return rc.theory.plasticity.summit_index(summits.height, summits.mean_curvature, modulus, hardness)
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         note(f"no plasticity index: {error}")
         return None

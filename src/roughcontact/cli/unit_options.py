@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cli.messages import UsageError
+from roughcontact.errors import InputError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import (
     AREA,
@@ -76,7 +77,7 @@ def parse_positive(text: str, kind: Kind, option: str, what: str) -> float:
     """
     value = parse(text, kind, option)
     if not value > 0:
-        raise UsageError(f"{option}: {what} must be positive, not {text!r}")
+        raise UsageError(f"{what} must be positive, not {text!r}", place=option)
     return value
 
 
@@ -92,8 +93,9 @@ def parse_modulus(text: str, option: str, what: str) -> float:
     if value < _FOAM and not quantity.has_unit(text):
         bare = text.strip()
         raise UsageError(
-            f"{option}: {bare} without a unit is {bare} Pa, softer than foam: write {bare}GPa if gigapascals are "
-            f"meant, or {bare}Pa if it is so"
+            f"{bare} without a unit is {bare} Pa, softer than foam",
+            f"write {bare}GPa if gigapascals are meant, or {bare}Pa if it is so",
+            place=option,
         )
     return value
 
@@ -110,7 +112,7 @@ def parse_load(text: str, kind: Kind, option: str) -> float:
         return parse_positive(text, kind, option, f"the {kind.name.removeprefix('a ')}")
     value = parse(text, kind, option)
     if value < 0:
-        raise UsageError(f"{option}: the depth counts from first touch: give 0 or more, not {text!r}")
+        raise UsageError("the depth counts from first touch", f"give 0 or more, not {text!r}", place=option)
     return value
 
 
@@ -123,7 +125,7 @@ def parse_unit(text: str, kind: Kind, option: str) -> float:
         If the text is no unit of that kind.
     """
     unit = kind.example.lstrip("0123456789")
-    refusal = UsageError(f"{option}: {text!r} is no unit of {kind.name}; give one such as {unit}")
+    refusal = UsageError(f"{text!r} is no unit of {kind.name}", f"give one such as {unit}", place=option)
     if not text.strip():
         raise refusal
     try:
@@ -142,7 +144,9 @@ def parse_band(text: str, option: str) -> tuple[float, float]:
     """
     parts = text.split(":")
     if len(parts) != 2:
-        raise UsageError(f"{option}: {text!r} is no band; write the longest and the shortest wave, 1mm:10um")
+        raise UsageError(
+            f"{text!r} is no band", "write the longest and the shortest wave, 1mm:10um", place=option
+        )
     longest, shortest = (parse_positive(part, LENGTH, option, "a wavelength") for part in parts)
     return longest, shortest
 
@@ -169,7 +173,7 @@ def parse_tolerance(text: str, option: str) -> float:
     """
     value = parse_number(text, option, "1e-8")
     if not 1e-14 < value < 1e-2:
-        raise UsageError(f"{option}: the tolerance must lie between 1e-14 and 1e-2, not {text!r}")
+        raise UsageError(f"the tolerance must lie between 1e-14 and 1e-2, not {text!r}", place=option)
     return value
 
 
@@ -182,7 +186,7 @@ def parse_seed(text: str, option: str) -> int:
         If it is no whole number from 0 up.
     """
     if re.fullmatch(r"\s*\d{1,30}\s*", text, re.ASCII) is None:
-        raise UsageError(f"{option}: {text!r} is no seed; write a whole number such as 1")
+        raise UsageError(f"{text!r} is no seed", "write a whole number such as 1", place=option)
     return int(text)
 
 
@@ -200,11 +204,11 @@ def parse_loads(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
         parts = [part for part in text.split(",") if part.strip()]
         loads = np.array([parse(part, kind, option) for part in parts])
     if loads.size == 0:
-        raise UsageError(f"{option}: no load given; write {_range_example(kind)} or a comma list")
+        raise UsageError("no load given", f"write {_range_example(kind)} or a comma list", place=option)
     if not (loads > 0).all():
-        raise UsageError(f"{option}: every load must be positive, not {loads.min():g} {kind.unit}")
+        raise UsageError(f"every load must be positive, not {loads.min():g} {kind.unit}", place=option)
     if not (np.diff(loads) > 0).all():
-        raise UsageError(f"{option}: the loads must increase from one to the next, not as in {text!r}")
+        raise UsageError(f"the loads must increase from one to the next, not as in {text!r}", place=option)
     return loads
 
 
@@ -226,15 +230,17 @@ def parse_path(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
             continue
         if len(ends) != 3 or re.fullmatch(r"\s*\d{1,6}\s*", ends[2]) is None:
             raise UsageError(
-                f"{option}: {part!r} is no range; write from:to:count, such as -20n{kind.unit}:20n{kind.unit}:41"
+                f"{part!r} is no range",
+                f"write from:to:count, such as -20n{kind.unit}:20n{kind.unit}:41",
+                place=option,
             )
         low, high = (parse(end, kind, option) for end in ends[:2])
         if not 2 <= int(ends[2]) <= _MOST_LOADS:
-            raise UsageError(f"{option}: a range holds from 2 to {_MOST_LOADS} loads, not {int(ends[2])}")
+            raise UsageError(f"a range holds from 2 to {_MOST_LOADS} loads, not {int(ends[2])}", place=option)
         loads += np.linspace(low, high, int(ends[2])).tolist()
     if not loads:
         raise UsageError(
-            f"{option}: no load given; write 0{kind.unit},20n{kind.unit},-20n{kind.unit} or a range"
+            "no load given", f"write 0{kind.unit},20n{kind.unit},-20n{kind.unit} or a range", place=option
         )
     return np.array([load for k, load in enumerate(loads) if k == 0 or load != loads[k - 1]])
 
@@ -250,11 +256,11 @@ def parse_size(text: str, option: str) -> tuple[float, ...]:
     """
     parts = re.split(r"[x*\u00d7]", text)
     if len(parts) > 2:
-        raise UsageError(f"{option}: {text!r} holds {len(parts)} lengths; write '1mm' or '1mm x 2mm'")
+        raise UsageError(f"{text!r} holds {len(parts)} lengths", "write '1mm' or '1mm x 2mm'", place=option)
     if len(parts) == 2 and quantity.has_unit(parts[1]) != quantity.has_unit(parts[0]):
         if not quantity.has_unit(parts[1]):
             raise UsageError(
-                f"{option}: the second length of {text!r} has no unit; write '1 x 2mm' or '1mm x 2mm'"
+                f"the second length of {text!r} has no unit", "write '1 x 2mm' or '1mm x 2mm'", place=option
             )
         parts[0] += quantity.unit_in(parts[1])  # "1x2mm": of both, as people write it
     return tuple(parse_positive(part, LENGTH, option, "a side length") for part in parts)
@@ -270,7 +276,9 @@ def parse_points(text: str, option: str) -> tuple[int, int]:
     """
     match = re.fullmatch(r"\s*(\d+)\s*(?:[x*]\s*(\d+)\s*)?", text)
     if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
-        raise UsageError(f"{option}: {text!r} is no number of points; write 512 or 512x256 (rows x columns)")
+        raise UsageError(
+            f"{text!r} is no number of points", "write 512 or 512x256 (rows x columns)", place=option
+        )
     return int(match[1]), int(match[2] or match[1])
 
 
@@ -279,23 +287,23 @@ def _named(option: str) -> Iterator[None]:
     """Name the option in the message about its text."""
     try:
         yield
-    except ValueError as error:
-        raise UsageError(f"{option}: {error}") from error
+    except InputError as error:
+        raise UsageError(error.message, error.remedy, option) from error
 
 
 def _log_spaced(text: str, kind: Kind, option: str) -> npt.NDArray[np.float64]:
     parts = text.split(":")
     example = _range_example(kind)
     if len(parts) != 3 or re.fullmatch(r"\s*\d+\s*", parts[2]) is None:
-        raise UsageError(f"{option}: {text!r} is no range; write from:to:count, such as {example}")
+        raise UsageError(f"{text!r} is no range", f"write from:to:count, such as {example}", place=option)
     low, high = (parse(part, kind, option) for part in parts[:2])
     count = int(parts[2])
     if not 0 < low < high:
         raise UsageError(
-            f"{option}: a range is log-spaced and must rise from a positive load, unlike {text!r}"
+            f"a range is log-spaced and must rise from a positive load, unlike {text!r}", place=option
         )
     if not 2 <= count <= _MOST_LOADS:
-        raise UsageError(f"{option}: a range holds from 2 to {_MOST_LOADS} loads, not {count}")
+        raise UsageError(f"a range holds from 2 to {_MOST_LOADS} loads, not {count}", place=option)
     return np.geomspace(low, high, count)
 
 

@@ -13,6 +13,7 @@ from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
@@ -169,8 +170,8 @@ def solutions_along(
     """
     raises, keeps = flow_reading(flow), hardness is not None
     if raises and loads is not None and loads.kind == "depth":
-        raise ValueError(
-            "depths cannot be named where the surface rises as it flows: give forces or pressures"
+        raise InputError(
+            "depths cannot be named where the surface rises as it flows", "give forces or pressures"
         )
     loads = loads or suitable(surface, modulus, operator, hardness)
     if not keeps:

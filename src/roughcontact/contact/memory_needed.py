@@ -7,6 +7,7 @@ from typing import Any
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.problem import Body
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, capabilities
@@ -74,7 +75,7 @@ def memory_needed(
     """
     grid = getattr(surface, "grid", surface)
     if not isinstance(grid, Grid | RadialGrid):
-        raise ValueError(f"a surface or its grid is wanted, not {shown(surface)}")
+        raise InputError(f"a surface or its grid is wanted, not {shown(surface)}", place="surface")
     heights: Any = getattr(surface, "heights", None)
     stated = capabilities(operator)
     geometry = stated.geometry or Geometry.of(grid)

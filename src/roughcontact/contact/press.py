@@ -11,6 +11,7 @@ from roughcontact.contact.problem import Body, ContactProblem, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
@@ -104,7 +105,9 @@ def press(
 def grid_of(surface: Body) -> AnyGrid:
     """Return the grid of a surface; refuse what is not a surface."""
     if not isinstance(surface, Surface | RadialProfile):
-        raise ValueError(f"a Surface is wanted (heights and a grid), not {type(surface).__name__}")
+        raise InputError(
+            f"a Surface is wanted (heights and a grid), not {type(surface).__name__}", place="surface"
+        )
     return surface.grid
 
 
@@ -162,7 +165,9 @@ def solve_state(
 ) -> tuple[ContactProblem, State, Subdomain]:
     """Return the problem, with the hardness of its spots, the last state on its window, and where that lies."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
-        raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
+        raise InputError(
+            f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}", place="solver"
+        )
     if isinstance(problem.control, Depth) and problem.control.value <= max(0.0, problem.first_touch):
         if problem.size_law is not None:
             problem = without_spots(problem, problem.size_law)

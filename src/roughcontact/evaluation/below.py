@@ -10,6 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -202,9 +203,9 @@ def half_space_grid(solution: Solution) -> Grid:
     problem = solution.problem
     grid = problem.grid
     if problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
-        raise ValueError(
-            "fields below the surface are those of a surface of two axes, not of a "
-            f"{problem.geometry.value}: press a map of heights"
+        raise InputError(
+            f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}",
+            "press a map of heights",
         )
     row = sum(grid.periodic) == 1
     own = solution.displacement
@@ -215,7 +216,7 @@ def half_space_grid(solution: Solution) -> Grid:
     factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
     in_own_cell = float(solution.pressure.max()) * grid.cell_area / cell_stiffness(problem.operator)
     if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max() + ROUNDING * in_own_cell:
-        raise ValueError(
+        raise InputError(
             "only the field below a half-space is known, and this is the solution of another body"
         )
     return grid
@@ -225,8 +226,12 @@ def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
     if isinstance(solid, Solid):
         return solid.poisson_ratio
-    one = "give one of the two bodies: both carry the same pressure, and each has a stress of its own"
-    require(not isinstance(solid, Sequence), one)
+    require(
+        not isinstance(solid, Sequence),
+        "both bodies carry the same pressure, and each has a stress of its own",
+        "give one of the two bodies",
+        place="solid",
+    )
     return scalar(solid, "Poisson's ratio")
 
 
@@ -237,7 +242,7 @@ def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, in
     """
     box = bounding_box(pressure != 0)
     if box is None:
-        raise ValueError("nothing is in contact: there is no stress below it; press harder")
+        raise InputError("nothing is in contact: there is no stress below it", "press harder")
     sides = [
         slice(0, n) if periodic else slice(max(0, s.start - (s.stop - s.start)), min(n, 2 * s.stop - s.start))
         for s, n, periodic in zip(box, grid.shape, grid.periodic, strict=True)

@@ -6,10 +6,11 @@ import re
 import sys
 from importlib import import_module
 
-from roughcontact.files.own_errors import PACKAGE, raised_in
+from roughcontact.errors import InputError
 
 __all__ = ["broken_package", "lacking"]
 
+PACKAGE = "roughcontact"
 _NAME = re.compile(r"[\w.-]+")
 
 
@@ -24,25 +25,33 @@ def lacking(*modules: str) -> tuple[str, str] | None:
     return None
 
 
-def broken_package(error: BaseException) -> str | None:
-    """Return what an error says about a package of others that is missing or broken, with the remedy; None of others.
+def broken_package(error: BaseException) -> InputError | None:
+    """Return the error of a package of others that is missing or broken; None of every other error.
 
     A name that we ask a module for, and that it does not have, is a mistake of ours.
     """
     if not isinstance(error, ImportError):
         return None
-    asked = raised_in(error)[1]
+    asked = _raised_in(error)
     package = (error.name or asked).partition(".")[0]
     if package in sys.stdlib_module_names | {"", PACKAGE}:
         return None
     missing = isinstance(error, ModuleNotFoundError)
     if missing and error.name == package:
-        return f"the package {package} is not installed; {_command(package)}"
+        return InputError(f"the package {package} is not installed", _command(package))
     if asked == PACKAGE and not missing:
         return None
-    return (
-        f"the package {package} cannot be loaded ({_line(error)}); {_command(package, '--force-reinstall ')}"
+    return InputError(
+        f"the package {package} cannot be loaded ({_line(error)})", _command(package, "--force-reinstall ")
     )
+
+
+def _raised_in(error: BaseException) -> str:
+    """Return the package that raised an error, by its name and not its file, which bundles of programs do not have."""
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    return "" if last is None else str(last.tb_frame.f_globals.get("__name__")).partition(".")[0]
 
 
 def _command(module: str, options: str = "") -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.files.assemble import Length, Size, assemble, plain_lengths
 from roughcontact.files.content import named
 from roughcontact.files.file_errors import SurfaceWarning
@@ -108,8 +109,10 @@ def surface_of(
     Grid(shape=(64,), spacing=(5e-07,), periodic=(False,))
     """
     if not hasattr(array, "coords"):
-        raise ValueError(
-            f"an xarray.DataArray is wanted, not a {type(array).__name__}: give Surface(heights, grid)"
+        raise InputError(
+            f"an xarray.DataArray is wanted, not a {type(array).__name__}",
+            "give Surface(heights, grid)",
+            place="array",
         )
     unit, size = plain_lengths(unit, size)
     variables = {"heights": _stored(array)}

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.files.installed import lacking
 from roughcontact.labels.labelled import attributes_of
@@ -132,7 +133,7 @@ def require_netcdf() -> None:
         If what writes it is not installed.
     """
     if (lack := lacking("h5py", "h5netcdf")) is not None:
-        raise WriteError(f"NetCDF needs {lack[0]}; {lack[1]}")
+        raise WriteError(f"NetCDF needs {lack[0]}", lack[1])
 
 
 def write_csv(
@@ -169,8 +170,8 @@ def write_csv(
     if dimension is None and "load" in dataset.sizes:
         dimension = "load"
     if dimension is not None and dimension not in dataset.sizes:
-        raise ValueError(
-            f"nothing lies along {dimension!r}: choose one of {', '.join(map(str, dataset.sizes))}"
+        raise InputError(
+            f"nothing lies along {dimension!r}", f"choose one of {', '.join(map(str, dataset.sizes))}"
         )
     along = () if dimension is None else (dimension,)
     columns: dict[str, xarray.DataArray] = {}

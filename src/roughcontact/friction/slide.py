@@ -10,6 +10,7 @@ import numpy as np
 from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_problem import Load, Pull, Shift, SlipProblem, continued, make_problem
@@ -161,7 +162,7 @@ def slide_path(
     problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
     name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
-        raise ValueError(f"a path needs at least one load, in a row, not {given}")
+        raise InputError(f"a path needs at least one load, in a row, not {given}")
     return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
 
 
@@ -202,10 +203,15 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     [0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
     """
     if int(steps) != steps or steps < 1 or int(cycles) != cycles or cycles < 0:
-        raise ValueError(f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}")
+        raise InputError(
+            f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}",
+            place="steps, cycles",
+        )
     largest = np.asarray(number(amplitude, "amplitude"))
     if largest.shape not in ((), (2,)) or not np.isfinite(largest).all():
-        raise ValueError(f"an amplitude is one finite number, or two (x, y), not {amplitude}")
+        raise InputError(
+            f"an amplitude is one finite number, or two (x, y), not {amplitude}", place="amplitude"
+        )
     since = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper reversal
     part = np.abs(since - 2 * steps) / steps - 1
     return np.multiply.outer(part, largest)

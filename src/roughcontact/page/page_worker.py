@@ -17,6 +17,7 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
 
+from roughcontact.errors import InputError
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.server.page_request import Job, PageRequest, Send
@@ -70,7 +71,8 @@ def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping:
         cache.kept.clear()
         end |= {
             "how": "refused",
-            "message": "The memory does not suffice for that many points: crop or subsample.",
+            "message": "The memory does not suffice for that many points.",
+            "remedy": "Crop or subsample.",
         }
     except Exception as error:
         from roughcontact.page.refusal import refusal
@@ -101,7 +103,7 @@ def _job(name: str) -> Job:
         each.__name__: each for each in (look, study, bodies, press, cut, curve, theories, export)
     }
     if name not in jobs:
-        raise ValueError(f"there is no job {name!r}")
+        raise InputError(f"there is no job {name!r}")
     return jobs[name]
 
 

@@ -6,8 +6,8 @@ import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import LENGTH, parse_with_unit
-from roughcontact.page.field_error import at_field
 
 if TYPE_CHECKING:
     from roughcontact.page.recipe import PagePreparation
@@ -42,7 +42,7 @@ class Call:
 
     def apply(self, surface: Surface) -> Surface:
         """Return the surface after the step."""
-        with at_field(self.place):
+        with placed(self.place):
             _require_waves(surface, self.named.get("short_cutoff"))
             prepared: Surface = getattr(surface, self.method)(*self.given, **self.named)
         return prepared
@@ -84,7 +84,7 @@ def calls_of(wanted: PagePreparation) -> list[Call]:
 
 
 def _cutoff(field: str, text: str) -> float:
-    with at_field(field):
+    with placed(field):
         return parse_with_unit(text, LENGTH)
 
 
@@ -92,8 +92,9 @@ def _require_waves(surface: Surface, short: float | None) -> None:
     """Refuse a cut-off that leaves nothing but the mean, as the command does."""
     longest = max(surface.grid.lengths)
     if short is not None and short >= longest:
-        raise ValueError(
-            f"a cut-off of {short:g} m leaves nothing of a map of {longest:g} m: give a shorter one, such as 10um"
+        raise InputError(
+            f"a cut-off of {short:g} m leaves nothing of a map of {longest:g} m",
+            "give a shorter one, such as 10um",
         )
 
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, Literal
 
+from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import FORCE, LENGTH, PRESSURE, Kind, parse, parse_with_unit
-from roughcontact.page.field_error import at_field
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -47,8 +47,8 @@ class FileSource:
         """Side lengths [m] as `roughcontact.read` takes them."""
         if self.width is None:
             if self.height is not None:
-                with at_field("width"):
-                    raise ValueError("the length of the map is given and its width is not: give both")
+                with placed("width"):
+                    raise InputError("the length of the map is given and its width is not", "give both")
             return None
         width = _side(self.width, "width")
         return width if self.height is None else (_side(self.height, "height"), width)
@@ -153,18 +153,19 @@ class PageLoads:
         if self.start is None and self.end is None:
             return None
         if self.start is None or self.end is None:
-            raise ValueError(
-                "give both ends of the loads, or neither: then loads that suit the surface are found"
+            raise InputError(
+                "one end of the loads is missing",
+                "give both ends of the loads, or neither: then loads that suit the surface are found",
             )
-        with at_field("count"):
+        with placed("count"):
             if not 2 <= self.count <= 1000:
-                raise ValueError(f"a curve has 2 to 1000 loads, not {self.count}")
-        with at_field("from"):
+                raise InputError(f"a curve has 2 to 1000 loads, not {self.count}", place="count")
+        with placed("from"):
             low = parse(self.start, _KINDS[self.control])
-        with at_field("to"):
+        with placed("to"):
             high = parse(self.end, _KINDS[self.control])
             if not 0 < low < high:
-                raise ValueError(f"the loads rise from above zero, not from {self.start} to {self.end}")
+                raise InputError(f"the loads rise from above zero, not from {self.start} to {self.end}")
         return low, high
 
 
@@ -197,15 +198,15 @@ def as_recipe(plain: Any) -> PageRecipe:
         others = {each["loc"][:-1] for each in wrong if each["loc"][-1] == "kind"}
         first = next((each for each in wrong if each["loc"][:2] not in others), wrong[0])
         place = ".".join(str(part) for part in first["loc"])
-        raise ValueError(f"the request is wrong at {place}: {first['msg']}") from error
+        raise InputError(f"the request is wrong at {place}: {first['msg']}", place=place) from error
 
 
 def _side(text: str, field: str) -> float:
     """Return a side length [m] that the user wrote in a field."""
-    with at_field(field):
+    with placed(field):
         length = parse_with_unit(text, LENGTH)
         if length <= 0:
-            raise ValueError(f"{text!r} is not positive: write a length above zero, such as 500um")
+            raise InputError(f"{text!r} is not positive", "write a length above zero, such as 500um")
         return length
 
 

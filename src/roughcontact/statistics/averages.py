@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import Window
@@ -97,8 +98,10 @@ def averages(
     rng = as_generator(rng)
     over = sample_dimensions(dataset) if samples is None else dimensions(samples)
     if not over or any(d not in dataset.sizes for d in over):
-        raise ValueError(
-            f"no samples lie along {' or '.join(over or _SAMPLES)}: take what study.export makes"
+        raise InputError(
+            f"no samples lie along {' or '.join(over or _SAMPLES)}",
+            "take what study.export makes",
+            place="samples",
         )
     answered = dataset.assign(
         {name: _answered(dataset, values) for name, values in dataset.data_vars.items()}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import numpy as np
 from pydantic import BeforeValidator, Field
 
+from roughcontact.errors import InputError
 from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, Kind, parse
 from roughcontact.study.checked import Checked
 
@@ -97,7 +98,7 @@ def _quantity(kind: Kind) -> BeforeValidator:
 
     def read(value: Any) -> Any:
         if isinstance(value, bool):
-            raise ValueError(f"{value} is not {kind.name}; expected {kind.name} such as {kind.example!r}")
+            raise InputError(f"{value} is not {kind.name}", f"write {kind.name} such as {kind.example!r}")
         return parse(value, kind) if isinstance(value, str) else value
 
     return BeforeValidator(read)

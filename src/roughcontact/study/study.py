@@ -21,12 +21,13 @@ from pydantic import (
     model_validator,
 )
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import written_aside
 from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
 from roughcontact.study.checked import TOO_DEEP, Checked
 from roughcontact.study.ranges import Range
-from roughcontact.study.study_errors import StudyError, description, expected
+from roughcontact.study.study_errors import StudyError, expected, invalid
 from roughcontact.study.task import Task, canonical, key_of
 from roughcontact.study.toml import toml_of
 from roughcontact.units import as_text
@@ -45,8 +46,10 @@ def _study_name(name: str) -> str:
         If it does not.
     """
     if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name, re.ASCII) is None:
-        raise ValueError(
-            f"{name!r} is no name for a study: use letters, digits, '-', '_' and '.', and begin with a letter or digit"
+        raise InputError(
+            f"{name!r} is no name for a study",
+            "use letters, digits, '-', '_' and '.', and begin with a letter or digit",
+            place=name,
         )
     return name
 
@@ -60,8 +63,9 @@ def _case_name(case: Any) -> Any:
         If it is a case itself.
     """
     if isinstance(case, Case):
-        raise ValueError(
-            f"name the case {case.name!r} by its module, such as 'mycases:CASE', so that other processes can import it"
+        raise InputError(
+            f"other processes cannot import the case {case.name!r}",
+            "name it by its module, such as 'mycases:CASE'",
         )
     return case
 
@@ -90,12 +94,12 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
     if isinstance(value, Mapping):
         return Range(**value)
     if not isinstance(value, list):
-        raise ValueError(
+        raise InputError(
             f"{value!r} is neither a list nor a range: a single value is given under parameters, a range as "
             "{ start = 0.1, stop = 0.9, count = 9 }"
         )
     if not value:
-        raise ValueError("the list is empty: give one value or more")
+        raise InputError("the list is empty", "give one value or more")
     return tuple(value)
 
 
@@ -175,14 +179,14 @@ class Study(Checked):
             return cls(**tomllib.loads(Path(path).read_text(encoding="utf-8")))
         except OSError as error:
             raise StudyError(
-                f"{path}: {error.strerror}; name the file of a study, such as study.toml"
+                f"{path}: {error.strerror}", "name the file of a study, such as study.toml"
             ) from error
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise StudyError(f"{path}: it is no TOML file: {error}") from error
         except RecursionError:
             raise StudyError(f"{path}: {TOO_DEEP}") from None
         except StudyError as error:
-            raise StudyError(f"{path}: {error}") from None
+            raise StudyError(f"{path}: {error.message}", error.remedy, error.place) from None
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file, which appears whole or not at all.
@@ -255,8 +259,9 @@ class Study(Checked):
         cases = self.samples * max(len(self.rows), 1) * math.prod(map(len, values))
         if cases > MOST_CASES:
             raise StudyError(
-                f"samples, rows and table make {cases:,} cases, and a study has {MOST_CASES:,} at most: take fewer "
-                "samples or values, or several studies"
+                f"samples, rows and table make {cases:,} cases, and a study has {MOST_CASES:,} at most",
+                "take fewer samples or values, or several studies",
+                place="samples, rows, table",
             )
         found: dict[str, Parameters] = {}
         for row in self.rows or ({},):
@@ -266,12 +271,16 @@ class Study(Checked):
                     parameters = model(**given)
                 except StudyError as error:
                     raise StudyError(
-                        f"the case {self.case!r} does not take these parameters: {error}"
+                        f"the case {self.case!r} does not take these parameters: {error.message}",
+                        error.remedy,
+                        error.place,
                     ) from None
                 text = canonical(parameters)
                 if text in found:
                     raise StudyError(
-                        f"a case comes twice: {text}; take one of them out of the table or the rows"
+                        f"a case comes twice: {text}",
+                        "take one of them out of the table or the rows",
+                        place="table, rows",
                     )
                 found[text] = parameters
         return tuple(found.values())
@@ -298,12 +307,15 @@ class Study(Checked):
         for place, names in places.items():
             for name in sorted(names - model.model_fields.keys()):
                 raise StudyError(
-                    f"{place}: the case {self.case!r} has no parameter {name!r}: {expected(name, model.model_fields)}"
+                    f"{place}: the case {self.case!r} has no parameter {name!r}: {expected(name, model.model_fields)}",
+                    place=f"{place}.{name}",
                 )
         for one, other in itertools.combinations(places, 2):
             for name in sorted(places[one] & places[other]):
                 raise StudyError(
-                    f"{name!r} is given both in {one} and in {other}: take it out of one of them"
+                    f"{name!r} is given both in {one} and in {other}",
+                    "take it out of one of them",
+                    place=f"{one}.{name}, {other}.{name}",
                 )
 
     def _values(self, model: type[Parameters], name: str) -> tuple[Any, ...]:
@@ -316,8 +328,8 @@ class Study(Checked):
         reader: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])  # type: ignore[arg-type]
         try:
             return values.values(_reading(reader.validate_python))
-        except ValueError as error:
-            raise StudyError(f"table: {name}: {error}") from None
+        except InputError as error:
+            raise StudyError(f"table: {name}: {error.message}", error.remedy, f"table.{name}") from None
 
 
 def _reading(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
@@ -327,6 +339,6 @@ def _reading(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
         try:
             return read(value)
         except ValidationError as error:
-            raise ValueError(description(error)) from None
+            raise invalid(error) from None
 
     return reading

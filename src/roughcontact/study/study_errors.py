@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import WriteError
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ __all__ = [
         "StudyError",
         "computed_again",
         "disk_trouble",
-        "description",
         "expected",
+        "invalid",
         "on_disk",
     ),
 ]
@@ -31,7 +32,7 @@ SAFE = "what was stored before is safe"
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-class StudyError(ValueError):
+class StudyError(InputError):
     """A study that makes no sense; the message names the value and the remedy.
 
     Examples
@@ -45,7 +46,7 @@ class StudyError(ValueError):
     """
 
 
-class StoreError(ValueError):
+class StoreError(InputError):
     """A folder of results that cannot be used as it is; nothing in it is lost.
 
     Parameters
@@ -67,13 +68,10 @@ class StoreError(ValueError):
     """
 
     def __init__(self, folder: str | os.PathLike[str], problem: str, remedy: str) -> None:
-        super().__init__(os.fspath(folder), problem, remedy)  # all three in `args`, so that it can be pickled
+        super().__init__(f"{os.fspath(folder)}: {problem}", remedy, "folder")
+        self.args = os.fspath(folder), problem, remedy  # with which it is made again from a pickle
         self.folder = os.fspath(folder)
         self.problem = problem
-        self.remedy = remedy
-
-    def __str__(self) -> str:
-        return f"{self.folder}: {self.problem}; {self.remedy}"
 
 
 def computed_again(key: str) -> str:
@@ -109,19 +107,24 @@ def expected(name: str, known: Iterable[str]) -> str:
     return (f"did you mean {near[0]!r}? " if near else "") + f"It may be {', '.join(known)}"
 
 
-def description(error: ValidationError, known: Iterable[str] = ()) -> str:
-    """Return what is wrong with the values of a model, which has fields of the `known` names."""
-    return "; ".join(_line(each, known) for each in error.errors(include_url=False))
+def invalid(error: ValidationError, known: Iterable[str] = ()) -> StudyError:
+    """Return the error about all that is wrong with the values of a model, which has fields of the `known` names."""
+    found = [_invalid(each, known) for each in error.errors(include_url=False)]
+    if len(found) == 1:
+        return found[0]
+    return StudyError("; ".join(map(str, found)), place=", ".join(each.place for each in found if each.place))
 
 
-def _line(found: Mapping[str, Any], known: Iterable[str]) -> str:
+def _invalid(found: Mapping[str, Any], known: Iterable[str]) -> StudyError:
     place = ".".join(str(part) for part in found["loc"])
     if found["type"] == "extra_forbidden":
-        return f"there is no {place!r}: {expected(place, known)}"
+        return StudyError(f"there is no {place!r}: {expected(place, known)}", place=place)
     if found["type"] == "missing":
-        return f"{place!r} is missing"
-    if found["type"] in ("value_error", "assertion_error"):  # of a validator, with words of its own
-        words = str(found["ctx"]["error"])
+        return StudyError(f"{place!r} is missing", place=place)
+    own = found.get("ctx", {}).get("error")  # of a validator, with words of its own
+    if isinstance(own, InputError):
+        words, remedy = own.message, own.remedy
     else:
         words = f"{found['input']!r} {found['msg'].removeprefix('Input ').removeprefix('Value ')}"
-    return f"{place}: {words}" if place else words
+        remedy = None
+    return StudyError(f"{place}: {words}" if place else words, remedy, place or getattr(own, "place", None))

@@ -7,6 +7,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from roughcontact.errors import InputError
+
 __all__ = ["toml_of"]
 
 
@@ -45,8 +47,8 @@ def _value(value: Any) -> str:
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{_key(str(name))} = {_value(each)}' for name, each in value.items())} }}"
-    raise ValueError(
-        f"{value!r} has no place in a study file: give numbers, text, truth values or lists of them"
+    raise InputError(
+        f"{value!r} has no place in a study file", "give numbers, text, truth values or lists of them"
     )
 
 

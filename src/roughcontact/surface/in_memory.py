@@ -8,6 +8,7 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 from roughcontact.arrays import is_numpy, on_host
+from roughcontact.errors import InputError
 from roughcontact.slabs.exchange import is_in_slabs
 
 __all__ = ["analysed_on_host", "on_host_only", "on_host_or_in_slabs"]
@@ -34,9 +35,9 @@ def _refusing(function: F, refused: Callable[[Any], bool]) -> F:
         surfaces: tuple[Any, ...] = (*args, *kwargs.values())
         for given in surfaces:
             if _is_elsewhere(given) and refused(given.heights):
-                raise ValueError(
-                    f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}: "
-                    "prepare the surface first, then put its heights on the device"
+                raise InputError(
+                    f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}",
+                    "prepare the surface first, then put its heights on the device",
                 )
         return function(*args, **kwargs)
 
@@ -58,9 +59,9 @@ def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
             if not _is_elsewhere(given):
                 return given
             if is_in_slabs(given.heights):
-                raise ValueError(
-                    f"{function.__name__} is for surfaces that one process holds: gather the heights first, "
-                    "rc.Surface(surface.heights.gathered(), surface.grid)"
+                raise InputError(
+                    f"{function.__name__} is for surfaces that one process holds",
+                    "gather the heights first, rc.Surface(surface.heights.gathered(), surface.grid)",
                 )
             return replace(given, heights=on_host(given.heights))
 

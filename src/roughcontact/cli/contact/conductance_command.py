@@ -92,7 +92,10 @@ def conductance(
         ending = picture_ending(format, out)
         conductors = materials.conductors()
         if conductors is None:
-            raise UsageError("give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m")
+            raise UsageError(
+                "a conductance follows from what the bodies conduct",
+                "give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m",
+            )
         path = file / "curve.nc" if file.is_dir() else file
         with output(out) as folder:
             curve = _read(path)
@@ -127,20 +130,22 @@ def _read(path: Path) -> xarray.Dataset:
     import xarray
 
     if (lack := lacking("h5py", "h5netcdf")) is not None:
-        raise UsageError(f"{path} needs {lack[0]}; {lack[1]}")
+        raise UsageError(f"{path} needs {lack[0]}", lack[1])
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             curve = dataset.load()
     except FileNotFoundError as error:
-        raise UsageError(f"{path}: no such file; write one with: roughcontact curve ... --out DIR") from error
+        raise UsageError(
+            f"{path}: no such file", "write one with: roughcontact curve ... --out DIR"
+        ) from error
     except (OSError, ValueError) as error:
         raise UsageError(
-            f"{path} is not a curve.nc; write one with: roughcontact curve ... --out DIR"
+            f"{path} is not a curve.nc", "write one with: roughcontact curve ... --out DIR"
         ) from error
     if "jump_lost" in curve or "detachment_lost" in curve:
         raise UsageError(
-            f"{path} holds a path of surfaces that stick, whose conductance is not computed; write a curve without "
-            "adhesion with: roughcontact curve ... --out DIR"
+            f"{path} holds a path of surfaces that stick, whose conductance is not computed",
+            "write a curve without adhesion with: roughcontact curve ... --out DIR",
         )
     return curve
 

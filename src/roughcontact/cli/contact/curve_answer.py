@@ -14,7 +14,7 @@ from roughcontact.cli.contact.conductance_command import conduction_facts, shown
 from roughcontact.cli.contact.theory_options import deviations, exponents, parameters
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
@@ -131,9 +131,7 @@ class CurveAnswer:
         for key, law in self.laws.items():
             try:
                 found[key] = self.curve.compare(law)
-            except ValueError as error:
-                if not is_ours(error):
-                    raise
+            except InputError as error:
                 failed[key] = str(error)
         return found, failed
 

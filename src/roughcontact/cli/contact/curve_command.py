@@ -78,7 +78,7 @@ def curve(
         loads = given.values(reading.profile)
         if in_slabs and loads is None:
             raise UsageError(
-                "several processes do not look for loads: name them, such as --pressures 1kPa:1MPa:20"
+                "several processes do not look for loads", "name them, such as --pressures 1kPa:1MPa:20"
             )
         chosen = units.chosen()
         modulus, hardness = bodies.elasticity.reduced_modulus(), plastic.hardness(bodies)

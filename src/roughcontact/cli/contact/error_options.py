@@ -72,7 +72,11 @@ class Errors:
     def check(self) -> None:
         """Refuse a cut-off without --errors, or one that is none, before any work."""
         if self.short_cutoff is not None and not self.errors:
-            raise UsageError("--short-cutoff belongs to --errors; to filter a map take 'surface prepare'")
+            raise UsageError(
+                "--short-cutoff belongs to --errors",
+                "to filter a map take 'surface prepare'",
+                place="--short-cutoff",
+            )
         self._cutoff()
 
     def check_for(self, surface: Surface) -> None:
@@ -80,7 +84,9 @@ class Errors:
         if not self.errors:
             return
         if surface.grid.ndim != 2:
-            raise UsageError("--errors are those of a map of heights, not of a profile: leave it out")
+            raise UsageError(
+                "--errors are those of a map of heights, not of a profile", "leave it out", place="--errors"
+            )
         from roughcontact.evaluation.error_sources import checked_cutoff
 
         checked_cutoff(surface, self._cutoff())

@@ -75,8 +75,9 @@ class AfterLoad:
         first = parse_load(self.after, kinds_of(body)[name], "--after")
         if first <= load:
             raise UsageError(
-                f"--after {self.after} is not larger than the {name}, so that nothing is unloaded: leave it out, or "
-                "exchange the two"
+                f"--after {self.after} is not larger than the {name}, so that nothing is unloaded",
+                "leave it out, or exchange the two",
+                place="--after",
             )
         return first
 
@@ -90,7 +91,11 @@ class AfterLoad:
         """
         if errors.errors and (self.after is not None or self.raises):
             asked = "--after" if self.after is not None else "--flow raised"
-            raise UsageError(f"--errors presses other maps by the same load alone: leave it out with {asked}")
+            raise UsageError(
+                "--errors presses other maps by the same load alone",
+                f"leave it out with {asked}",
+                place="--errors",
+            )
 
     def last_of(
         self,
@@ -160,7 +165,9 @@ class LoopLoads:
         """
         if errors.errors and self.flow is FlowChoice.RAISED:
             raise UsageError(
-                "--errors presses other maps by the same load alone: leave it out with --flow raised"
+                "--errors presses other maps by the same load alone",
+                "leave it out with --flow raised",
+                place="--errors",
             )
         if loads is not None and loads.kind == "depth" and (self.loop or self.flow is FlowChoice.RAISED):
             asked = "--loop" if self.loop else "--flow raised"
@@ -204,6 +211,6 @@ def _hardness(bodies: TwoBodies, asked: str | None, flow: FlowChoice | None) -> 
         return given
     softer = bodies.softer()
     if softer is None:
-        raise UsageError(f"{asked} is about what flows: give a --hardness, or both bodies by --materials")
+        raise UsageError(f"{asked} is about what flows", "give a --hardness, or both bodies by --materials")
     note(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")
     return softer[0]

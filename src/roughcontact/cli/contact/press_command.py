@@ -67,9 +67,13 @@ def press(
         given, body, ending = load.value(reading.profile), reading.profile, answer.ending
         errors.check()
         if theory is not None and out is None:
-            raise UsageError("--theory draws a picture: say where by --out")
+            raise UsageError("--theory draws a picture", "say where by --out", place="--theory")
         if theory is not None and body is not None:
-            raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
+            raise UsageError(
+                "--theory is about the pressures of a surface, not of a profile",
+                "leave it out",
+                place="--theory",
+            )
         limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(bodies)}
         first = plastic.first(given, body)
         plastic.check(errors)

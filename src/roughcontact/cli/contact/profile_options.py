@@ -53,19 +53,25 @@ class ProfileBody(StrEnum):
         """
         if conducting is not None and self is ProfileBody.LINE:
             raise UsageError(
-                "--resistivity, --conductivity: a line contact has no conductance of its own, it depends on how far "
-                "away the bodies end; leave them out"
+                "a line contact has no conductance of its own, it depends on how far away the bodies end",
+                "leave them out",
+                place="--resistivity, --conductivity",
             )
         if conducting == "interface" and self is ProfileBody.WINKLER:
-            raise UsageError("a Winkler foundation has a total conductance only: give --of total")
+            raise UsageError(
+                "a Winkler foundation has a total conductance only", "give --of total", place="--of"
+            )
         if areal_units and self is ProfileBody.WINKLER:
             raise UsageError(
-                "--unit-stiffness and --unit-pressure are per area: on springs loads and stiffness are per length; "
-                "leave them out"
+                "--unit-stiffness and --unit-pressure are per area: on springs loads and stiffness are per length",
+                "leave them out",
+                place="--unit-stiffness, --unit-pressure",
             )
         if hardness and self is ProfileBody.WINKLER:
             raise UsageError(
-                "--hardness is a pressure: springs know forces per length only; leave it out, or take line"
+                "--hardness is a pressure: springs know forces per length only",
+                "leave it out, or take line",
+                place="--hardness",
             )
 
 

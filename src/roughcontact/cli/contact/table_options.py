@@ -10,7 +10,7 @@ from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.unit_options import AREA, parse_positive
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
@@ -46,10 +46,12 @@ class InterfaceTables:
         """Raise a `UsageError` for what makes no sense, before anything is computed."""
         names = self._names()
         if names and out is None:
-            raise UsageError("--table writes files: say where by --out")
+            raise UsageError("--table writes files", "say where by --out", place="--table")
         self._area()
         if self.table_area is not None and "lammps" not in names:
-            raise UsageError("--table-area is for --table lammps: the other tables are per area")
+            raise UsageError(
+                "--table-area is for --table lammps: the other tables are per area", place="--table-area"
+            )
 
     def write(
         self, folder: Path, curve: Curve, surface: Surface, conductors: Conductors | None
@@ -66,9 +68,7 @@ class InterfaceTables:
         conducting = {} if conductors is None else conductors.given()
         try:
             table = interface_table(curve, area=self._area(), **conducting)
-        except ValueError as error:
-            if not is_ours(error):
-                raise
+        except InputError as error:
             note(f"no --table: {error}")
             return ()
         source = provenance(surface, modulus=curve.modulus, command=command_line())
@@ -93,9 +93,13 @@ class InterfaceTables:
         names = tuple(part.strip() for part in given.split(",") if part.strip())
         for name in names:
             if name not in _FILES:
-                raise UsageError(f"--table: there is no {name!r}: choose of {', '.join(_FILES)}")
+                raise UsageError(f"there is no {name!r}", f"choose of {', '.join(_FILES)}", place="--table")
         if not names or len(set(names)) < len(names):
-            raise UsageError(f"--table: name each table once, such as abaqus,csv, not {given!r}")
+            raise UsageError(
+                f"{given!r} names no table, or one twice",
+                "name each table once, such as abaqus,csv",
+                place="--table",
+            )
         return names
 
     def _area(self) -> float | None:

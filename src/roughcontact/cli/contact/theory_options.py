@@ -10,7 +10,7 @@ from roughcontact.cli.messages import UsageError
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.report import quantity
 from roughcontact.cli.unit_options import LENGTH, parse, parse_number
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
@@ -65,16 +65,22 @@ class Theories:
             said = {"--hurst": self.hurst, "--rolloff": self.rolloff, "--radius": self.radius}
             for option, value in said.items():
                 if value is not None:
-                    raise UsageError(f"{option} is for theories: name them, such as --theory persson,gw")
+                    raise UsageError(
+                        f"{option} is for theories", "name them, such as --theory persson,gw", place=option
+                    )
             return ()
         from roughcontact.theory.laws import LAWS
 
         names = tuple(part.strip() for part in self.theory.split(",") if part.strip())
         for name in names:
             if name not in LAWS:
-                raise UsageError(f"--theory: there is no {name!r}; there are {', '.join(LAWS)}")
+                raise UsageError(f"there is no {name!r}; there are {', '.join(LAWS)}", place="--theory")
         if not names or len(set(names)) < len(names):
-            raise UsageError(f"--theory: name each theory once, such as persson,gw, not {self.theory!r}")
+            raise UsageError(
+                f"{self.theory!r} names no theory, or one twice",
+                "name each theory once, such as persson,gw",
+                place="--theory",
+            )
         return names
 
     def given(self) -> dict[str, float]:
@@ -91,7 +97,9 @@ class Theories:
             return known
         hurst = parse_number(self.hurst, "--hurst", "0.8")
         if not -1 <= hurst <= 3:
-            raise UsageError(f"--hurst: the Hurst exponent lies between -1 and 3, not at {self.hurst!r}")
+            raise UsageError(
+                f"the Hurst exponent lies between -1 and 3, not at {self.hurst!r}", place="--hurst"
+            )
         return known | {"hurst": hurst}
 
     def laws(
@@ -117,7 +125,9 @@ class Theories:
             for need, (what, example) in _ONLY_GIVEN.items():
                 if need in LAWS[name].needs and need not in known:
                     raise UsageError(
-                        f"--theory {name}: give the {what} by --{need}, such as --{need} {example}"
+                        f"--theory {name} lacks a number",
+                        f"give the {what} by --{need}, such as --{need} {example}",
+                        place=f"--{need}",
                     )
         inputs: dict[str, Any] = known
         laws: dict[str, LoadingLaw] = {}
@@ -126,9 +136,7 @@ class Theories:
             try:
                 inputs = inputs_for(surface, [name], **inputs)
                 [laws[name]] = rc.loading_laws(surface, modulus, name, **inputs)
-            except ValueError as error:
-                if not is_ours(error):
-                    raise
+            except InputError as error:
                 refused[name] = str(error)
         needed = {need for name in laws for need in LAWS[name].needs}
         new = [name for name in _TAKEN if name in (inputs.keys() - known.keys()) & needed]

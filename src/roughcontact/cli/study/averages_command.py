@@ -78,11 +78,13 @@ class LawWindow:
         parts = self.window.split(":")
         if len(parts) != 2:
             raise UsageError(
-                f"--window: {self.window!r} is no window; write two forces over E* h L, 1e-3:0.07"
+                f"{self.window!r} is no window", "write two forces over E* h L, 1e-3:0.07", place="--window"
             )
         low, high = (parse_number(part, "--window", "1e-3") for part in parts)
         if not 0 <= low < high:
-            raise UsageError(f"--window goes from a force to a larger one, not {self.window!r}")
+            raise UsageError(
+                f"--window goes from a force to a larger one, not {self.window!r}", place="--window"
+            )
         return force_window(low, high)
 
 
@@ -142,7 +144,7 @@ def table(
     with reported(folder, as_json=json), own_cases():
         force = None if at is None else parse_number(at, "--at", "0.01")
         if force is not None and not force > 0:
-            raise UsageError(f"--at: a force over E* h L is above 0, not {at!r}")
+            raise UsageError(f"a force over E* h L is above 0, not {at!r}", place="--at")
         averaged = _averaged(folder, window.value(), force)
         laws = quantity is None and "exponent" in averaged and force is None
         names = () if laws else _quantities(averaged, quantity, force)
@@ -180,13 +182,15 @@ def _require_between(dataset: xarray.Dataset, force: float) -> None:
     from roughcontact.statistics.power_law import ROUNDING
 
     if "dimensionless_force" not in dataset:
-        raise UsageError("--at: the study has no forces over E* h L; see roughcontact study export")
+        raise UsageError("the study has no forces over E* h L", "see roughcontact study export", place="--at")
     low, high = (
         float(each) for each in (dataset["dimensionless_force"].min(), dataset["dimensionless_force"].max())
     )
     if not low * (1 - ROUNDING) <= force <= high * (1 + ROUNDING):
         raise UsageError(
-            f"--at: the loads go from {low:g} to {high:g}: choose a force between them, not {force:g}"
+            f"the loads go from {low:g} to {high:g}",
+            f"choose a force between them, not {force:g}",
+            place="--at",
         )
 
 
@@ -196,7 +200,9 @@ def _first(averaged: xarray.Dataset) -> str:
     along = [name for name in names if "load" in averaged[f"{name}_mean"].dims and "force" not in name]
     found = [name for name in (_STIFFNESS, *along, *names) if name in names]
     if not found:
-        raise UsageError("nothing in the study differs from sample to sample: see roughcontact study export")
+        raise UsageError(
+            "nothing in the study differs from sample to sample", "see roughcontact study export"
+        )
     return found[0]
 
 
@@ -214,13 +220,17 @@ def _quantities(averaged: xarray.Dataset, asked: str | None, force: float | None
     single = [name for name in _means(averaged) if averaged[f"{name}_mean"].dims == averaged["cases"].dims]
     if asked is None:
         if not single:
-            raise UsageError("all quantities lie along the loads: choose a force by --at, such as --at 0.01")
+            raise UsageError(
+                "all quantities lie along the loads", "choose a force by --at, such as --at 0.01"
+            )
         return tuple(name for name in single if name not in _CERTIFICATES)
     names = tuple(part.strip() for part in asked.split(",") if part.strip())
     for name in names:
         if name not in _means(averaged):
             raise UsageError(
-                f"--quantity: no {name!r} differs between samples: choose of {', '.join(_means(averaged))}"
+                f"no {name!r} differs between samples",
+                f"choose of {', '.join(_means(averaged))}",
+                place="--quantity",
             )
         if name not in single:
             missing = (
@@ -228,7 +238,7 @@ def _quantities(averaged: xarray.Dataset, asked: str | None, force: float | None
                 if force is None
                 else f"choose of {', '.join(single)}"
             )
-            raise UsageError(f"--quantity: {name} lies along {_rest(averaged, name)}: {missing}")
+            raise UsageError(f"{name} lies along {_rest(averaged, name)}: {missing}", place="--quantity")
     return names
 
 

@@ -85,7 +85,10 @@ class Asked:
             if (text := getattr(self, flag)) is not None
         }
         if len(band) == 2 and not band["q_min"] < band["q_max"]:
-            raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
+            raise UsageError(
+                f"--longest {self.longest} must be longer than --shortest {self.shortest}",
+                place="--longest, --shortest",
+            )
         return band
 
 
@@ -128,8 +131,8 @@ def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surfa
     require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
     if surface.missing and not fill:
         raise UsageError(
-            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
-            "or crop them away by 'roughcontact surface prepare'"
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all",
+            "add --fill, or crop them away by 'roughcontact surface prepare'",
         )
     if surface.missing:
         note(f"{surface.missing} missing points are filled smoothly: the shortest waves are too weak there")

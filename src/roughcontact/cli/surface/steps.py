@@ -113,7 +113,9 @@ def _ranges(text: str, name: str) -> Callable[[Surface], list[slice]]:
     matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
     if len(matches) > 2 or not all(matches):
         raise UsageError(
-            f"{name}: {text!r} is no part of a map; write rows,columns such as 0:512,100:612, or 0:512 of a profile"
+            f"{text!r} is no part of a map",
+            "write rows,columns such as 0:512,100:612, or 0:512 of a profile",
+            place=name,
         )
     parts = [
         slice(*(int(end) if end else None for end in match.groups()))
@@ -126,7 +128,7 @@ def _ranges(text: str, name: str) -> Callable[[Surface], list[slice]]:
             wanted = (
                 "rows,columns such as 0:512,100:612" if surface.grid.ndim == 2 else "one range such as 0:512"
             )
-            raise UsageError(f"{name}: {text!r} has {len(parts)} range(s); write {wanted}")
+            raise UsageError(f"{text!r} has {len(parts)} range(s)", f"write {wanted}", place=name)
         return parts
 
     return of
@@ -141,7 +143,9 @@ def _mask(text: str) -> tuple[Preparation, bool]:
     found = re.fullmatch(r"\s*(outside-)?(box|ellipse|above|below)\s*=(.+)", text)
     if found is None:
         raise UsageError(
-            f"--mask: {text!r} is no region; write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um"
+            f"{text!r} is no region",
+            "write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um",
+            place="--mask",
         )
     outside, kind, value = bool(found[1]), found[2], found[3]
     if kind in ("above", "below"):
@@ -170,7 +174,9 @@ def _form(text: str | None) -> Preparation | None:
     shape: Any = text
     if text not in ("sphere", "cylinder"):
         if re.fullmatch(r"\d{1,2}", text, re.ASCII) is None or int(text) > 12:
-            raise UsageError(f"--form: {text!r} is no form; write a degree from 0 to 12, sphere or cylinder")
+            raise UsageError(
+                f"{text!r} is no form", "write a degree from 0 to 12, sphere or cylinder", place="--form"
+            )
         shape = int(text)
     return Preparation("Removing the form", lambda surface: surface.without_form(shape))
 
@@ -178,12 +184,14 @@ def _form(text: str | None) -> Preparation | None:
 def _tip(text: str | None, shape: TipShape | None) -> Preparation | None:
     if text is None:
         if shape is not None:
-            raise UsageError("--tip-shape belongs to --tip: give its radius as well")
+            raise UsageError("--tip-shape belongs to --tip", "give its radius as well", place="--tip-shape")
         return None
     radius = parse(text, LENGTH, "--tip")
     if not 0 < radius < _BLUNTEST:
         raise UsageError(
-            f"--tip: a radius of {quantity('lengths', radius)} is no tip; write it with its unit, such as 2um"
+            f"a radius of {quantity('lengths', radius)} is no tip",
+            "write it with its unit, such as 2um",
+            place="--tip",
         )
     chosen: Any = (shape or TipShape.SPHERE).value
     return Preparation("Scanning by the tip", lambda surface: surface.scanned(radius, chosen))
@@ -203,8 +211,10 @@ def _filtered(surface: Surface, cutoffs: dict[str, float]) -> Surface:
     if short is not None and short >= longest:
         # Most likely a unit was forgotten: nothing but the mean would be left.
         raise UsageError(
-            f"--short-cutoff: a cut-off of {quantity('lengths', short)} leaves nothing of a map of "
-            f"{quantity('lengths', longest)}; give its unit, such as 10um"
+            f"a cut-off of {quantity('lengths', short)} leaves nothing of a map of "
+            f"{quantity('lengths', longest)}",
+            "give its unit, such as 10um",
+            place="--short-cutoff",
         )
     return surface.filtered(**cutoffs)
 
@@ -218,13 +228,13 @@ def _average(factor: int | None) -> Preparation | None:
 
 def _require_factor(factor: int, name: str) -> None:
     if factor < 1:
-        raise UsageError(f"{name}: K must be a whole number from 1 up, not {factor}")
+        raise UsageError(f"K must be a whole number from 1 up, not {factor}", place=name)
 
 
 def _downsample(factor: int | None, alias: bool) -> Preparation | None:
     if factor is None:
         if alias:
-            raise UsageError("--alias belongs to --downsample: give its K as well")
+            raise UsageError("--alias belongs to --downsample", "give its K as well", place="--alias")
         return None
     _require_factor(factor, "--downsample")
     return Preparation("Subsampling", lambda surface: surface.downsampled(factor, anti_alias=not alias))
@@ -232,11 +242,13 @@ def _downsample(factor: int | None, alias: bool) -> Preparation | None:
 
 def _window(window: WindowShape | None, share: float | None) -> Preparation | None:
     if share is not None and window is not WindowShape.TUKEY:
-        raise UsageError("--share belongs to --window tukey")
+        raise UsageError("--share belongs to --window tukey", place="--share")
     if window is None:
         return None
     if share is not None and not 0 <= share <= 1:
-        raise UsageError(f"--share: the tapered part of the length lies between 0 and 1, not at {share:g}")
+        raise UsageError(
+            f"the tapered part of the length lies between 0 and 1, not at {share:g}", place="--share"
+        )
     chosen: Any = window.value
     bent = 0.25 if share is None else share
     return Preparation("Tapering", lambda surface: surface.tapered(chosen, bent))

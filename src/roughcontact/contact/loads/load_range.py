@@ -17,6 +17,7 @@ from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.labels.variables import unit_of
@@ -125,7 +126,7 @@ def load_range(
     whole(count, "count, the number of forces,")
     grid = grid_of(surface)
     if not surface.rms > 0:
-        raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
+        raise InputError("a flat surface gives forces no scale", "name the forces, depths or pressures")
     geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
     length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
     scale = as_modulus(modulus) * surface.rms * length

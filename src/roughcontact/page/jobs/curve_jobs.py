@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import columns, point_of
@@ -89,9 +89,7 @@ def compared(
         try:
             law = _law(name, request, cache)
             found[name] = law, computed.compare(law)
-        except ValueError as error:
-            if not is_ours(error):
-                raise
+        except InputError as error:
             refused[name] = str(error)
     return found, refused
 
@@ -114,8 +112,8 @@ def _law(name: str, request: PageRequest, cache: SessionCache) -> LoadingLaw:
     bodies = request.recipe.bodies
     hardness = hardness_of(bodies)
     if hardness is None and name in LAWS and "hardness" in LAWS[name].needs:
-        raise ValueError(
-            "it is about spots that flow: give the hardness of the softer body, and start the curve again"
+        raise InputError(
+            "it is about spots that flow", "give the hardness of the softer body, and start the curve again"
         )
     known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
     [law] = rc.loading_laws(cache.surface(request.recipe, request.files), modulus_of(bodies), name, **known)
@@ -145,9 +143,7 @@ def _whole(computed: Curve) -> dict[str, Any]:
     resolved = int(computed.resolved.sum())
     try:
         law = computed.fit()
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
         return {
             "facts": curve_facts(computed, None),

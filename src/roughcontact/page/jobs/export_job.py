@@ -11,6 +11,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roughcontact.errors import InputError
 from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_jobs import compared, whole_curve
 from roughcontact.page.jobs.session_cache import SessionCache, modulus_of
@@ -31,7 +32,7 @@ def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send a file of the load or the curve that the recipe states, or an archive of all that belongs to it."""
     kind = request.more.get("kind")
     if kind not in _KINDS:
-        raise ValueError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}")
+        raise InputError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}")
     send({"type": "doing", "words": "Writing files"})
     statement = stated(request.recipe, request.file)
     with tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
@@ -47,7 +48,7 @@ def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
             written = _load_files(cache.solution(request.recipe, request.files), request, statement)
             what = f"{load.control}-{load.text}"
         else:
-            raise ValueError("there is nothing to export yet: press the surface, or start the curve")
+            raise InputError("there is nothing to export yet", "press the surface, or start the curve")
         file = folder / next(file for file in written if file.endswith(f".{kind}"))
         written[file.name](file)
         send({"type": "file", "name": _name(request, what, kind)}, file.read_bytes())

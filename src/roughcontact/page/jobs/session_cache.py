@@ -9,10 +9,10 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from roughcontact.errors import InputError, placed
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.length_units import length_factor
 from roughcontact.files.quantity import LENGTH, Kind, parse, parse_number, parse_with_unit
-from roughcontact.page.field_error import at_field
 from roughcontact.page.preparation_calls import calls_of
 from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoads, PageRecipe
 
@@ -81,12 +81,12 @@ class SessionCache:
 
         load = recipe.load
         if load is None:
-            raise ValueError("no load is given")
+            raise InputError("no load is given", place="load")
 
         def pressed() -> Solution:
             surface = self.surface(recipe, files)
             modulus, hardness = modulus_of(recipe.bodies), hardness_of(recipe.bodies)
-            with at_field("load"):
+            with placed("load"):
                 given: dict[str, Any] = {load.control: load.value}
                 try:
                     return rc.press(surface, modulus, **given, hardness=hardness)
@@ -178,7 +178,7 @@ def modulus_of(bodies: Bodies) -> float:
     if bodies.materials is not None:
         rigid = rc.Solid(math.inf, 0.0)
         first, second = (rigid if name == "rigid" else rc.handbook(name).solid for name in bodies.materials)
-        with at_field("second"):
+        with placed("second"):
             return rc.reduced_modulus(first, second)
     if bodies.modulus is not None:
         return _stiff(bodies.modulus, "modulus")
@@ -195,7 +195,7 @@ def hardness_of(bodies: Bodies) -> float | None:
     if bodies.hardness is None:
         return None
     if bodies.hardness[:1].isalpha():
-        with at_field("hardness"):
+        with placed("hardness"):
             return rc.handbook(bodies.hardness).hardness
     return _stiff(bodies.hardness, "hardness")
 
@@ -204,13 +204,13 @@ def _solid(young: str | None, poisson: str | None, which: str) -> Solid:
     """Return the elastic constants of a body that the user wrote."""
     import roughcontact as rc
 
-    with at_field(f"young{which}"):
+    with placed(f"young{which}"):
         if young is None:
-            raise ValueError("give Young's modulus of the body, such as 210 GPa")
+            raise InputError("Young's modulus is missing", "give that of the body, such as 210 GPa")
     modulus = _stiff(young, f"young{which}")
-    with at_field(f"poisson{which}"):
+    with placed(f"poisson{which}"):
         if poisson is None:
-            raise ValueError("give Poisson's ratio of the body, such as 0.3")
+            raise InputError("Poisson's ratio is missing", "give that of the body, such as 0.3")
         return rc.Solid(modulus, parse_number(poisson, "0.3"))
 
 
@@ -226,12 +226,12 @@ def _slope(surface: Surface) -> float:
 
 def _stiff(text: str, field: str) -> float:
     """Return the modulus or hardness [Pa] of a field."""
-    with at_field(field):
+    with placed(field):
         kind = _HARDNESS if field == "hardness" else _MODULUS
         value = parse_with_unit(text, kind)
         if value <= 0:
-            raise ValueError(
-                f"{text!r} is not positive: write {kind.name} above zero, such as {kind.example}"
+            raise InputError(
+                f"{text!r} is not positive", f"write {kind.name} above zero, such as {kind.example}"
             )
         return value
 
@@ -242,8 +242,8 @@ def _read(source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) ->
     if isinstance(source, MadeSource):
         return _made(source), []
     if source.file not in files:
-        raise ValueError("the server has no such file any more: drop it again")
-    with at_field("unit"):
+        raise InputError("the server has no such file any more", "drop it again")
+    with placed("unit"):
         if source.heights_in is not None:
             length_factor(source.heights_in)
     with warnings.catch_warnings(record=True) as said:
@@ -266,9 +266,9 @@ def _made(source: MadeSource) -> Surface:
     import roughcontact as rc
 
     if not 3 <= source.points <= _MOST_POINTS:  # of two a side no wave is free
-        raise ValueError(f"a surface has 3 to {_MOST_POINTS} points a side here, not {source.points}")
+        raise InputError(f"a surface has 3 to {_MOST_POINTS} points a side here, not {source.points}")
     if source.seed < 0:
-        raise ValueError(f"the seed must be a whole number from 0 up, not {source.seed}")
+        raise InputError(f"the seed must be a whole number from 0 up, not {source.seed}")
     grid = rc.Grid(
         (source.points, source.points), parse(source.size, LENGTH) / source.points, periodic=source.periodic
     )

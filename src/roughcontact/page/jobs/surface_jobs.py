@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.recipe import FileSource
+from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.statement import stated
 from roughcontact.plot.drawing.engineering_units import written
@@ -52,7 +53,7 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": [_on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
+            "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
             "missing": surface.missing,
             "raw": {**_place(raw), "shape": raw.grid.shape, "missing": raw.missing},
             "command": statement.command,
@@ -95,21 +96,6 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
         send({"type": "roughness", "facts": _roughness(surface)})
 
 
-# What readers advise as calls of Python, as the fields of the page.
-_ADVICE = {
-    "pass channel= for another": "choose another under Channel",
-    "take them out by masked()": "crop them away",
-    "unit=": "the unit of the heights",
-    "size=": "the width",
-}
-
-
-def _on_the_page(line: str) -> str:
-    for call, words in _ADVICE.items():
-        line = line.replace(call, words)
-    return line
-
-
 def _channels(request: PageRequest) -> list[dict[str, Any]]:
     from roughcontact.files.read import channels
 
@@ -139,8 +125,6 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     facts.append(("Nayak's parameter", "m0 m4 / m2²", written(moments.nayak, "", 4)))
     try:
         exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         exponent, words = "none", str(error)
     return [*facts, ("Hurst exponent", words, exponent)]

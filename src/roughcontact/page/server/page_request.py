@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from roughcontact.errors import InputError
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.recipe import PageRecipe
@@ -57,7 +58,7 @@ class PageRequest:
         """
         name = getattr(self.recipe.source, "file", "")
         if name not in self.files:
-            raise ValueError("the server has no such file any more: drop it again")
+            raise InputError("the server has no such file any more", "drop it again")
         return self.files[name].path
 
     def whole(self, name: str, usual: int, most: int) -> int:

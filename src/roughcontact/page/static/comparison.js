@@ -41,7 +41,7 @@ export function comparison({ recipe, map, failed, changed, curveFacts }) {
     asked = null;
     held.answered = text;
     if (held === kept) {
-      by("kept_said").textContent = end.message ? `${held.name}: ${end.message}` : "";
+      by("kept_said").textContent = end.message ? [`${held.name}: ${end.message}`, end.remedy].filter(Boolean).join(" ") : "";
       show();
       follow();
     }

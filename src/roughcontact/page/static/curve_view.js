@@ -103,7 +103,7 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     try {
       const sent = request("back", "theories", { ...recipe.now, load: null, loads: loads() }, {}, (header) => run === current && heard(run, header));
       const end = await sent.ended;
-      if (end.message && run === current) say(end.message);
+      if (end.message && run === current) say([end.message, end.remedy].filter(Boolean).join(" "));
       run.theories = theories.chosen;
     } catch (error) {
       failed(error);

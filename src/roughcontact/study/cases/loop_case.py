@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from roughcontact.contact.curve import CURVE_POINTS
 from roughcontact.contact.loop import loading_loop
+from roughcontact.errors import InputError
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import FLOW
 from roughcontact.labels.labelled import variable
@@ -53,7 +54,7 @@ class LoopParameters(PressedSquare, ForceRange):
     @model_validator(mode="after")
     def _some_hardness(self) -> Self:
         if self.hardness is None and self.relative_hardness is None:
-            raise ValueError("give hardness or relative_hardness: without one nothing flows")
+            raise InputError("without a hardness nothing flows", "give hardness or relative_hardness")
         return self
 
 

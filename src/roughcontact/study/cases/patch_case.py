@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.study.case import Case
 from roughcontact.study.cases.curve_case import CurveParameters, curve_of, moments_of
@@ -35,7 +36,7 @@ class PatchParameters(CurveParameters):
     @model_validator(mode="after")
     def _free(self) -> Self:
         if self.periodic:
-            raise ValueError("a patch does not repeat itself: leave periodic out, or take the case curve")
+            raise InputError("a patch does not repeat itself", "leave periodic out, or take the case curve")
         return self
 
     @property

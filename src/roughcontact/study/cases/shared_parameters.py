@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, model_validator
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.study.case import Length, Parameters, Positive, Pressure
 from roughcontact.surface.generation.fourier import self_affine
@@ -97,9 +98,10 @@ class RoughSquare(Parameters):
         if self.rms_band is not None:
             longest, shortest = self.rms_band
             if not longest >= shortest > 2 / self.points:
-                raise ValueError(
-                    f"rms_band must go from its longest wave down to one above two cells, {2 / self.points:g} on "
-                    f"{self.points} points, not from {longest:g} to {shortest:g}"
+                raise about(
+                    "rms_band",
+                    f"must go from its longest wave down to one above two cells, {2 / self.points:g} on "
+                    f"{self.points} points, not from {longest:g} to {shortest:g}",
                 )
         return self
 
@@ -154,7 +156,7 @@ class PressedSquare(RoughSquare):
     @model_validator(mode="after")
     def _one_hardness(self) -> Self:
         if self.hardness is not None and self.relative_hardness is not None:
-            raise ValueError("give hardness or relative_hardness, not both")
+            raise InputError("two hardnesses are given", "give hardness or relative_hardness, not both")
         return self
 
     def hardness_on(self, rms_slope: float) -> float | None:

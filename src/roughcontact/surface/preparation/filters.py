@@ -67,9 +67,16 @@ def filtered(
     '0.500'
     """
     if short_cutoff is None and long_cutoff is None:
-        raise ValueError("give short_cutoff, long_cutoff or both [m]")
+        raise InputError(
+            "a filter needs a cut-off",
+            "give short_cutoff, long_cutoff or both [m]",
+            "short_cutoff, long_cutoff",
+        )
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
-        raise ValueError(f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m")
+        raise InputError(
+            f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m",
+            place="short_cutoff",
+        )
     grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
@@ -164,11 +171,16 @@ def require_cells(cutoff: float, surface: Surface) -> None:
     ValueError
         If a wave of this length has too few cells, or is none.
     """
-    require(math.isfinite(cutoff) and cutoff > 0, f"a cut-off must be positive and finite [m], not {cutoff}")
+    require(
+        math.isfinite(cutoff) and cutoff > 0,
+        f"a cut-off must be positive and finite [m], not {cutoff}",
+        place="cutoff",
+    )
     grid = surface.grid
     exact = all(grid.periodic) and surface.missing == 0
     least = (2 if exact else _CELLS) * max(grid.spacing)
     if cutoff < least * (1 - 1e-9):
-        raise ValueError(
-            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:.10g} m"
+        raise InputError(
+            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m",
+            f"give at least {least:.10g} m",
         )

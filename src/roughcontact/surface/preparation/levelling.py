@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from roughcontact.errors import about
 from roughcontact.surface.in_memory import on_host_only, on_host_or_in_slabs
 from roughcontact.surface.preparation.form import round_form
 from roughcontact.surface.preparation.polynomial import polynomial_trend
@@ -56,7 +57,8 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic", "auto
     """
     if kind == "auto":
         kind = "mean" if all(surface.grid.periodic) else "plane"
-    require(kind in _TRENDS, f"levelling must be 'mean', 'plane', 'quadratic' or 'auto', not {kind!r}")
+    allowed = "'mean', 'plane', 'quadratic' or 'auto'"
+    require(kind in _TRENDS, f"levelling must be {allowed}, not {kind!r}", place="kind")
     degree, line = _TRENDS[kind]
     return surface.with_heights(surface.heights - polynomial_trend(surface.heights, degree), line)
 
@@ -102,5 +104,5 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
     elif isinstance(form, int) and not isinstance(form, bool) and 0 <= form <= 12:
         trend, words = polynomial_trend(surface.heights, form), f"polynomial of degree {form}"
     else:
-        raise ValueError(f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
+        raise about("form", f"must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
     return surface.with_heights(surface.heights - trend, f"form removed: {words}")
