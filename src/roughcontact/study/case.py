@@ -114,6 +114,14 @@ class Parameters(Checked):
         -------
         dict of str to str
             Empty where it reads none.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> class Block(rc.study.Parameters):
+        ...     side: rc.study.Length
+        >>> Block(side=1.0).inputs()  # the case "job" names the files of its source
+        {}
         """
         return {}
 

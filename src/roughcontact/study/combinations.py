@@ -139,14 +139,18 @@ def _values(
     return entry.values(model.reader(name, merged(study.parameters, *study.rows[:1])))
 
 
-def _place(study: Study, place: str | None) -> str | None:
-    """Return where the study gives what is wrong."""
-    if place is None:
-        return None
-    for table, names in (
-        ("table", study.table),
-        ("rows", {name for row in study.rows for name in flat(row)}),
-    ):
-        if any(f"{name}.".startswith(f"{place}.") or f"{place}.".startswith(f"{name}.") for name in names):
-            return f"{table}.{place}"
-    return f"parameters.{place}"
+def _place(study: Study, places: str | None) -> str | None:
+    """Return where the study gives what is wrong: some places, separated by commas."""
+    tables = {"table": set(study.table), "rows": {name for row in study.rows for name in flat(row)}}
+
+    def found(place: str) -> str:
+        for table, names in tables.items():
+            if any(
+                f"{one}.".startswith(f"{other}.")
+                for name in names
+                for one, other in ((name, place), (place, name))
+            ):
+                return f"{table}.{place}"
+        return f"parameters.{place}"
+
+    return None if places is None else ", ".join(map(found, places.split(", ")))

@@ -287,6 +287,15 @@ class Study(Checked):
         ------
         StudyError
             If the case does not take the parameters, or a file cannot be read.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.write(rc.examples.surface("ground"), "part.npz")
+        >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": ["1 N", "2 N"]}).pinned()
+        >>> [(name, len(digest)) for name, digest in study.files.items()]
+        [('part.npz', 64)]
         """
         files = {name: each for case in self.combinations() for name, each in case.inputs().items()}
         return self if files == self.files else Study(**(dict(self) | {"files": files}))
@@ -298,6 +307,19 @@ class Study(Checked):
         ------
         StudyError
             If one is another, or cannot be read.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.write(rc.examples.surface("ground"), "part.npz")
+        >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": ["1 N", "2 N"]}).pinned()
+        >>> rc.write(rc.examples.surface("blasted"), "part.npz")
+        >>> try:
+        ...     study.require_files()
+        ... except rc.study.StudyError as error:
+        ...     print(error.message)
+        part.npz is not the file that the study was begun with: its SHA-256 differs
         """
         for name, digest in self.files.items():
             if fingerprint(Path(self.folder, name)) != digest:

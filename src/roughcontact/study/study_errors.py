@@ -45,7 +45,7 @@ class StudyError(InputError):
     ...     rc.study.Study(name="few", case="curve", parameters={"hurts": 0.8})
     ... except rc.study.StudyError as error:
     ...     print(str(error).partition("?")[0] + "?")
-    parameters: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
+    parameters.hurts: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
     """
 
 

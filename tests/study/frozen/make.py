@@ -23,6 +23,7 @@ OTHER = {
 }
 PRESSED, HARD = {**SQUARE, "modulus": "1 GPa"}, {"hardness": "10 MPa"}
 SOFT = {**OTHER, "modulus": 1, "relative_hardness": 0.2}
+MADE = {"kind": "self-affine", "hurst": 0.8, "rms": "1 um", "size": "1 mm", "points": 16}
 FORCES = {"lowest_force": 1e-3, "highest_force": 1, "loads": 3, "tolerance": 1e-6}
 STUCK = {**PRESSED, "work": "50 mJ/m^2", "range": "20 nm"}
 GIVEN = {
@@ -34,6 +35,10 @@ GIVEN = {
     "asperities": [{"hurst": 0.8, "points": 16}, {"hurst": 1, "points": 32, "loads": 4, "highest_force": 1}],
     "cells": [PRESSED, SOFT | FORCES, {**PRESSED, "rolloff": 0.25}],
     "curve": [PRESSED, PRESSED | HARD | FORCES, SOFT, {**PRESSED, "loads": 3, "points": 17}],
+    "job": [
+        {"job": "curve", "source": MADE, "bodies": {"modulus": 1e9}, "preparation": {"level": "plane"}},
+        {"job": "press", "source": MADE, "bodies": {"materials": "steel,rigid"}, "load": {"force": "1 N"}},
+    ],
     "lines": [{"hurst": 0.8, "points": 64}, {"hurst": -1, "points": 8, "lines": 2, "loads": 2}],
     "loop": [PRESSED | HARD, SOFT | FORCES, {**PRESSED, **HARD, "flow": "raised"}],
     "patch": [{**PRESSED, "period": 2}, {**PRESSED, **HARD, "period": 4, "rolloff": 0.5}],
