@@ -1,12 +1,16 @@
 """A study of a job: the answer of the library for each combination, surfaces drawn anew, files by their content."""
 
 import json
+import re
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.recipe.written import from_plain
 from roughcontact.statistics.averages import averages
 from roughcontact.study.cases.job_case import CASE, JobParameters
 from roughcontact.study.export import export
@@ -285,3 +289,14 @@ def test_two_surfaces_are_drawn_one_after_the_other(tmp_path):
     lower, upper = (rc.self_affine(grid, hurst, 1e-6, rng).levelled("plane") for hurst in (0.8, 0.5))
     curve = rc.loading_curve(rc.combined(lower, upper).levelled("auto"), 110e9, forces=[1, 2, 4, 8])
     np.testing.assert_array_equal(found["stiffness"].values.ravel(), curve.stiffness)
+
+
+def test_the_job_and_the_study_of_the_page_are_what_they_are_said_to_be():
+    page = (Path(__file__).parents[3] / "docs" / "studies.md").read_text(encoding="utf-8")
+    blocks = [tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL)]
+    [job] = [from_plain(each) for each in blocks if "job" in each]
+    [few] = [Study(**each) for each in blocks if each.get("case") == "job"]
+    level, _ = few.table.values()
+    assert (job.NAME, level, len(few.combinations())) == ("curve", ("plane", "quadratic"), 6)
+    assert few.combinations()[-1].recipe.preparation.level == "quadratic"
+    assert few.combinations()[-1].recipe.source.hurst == "0.8"
