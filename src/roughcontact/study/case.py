@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import reduce
 from itertools import chain
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_args
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar, get_args
 
 import numpy as np
 from pydantic import BeforeValidator, Field, TypeAdapter, ValidationError
@@ -34,6 +34,7 @@ __all__ = [
     "Parameters",
     "Positive",
     "Pressure",
+    "Record",
     "Stiffness",
 ]
 
@@ -163,9 +164,11 @@ class Case:
     name: str
     version: int
     parameters: type[Parameters]
-    run: Callable[[Any, np.random.Generator], xarray.Dataset]
+    run: Callable[[Any, np.random.Generator], Record]
     fields: tuple[str, ...] = ()
 
+
+Record: TypeAlias = "xarray.Dataset"  # what a case returns
 
 _T = TypeVar("_T")
 Positive = Annotated[_T, Field(gt=0)]

@@ -293,7 +293,7 @@ class Study(Checked):
         >>> import roughcontact as rc
         >>> rc.write(rc.examples.surface("ground"), "part.npz")
         >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
-        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": ["1 N", "2 N"]}).pinned()
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": [1, 2]}).pinned()
         >>> [(name, len(digest)) for name, digest in study.files.items()]
         [('part.npz', 64)]
         """
@@ -313,7 +313,7 @@ class Study(Checked):
         >>> import roughcontact as rc
         >>> rc.write(rc.examples.surface("ground"), "part.npz")
         >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
-        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": ["1 N", "2 N"]}).pinned()
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": [1, 2]}).pinned()
         >>> rc.write(rc.examples.surface("blasted"), "part.npz")
         >>> try:
         ...     study.require_files()

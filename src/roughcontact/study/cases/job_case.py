@@ -3,35 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
 from roughcontact.errors import InputError, every, placed, together
 from roughcontact.files.fingerprint import fingerprint
-from roughcontact.files.quantity import parse
 from roughcontact.recipe.jobs import Job, calls_of, known_names
 from roughcontact.recipe.library_calls import Call, Name, perform
+from roughcontact.recipe.numbers_of_fields import number_at, number_reader
 from roughcontact.recipe.outputs import Errors, PressureTheory, Tables, Theories, Units
-from roughcontact.recipe.prescribed_loads import kinds_of
-from roughcontact.recipe.recipe_fields import specs, value_of
 from roughcontact.recipe.source import File
 from roughcontact.recipe.written import (
-    field_at,
     from_plain,
     located,
     require_same_files,
     to_plain,
     with_files,
 )
-from roughcontact.study.case import Case, Parameters, at
+from roughcontact.study.case import Case, Parameters, Record, at
 from roughcontact.study.combinations import flat
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
@@ -82,21 +76,17 @@ class JobParameters(Parameters):
     @classmethod
     def reader(cls, name: str, beside: Mapping[str, Any]) -> Callable[[Any], Any]:
         """Return what turns the text of a field into its value in SI."""
-        spec, kinds = field_at(beside, name), kinds_of(at(beside, "contact.profile"))
-        kind = kinds.get(name.rpartition(".")[2])
-
-        def read(value: Any) -> Any:
-            if not isinstance(value, str):
-                return value
-            found = spec.read(value)
-            return parse(value, kind) if isinstance(found, str) and kind is not None else found
-
-        return read
+        return number_reader(beside, name)
 
     def labelled(self, names: Iterable[str] = ()) -> dict[str, tuple[Any, str | None]]:
         """Return fields by dotted names: numbers in SI with their unit, and what is no number as it is written."""
-        plain, job = self.model_dump(), self.recipe
-        return {name: _labelled(job, plain, name) for name in dict.fromkeys([*flat(plain), *names])}
+        plain, job, found = self.model_dump(), self.recipe, {}
+        for name in dict.fromkeys([*flat(plain), *names]):
+            try:
+                found[name] = number_at(job, name)
+            except AttributeError:  # the name of the job, the kind of a source, or a whole part
+                found[name] = at(plain, name), None
+        return found
 
     def inputs(self) -> dict[str, str]:
         """Return the SHA-256 of the files of the source, by their names."""
@@ -105,7 +95,7 @@ class JobParameters(Parameters):
         return found
 
 
-def run(parameters: JobParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     """Return the answer of the job for one sample.
 
     Returns
@@ -125,7 +115,7 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> xarray.Dataset:
             perform(_drawing(call), known)
     known["dataset"] = next(known[name] for name in _ANSWERS if name in known).to_dataset()
     dataset = known["dataset"] if conducting is None else conducting.value(known)
-    record: xarray.Dataset = dataset.drop_dims([each for each in dataset.dims if each not in _KEPT])
+    record: Record = dataset.drop_dims([each for each in dataset.dims if each not in _KEPT])
     return record
 
 
@@ -162,35 +152,6 @@ def draws(call: Call) -> bool:
 
 def _is_generator(argument: Any) -> bool:
     return isinstance(argument, Call) and argument.function == "np.random.default_rng"
-
-
-def _labelled(job: Job, plain: Mapping[str, Any], name: str) -> tuple[Any, str | None]:
-    *tables, last = name.split(".")
-    part: Any = job
-    for table in tables:
-        part = getattr(part, table, None)
-    spec = (
-        next((each for field, each in specs(part) if field.name == last), None)
-        if is_dataclass(part)
-        else None
-    )
-    if spec is None:  # the name of the job, the kind of a source, or a whole part
-        return at(plain, name), None
-    text, value, kind = getattr(part, last), value_of(part, last), getattr(spec.read, "kind", None)
-    if isinstance(value, str) and hasattr(part, "named"):
-        profile = job.contact.profile  # type: ignore[union-attr]  # what is pressed has one
-        kind = kinds_of(profile).get(last)
-        value = value if kind is None else part.named(profile)[last]
-    if isinstance(value, float | int):
-        return value, None if kind is None else kind.unit
-    return _number(text), None
-
-
-def _number(text: Any) -> Any:
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        return list(text) if isinstance(text, tuple) else text
 
 
 CASE = Case("job", 1, JobParameters, run)
