@@ -8,11 +8,11 @@ from contextlib import contextmanager
 
 __all__ = [
     "InputError",
+    "about",
     "correctable",
     "every",
     "in_place",
     "joined",
-    "about",
     "placed",
     "together",
     "within",
