@@ -10,11 +10,11 @@ from roughcontact.errors import InputError
 from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, PureNumber, known_material, modulus
+from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, PureNumber, known_material
 
 __all__ = ["Bodies", "Conduction", "hardness_of"]
 
-_YOUNG = modulus("Young's modulus")
+_YOUNG = Modulus("Young's modulus")
 _POISSON = PureNumber(-1, 0.5, "Poisson's ratio", "0.3")
 
 
@@ -39,7 +39,7 @@ def hardness_of(text: str) -> Call | float:
     """Return a hardness [Pa], or the call that looks it up."""
     if (material := known_material(text)) is not None:
         return Call("rc.handbook", (material.name,), attribute="hardness")
-    return modulus("a hardness")(text)
+    return Modulus("a hardness")(text)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +49,7 @@ class Bodies:
     TITLE: ClassVar = "The two bodies"
     ONE_OF: ClassVar = ("modulus", "materials", "young")
     modulus: str | None = described(
-        "Reduced modulus E*.", "110GPa", read=modulus("the reduced modulus"), everyday=True
+        "Reduced modulus E*.", "110GPa", read=Modulus("the reduced modulus"), everyday=True
     )
     materials: str | None = described(
         f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
 from typing import Any, get_type_hints
 
-from roughcontact.errors import InputError, placed
+from roughcontact.errors import InputError, placed, together
 
-__all__ = ["Spec", "check", "described", "given", "option_of", "specs", "value_of", "words_of"]
+__all__ = ["Spec", "check", "described", "given", "hints_of", "option_of", "specs", "value_of", "words_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +56,12 @@ class Spec:
     positional: bool = False
     opposite: str | None = None
     step: Any = None
+
+
+@cache
+def hints_of(kind: Any) -> dict[str, Any]:
+    """Return the types of the fields of a class; a study makes many parts of each class."""
+    return get_type_hints(kind)
 
 
 def described(
@@ -106,20 +113,17 @@ def check(part: Any) -> None:
     InputError
         If a value cannot be read, or does not go with the others; its place is the field.
     """
-    hints = get_type_hints(type(part))
+    kind: Any = type(part)
+    hints = hints_of(kind)
+    mistakes = []
     for each, spec in specs(part):
-        value = getattr(part, each.name)
-        if value == each.default:
-            continue
-        if spec.needs is not None and not getattr(part, spec.needs):
-            raise InputError(
-                f"`{each.name}` belongs to `{spec.needs}`, which is not given",
-                f"give `{spec.needs}` too",
-                each.name,
-            )
-        with placed(each.name):
-            object.__setattr__(part, each.name, _as_declared(value, hints[each.name], spec))
-        value_of(part, each.name)
+        if getattr(part, each.name) != each.default:
+            try:
+                _check_field(part, each.name, hints[each.name], spec)
+            except InputError as error:
+                mistakes.append(error)
+    if mistakes:
+        raise together(mistakes)
     for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
         _require_one(part, names, must)
 
@@ -132,6 +136,16 @@ def option_of(name: str) -> str:
 def words_of(name: str, spec: Spec) -> tuple[str, ...]:
     """Return the option of a field, and its contrary where there is one."""
     return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
+
+
+def _check_field(part: Any, name: str, hint: Any, spec: Spec) -> None:
+    if spec.needs is not None and not getattr(part, spec.needs):
+        raise InputError(
+            f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
+        )
+    with placed(name):
+        object.__setattr__(part, name, _as_declared(getattr(part, name), hint, spec))
+    value_of(part, name)
 
 
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
@@ -177,4 +191,6 @@ def _text(value: Any) -> str:
             f"{value!r} is no value of a recipe",
             "give a number in SI units or a text with a unit, such as '5 um'",
         )
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)  # of a range of whole numbers
     return value.strip() if isinstance(value, str) else repr(value)

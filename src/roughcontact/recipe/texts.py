@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
@@ -22,12 +22,12 @@ __all__ = [
     "RIGID",
     "Amount",
     "Choice",
+    "Modulus",
     "Names",
     "PureNumber",
     "band",
     "known_material",
     "linear_loads",
-    "modulus",
     "points",
     "ranges",
     "rising_loads",
@@ -142,12 +142,16 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
     return read
 
 
-def modulus(what: str) -> Callable[[str], float]:
-    """Return a reader of moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
-    positive = Amount(PRESSURE, what)
+@dataclass(frozen=True, slots=True)
+class Modulus:
+    """Reads moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
 
-    def read(text: str) -> float:
-        value = positive(text)
+    what: str
+    kind: ClassVar = PRESSURE
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        value = Amount(PRESSURE, self.what)(text)
         if value < _FOAM and not quantity.has_unit(text):
             bare = text.strip()
             raise InputError(
@@ -155,8 +159,6 @@ def modulus(what: str) -> Callable[[str], float]:
                 f"write {bare}GPa if gigapascals are meant, or {bare}Pa if it is so",
             )
         return value
-
-    return read
 
 
 def known_material(text: str) -> Material | None:

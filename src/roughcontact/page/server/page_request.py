@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from roughcontact.errors import InputError
+from roughcontact.files.fingerprint import fingerprint
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
@@ -15,7 +16,7 @@ from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import Job, calls_of
 from roughcontact.recipe.library_calls import python_of
 from roughcontact.recipe.source import File
-from roughcontact.recipe.written import fingerprint, from_plain, to_plain, with_files
+from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
 __all__ = ["PageJob", "PageRequest", "Send", "send_map"]
@@ -86,7 +87,12 @@ class PageRequest:
     def recipe(self) -> dict[str, Any]:
         """The job as a file carries it: its files as their user calls them, with their fingerprints."""
         found: list[str] = []
-        with_files(self.job, lambda file: (found.append(fingerprint(Path(file.file))), file)[1])
+
+        def kept(file: File) -> File:
+            found.append(fingerprint(Path(file.file)))
+            return file
+
+        with_files(self.job, kept)
         return to_plain(with_files(self.shown, lambda file: replace(file, sha256=found.pop(0))))
 
     def whole(self, name: str, usual: int, most: int) -> int:
