@@ -9,7 +9,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.cli.messages import UsageError
-from roughcontact.errors import about, correctable, placed, within
+from roughcontact.errors import about, correctable, every, placed, together, within
 from roughcontact.files.file_errors import ContentError
 from roughcontact.study.executors.worker import WorkersError
 from roughcontact.validation import positive, require, whole
@@ -157,3 +157,16 @@ def test_errors_about_input_are_written_with_their_fields(path):
         if name in OURS:
             message = next(filter(None, map(text_of, call.args)), "")
             assert not REMEDY.search(message), f"{path}:{call.lineno}: give the remedy by itself"
+
+
+def test_several_mistakes_are_one_error_with_each_of_them():
+    one, other = rc.InputError("0 is no length", "give another", "size"), rc.InputError("no unit")
+    assert together([one]) is one
+    assert every(one) == (one,)
+    with pytest.raises(rc.InputError) as refused, within("source"):
+        raise together([one, other])
+    assert str(refused.value) == "source.size: 0 is no length; give another; source: no unit"
+    assert refused.value.place == "source.size, source"
+    again = pickle.loads(pickle.dumps(refused.value))
+    assert [each.place for each in every(again)] == ["source.size", "source"]
+    assert str(again) == str(refused.value)

@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-__all__ = ["InputError", "about", "correctable", "joined", "placed", "within"]
+__all__ = [
+    "InputError",
+    "about",
+    "correctable",
+    "every",
+    "in_place",
+    "joined",
+    "placed",
+    "together",
+    "within",
+]
 
 
 class InputError(ValueError):
@@ -37,6 +47,7 @@ class InputError(ValueError):
         self.message = message
         self.remedy = remedy
         self.place = place
+        self.parts: tuple[InputError, ...] = ()
 
     def __str__(self) -> str:
         return joined(self.message, self.remedy)
@@ -45,6 +56,34 @@ class InputError(ValueError):
 def joined(message: str, remedy: str | None) -> str:
     """Return a message and its remedy in one line."""
     return message if remedy is None else f"{message}{';' if ': ' in message else ':'} {remedy}"
+
+
+def in_place(error: InputError) -> str:
+    """Return an error in one line, its place in front."""
+    if error.place is None:
+        return str(error)
+    return joined(f"{error.place}: {error.message}", error.remedy)
+
+
+def every(error: InputError) -> tuple[InputError, ...]:
+    """Return the error of each value that cannot be used."""
+    return error.parts or (error,)
+
+
+def together(found: Sequence[InputError]) -> InputError:
+    """Return the error about several values that cannot be used; of one its own."""
+    if len(found) == 1:
+        return found[0]
+    whole = InputError("")
+    whole.parts = tuple(found)
+    _restate(whole)
+    return whole
+
+
+def _restate(whole: InputError) -> None:
+    """Say of an error about several values what its parts say."""
+    whole.message = "; ".join(map(in_place, whole.parts))
+    whole.place = ", ".join(each.place for each in whole.parts if each.place) or None
 
 
 def correctable(error: BaseException) -> InputError | None:
@@ -83,6 +122,9 @@ def within(place: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        parts = [] if error.place is None else error.place.split(", ")
-        error.place = ", ".join(f"{place}.{part}" for part in parts) or place
+        for each in every(error):
+            names = [] if each.place is None else each.place.split(", ")
+            each.place = ", ".join(f"{place}.{name}" for name in names) or place
+        if error.parts:
+            _restate(error)
         raise

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.errors import placed
 from roughcontact.page.refusal import refusal
 
 
@@ -32,20 +31,12 @@ def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
     assert "not in your input" in found["message"]
 
 
-def test_a_foreign_error_at_a_field_stays_a_mistake_of_ours():
-    def failed():
-        with placed("load"):
-            float("three")
-
-    assert caught(failed)["how"] == "mistake"
-
-
 def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):
     file = tmp_path / "heights.npy"
     np.save(file, np.random.default_rng(1).normal(size=(8, 8)))
     found = caught(lambda: rc.read(file))
     assert found["how"] == "refused"
-    assert "size" in found["lacking"]
+    assert "size" in found["places"]
     assert "the width of the map" in found["remedy"]
 
 
@@ -54,14 +45,3 @@ def test_the_folder_of_the_server_stays_unsaid(tmp_path):
     assert found["how"] == "refused"
     assert "part.x3p" in found["message"]
     assert str(tmp_path) not in str(found)
-
-
-def test_the_field_of_the_page_is_the_last_part_of_the_place():
-    def failed():
-        with placed("preparation.short_cutoff"):
-            raise rc.InputError("too short", "give more")
-
-    assert caught(failed) == {
-        **{"how": "refused", "message": "Too short.", "remedy": "Give more.", "field": "short_cutoff"}
-    }
-    assert "field" not in caught(lambda: (_ for _ in ()).throw(rc.InputError("too short")))

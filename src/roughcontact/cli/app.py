@@ -27,7 +27,11 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         curve_command as curve_command,
         press_command as press_command,
     )
-    from roughcontact.cli.study import averages_command as averages_command, study_command as study_command
+    from roughcontact.cli.study import (
+        averages_command as averages_command,
+        study_command as study_command,
+        study_from_command as study_from_command,
+    )
     from roughcontact.cli.surface import (
         prepare_command as prepare_command,
         spectrum_command as spectrum_command,

@@ -28,6 +28,7 @@ SURFACE = {
     "spectrum": "surface.spectrum_command",
 }
 STUDY = {
+    "from": "study.study_from_command",
     "run": "study.study_command",
     "status": "study.study_command",
     "export": "study.study_command",

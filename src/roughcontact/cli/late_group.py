@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
+from keyword import iskeyword
 from typing import Any
 
 import typer
@@ -125,7 +126,7 @@ def _imported(module: str, name: str) -> Any:
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    command: Any = grouped(members[name])
+    command: Any = grouped(members[_function(name)])
     alone.command(name, cls=_Command, epilog=epilog)(command)
     found: Any = typer.main.get_command(alone)
     found.more = command.more
@@ -139,6 +140,13 @@ def _summary(module: str, name: str) -> str:
     if source is None:  # a bundle of the program holds no text
         return _imported(module, name).help or ""
     function = next(
-        node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef) and node.name == name
+        node
+        for node in ast.parse(source).body
+        if isinstance(node, ast.FunctionDef) and node.name == _function(name)
     )
     return cleandoc(ast.get_docstring(function) or "").partition("\n\n")[0]
+
+
+def _function(name: str) -> str:
+    """Return the name of the function that is a command: a word of Python's own has a line behind it."""
+    return f"{name}_" if iskeyword(name) else name

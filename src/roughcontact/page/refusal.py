@@ -11,7 +11,7 @@ from roughcontact.files.file_errors import ReadError
 
 __all__ = ["on_the_page", "refusal"]
 
-# What the library says by names and calls of Python; all else is derived from the place of an error.
+# What the library says by names and calls of Python.
 _WORDS = {
     "poisson_ratio": "Poisson's ratio",
     "young_modulus": "Young's modulus",
@@ -19,6 +19,8 @@ _WORDS = {
     "long_cutoff": "the long cut-off",
     "pass channel= for another": "choose another under Channel",
     "take them out by masked()": "crop them away",
+    "unit=": "the unit of the heights",
+    "size=": "the width",
 }
 _LACKING = {"unit": "the unit of the heights", "size": "the width of the map", "channel": "the channel"}
 
@@ -32,24 +34,21 @@ def refusal(error: Exception) -> dict[str, Any]:
     if isinstance(error, OSError):  # its folder is the server's: the user knows the name alone
         return _refused(found.message.replace(str(found.place), f"the file {Path(str(found.place)).name}"))
     places = [] if found.place is None else found.place.split(", ")
-    if not isinstance(found, ReadError):
-        fields = {"field": places[0].rpartition(".")[2]} if places else {}
-        return _refused(found.message, found.remedy) | fields
-    remedy = found.remedy
-    if places:
-        remedy = f"Give {' and '.join(_LACKING[name] for name in places)}."
-    elif remedy is not None and "read_line" in remedy:
-        remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
-    return _refused(found.problem, remedy) | {"lacking": places}
+    message, remedy = found.message, found.remedy
+    if isinstance(found, ReadError):
+        message, fields = found.problem, [place.rpartition(".")[2] for place in places]
+        if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
+            remedy = f"Give {' and '.join(lacking)}."
+        elif remedy is not None and "read_line" in remedy:
+            remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
+    return _refused(message, remedy) | {"places": places}
 
 
 def on_the_page(text: str) -> str:
-    """Return what the library says, in the words of the page."""
+    """Return what the library says, in the words of the page: fields by their labels."""
     for python, words in _WORDS.items():
         text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
-    for name, words in _LACKING.items():
-        text = text.replace(f"{name}=", words)
-    return text
+    return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)
 
 
 def _refused(message: str, remedy: str | None = None) -> dict[str, Any]:

@@ -10,35 +10,36 @@ from roughcontact.errors import InputError
 from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
 from roughcontact.recipe.library_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, PureNumber, known_material, modulus
+from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, PureNumber, known_material
 
 __all__ = ["Bodies", "Conduction", "hardness_of"]
 
-_YOUNG = modulus("Young's modulus")
+_YOUNG = Modulus("Young's modulus")
 _POISSON = PureNumber(-0.99, 0.5, "Poisson's ratio", "0.3")
 
 
 def _pair_of_materials(text: str) -> tuple[str, str]:
     """Return the names of two materials, of which one may be rigid."""
-    names = [part.strip().lower() for part in text.split(",")]
+    names = [part.strip() for part in text.split(",")]
     if len(names) != 2 or not all(names):
         raise InputError(
             f"{text!r} does not name two bodies",
             "name both, such as steel,aluminium or steel,steel or steel,rigid",
         )
     for name in names:
-        if name != RIGID and known_material(name) is None:
+        if name.lower() != RIGID and known_material(name) is None:
             raise InputError(f"{name!r} is no name", "give a number of yours as `young` or `modulus`")
-    if names == [RIGID, RIGID]:
+    one, other = map(str.lower, names)
+    if one == other == RIGID:
         raise InputError("one of the two bodies must be elastic", "name a material, such as steel,rigid")
-    return names[0], names[1]
+    return one, other
 
 
 def hardness_of(text: str) -> Call | float:
     """Return a hardness [Pa], or the call that looks it up."""
     if (material := known_material(text)) is not None:
         return Call("rc.handbook", (material.name,), attribute="hardness")
-    return modulus("a hardness")(text)
+    return Modulus("a hardness")(text)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +49,7 @@ class Bodies:
     TITLE: ClassVar = "The two bodies"
     ONE_OF: ClassVar = ("modulus", "materials", "young")
     modulus: str | None = described(
-        "Reduced modulus E*.", "110GPa", read=modulus("the reduced modulus"), everyday=True
+        "Reduced modulus E*.", "110GPa", read=Modulus("the reduced modulus"), everyday=True
     )
     materials: str | None = described(
         f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",

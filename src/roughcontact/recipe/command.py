@@ -13,7 +13,7 @@ from roughcontact.recipe.source import File, SelfAffine
 
 __all__ = ["command_name", "command_of"]
 
-_MADE = "rough.npz"
+_MADE, _PREPARED = "rough.npz", "prepared.npz"
 
 
 def command_name(job: Job) -> str:
@@ -27,15 +27,19 @@ def command_of(job: Job, recipe: str = "job.toml") -> str:
     A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
     """
     if isinstance(job.source, File):
-        return _line(*command_name(job).split(), job.source.file, *_options(job))
+        return _line(*_words(job, job.source.file), *_options(job))
     if not isinstance(job.source, SelfAffine) or is_of_profile(job):
         return _line("run", recipe)
     return "\n".join(
         [
             _line("surface", "make", _MADE, *_options_of(job.source)),
-            _line(*command_name(job).split(), _MADE, *_options(job)),
+            _line(*_words(job, _MADE), *_options(job)),
         ]
     )
+
+
+def _words(job: Job, file: str) -> tuple[str, ...]:
+    return (*command_name(job).split(), file, *([_PREPARED] if job.NAME == "surface" else []))
 
 
 def _line(*parts: str) -> str:

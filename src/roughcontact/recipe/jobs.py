@@ -8,10 +8,19 @@ from typing import Any, TypeAlias
 from roughcontact.errors import within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
-from roughcontact.recipe.library_calls import Call, perform
+from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.source import File, SmoothBody
 
-__all__ = ["JOBS", "Job", "calls_of", "is_of_profile", "known_names", "surface_calls", "surface_of"]
+__all__ = [
+    "JOBS",
+    "Job",
+    "calls_of",
+    "contact_calls",
+    "is_of_profile",
+    "known_names",
+    "surface_calls",
+    "surface_of",
+]
 
 Job: TypeAlias = (
     SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
@@ -52,6 +61,11 @@ def is_of_profile(job: Job) -> bool:
 def calls_of(job: Job) -> Iterator[Call]:
     """Yield the calls that do a job, from the file to the answer."""
     yield from surface_calls(job)
+    yield from contact_calls(job)
+
+
+def contact_calls(job: Job) -> Iterator[Call]:
+    """Yield the calls that press the prepared surface; none where heights are all that is asked for."""
     if not isinstance(job, SurfaceJob):
         yield from job.bodies.calls()
         yield from job.contact.calls()
@@ -60,10 +74,7 @@ def calls_of(job: Job) -> Iterator[Call]:
 
 def surface_of(job: Job) -> Any:
     """Return the surface of a job, prepared."""
-    known = known_names()
-    for call in surface_calls(job):
-        perform(call, known)
-    return known["surface"]
+    return performed(surface_calls(job), known_names())["surface"]
 
 
 def known_names() -> dict[str, Any]:

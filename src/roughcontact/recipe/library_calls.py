@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from functools import reduce
 from typing import Any
 
-from roughcontact.errors import within
+from roughcontact.errors import InputError
 
-__all__ = ["Call", "Name", "perform", "python_of"]
+__all__ = ["Call", "Name", "perform", "performed", "python_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +57,14 @@ class Call:
 
     def value(self, known: Mapping[str, Any]) -> Any:
         """Return what is returned, with the variables that are known."""
-        called = _found(self.function, known)
-        given = [_value(each, known) for each in self.given]
-        found = called(*given, **{name: _value(each, known) for name, each in self.named.items()})
+        given, named = self.arguments(known)
+        found = _found(self.function, known)(*given, **named)
         return getattr(found, self.attribute) if self.attribute else found
+
+    def arguments(self, known: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
+        """Return the values of its arguments, by place and by name, with the variables that are known."""
+        given = [_value(each, known) for each in self.given]
+        return given, {name: _value(each, known) for name, each in self.named.items()}
 
     def __str__(self) -> str:
         arguments = [written(each) for each in self.given]
@@ -72,11 +76,31 @@ class Call:
 
 def perform(call: Call, known: dict[str, Any]) -> None:
     """Make a call; its result is known from then on. An error of ours names its place in the recipe."""
-    with within(call.place):
+    try:
         found = call.value(known)
         if call.result.startswith("*_, "):
             *_, found = found
+    except InputError as error:
+        error.place = _place(call, error.place)
+        raise
     known[call.result.removeprefix("*_, ")] = found
+
+
+def _place(call: Call, place: str | None) -> str | None:
+    """Return the fields of a recipe that an error in a call concerns: those of its arguments, where they are fields."""
+    part, _, field = call.place.partition(".")
+    names = place.split(", ") if place else []
+    if field:  # a step: of its arguments those by name are fields
+        names = [name for name in names if name in call.named]
+    return ", ".join(f"{part}.{name}" for name in names) or call.place
+
+
+def performed(calls: Iterable[Call], known: dict[str, Any]) -> dict[str, Any]:
+    """Return what is known, with the results of some calls that were made in order."""
+    known = dict(known)
+    for call in calls:
+        perform(call, known)
+    return known
 
 
 def python_of(calls: Iterable[Call]) -> str:
@@ -109,4 +133,6 @@ def _found(path: str, known: Mapping[str, Any]) -> Any:
 
 
 def _value(argument: Any, known: Mapping[str, Any]) -> Any:
+    if isinstance(argument, tuple):
+        return tuple(_value(each, known) for each in argument)
     return argument.value(known) if isinstance(argument, Call | Name) else argument

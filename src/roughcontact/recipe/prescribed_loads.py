@@ -112,9 +112,7 @@ class AdhesiveLoad:
         "-2nm",
         everyday=True,
     )
-    mean_gap: str | None = described(
-        "Mean gap, on a periodic map without missing points.", "100nm", everyday=True
-    )
+    mean_gap: str | None = described("Mean gap, on a periodic map without missing points.", "100nm")
 
     def __post_init__(self) -> None:
         check(self)
@@ -127,7 +125,7 @@ class AdhesiveLoad:
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
                     f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
-                    f"give a curve with `{name}s` 0,{text}",
+                    f"compute an adhesion curve with `{name}s` 0,{text}",
                 )
         return {name: value}
 
@@ -149,7 +147,7 @@ class AdhesiveLoads:
     )
     pressures: str | None = described("Nominal pressures, likewise.", "0Pa,1kPa,-1kPa", everyday=True)
     mean_gaps: str | None = described(
-        "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9", everyday=True
+        "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9"
     )
 
     def __post_init__(self) -> None:
@@ -199,7 +197,7 @@ class FallingLoads:
                 if after > before:
                     raise InputError(
                         f"the {name} of a retreat must fall, and {after:g} follows {before:g}",
-                        "leave it out, or follow an approach and a retreat as an adhesive curve",
+                        "leave it out, or compute an adhesion curve",
                         name,
                     )
         return found

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
 from numbers import Integral, Real
 from typing import Any, get_args, get_type_hints
 
-from roughcontact.errors import InputError, placed
+from roughcontact.errors import InputError, placed, together
 
-__all__ = ["Spec", "check", "described", "given", "option_of", "refused", "specs", "value_of", "words_of"]
+__all__ = [
+    "Spec",
+    "check",
+    "described",
+    "given",
+    "hints_of",
+    "option_of",
+    "refused",
+    "specs",
+    "value_of",
+    "words_of",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +68,12 @@ class Spec:
     positional: bool = False
     opposite: str | None = None
     step: Any = None
+
+
+@cache
+def hints_of(kind: Any) -> dict[str, Any]:
+    """Return the types of the fields of a class; a study makes many parts of each class."""
+    return get_type_hints(kind)
 
 
 def described(
@@ -107,23 +125,16 @@ def check(part: Any) -> None:
     InputError
         If a value cannot be read, or does not go with the others; its place is the field.
     """
-    hints = get_type_hints(type(part))
+    kind: Any = type(part)
+    hints = hints_of(kind)
+    mistakes = []
     for each in fields(part):
-        value, spec = getattr(part, each.name), each.metadata.get("spec")
-        if spec is None:
-            _require_part(value, hints[each.name], each.name)
-            continue
-        if type(value) is type(each.default) and value == each.default:
-            continue
-        if spec.needs is not None and not getattr(part, spec.needs):
-            raise InputError(
-                f"`{each.name}` belongs to `{spec.needs}`, which is not given",
-                f"give `{spec.needs}` too",
-                each.name,
-            )
-        with placed(each.name):
-            object.__setattr__(part, each.name, _as_declared(value, hints[each.name], spec))
-        value_of(part, each.name)
+        try:
+            _check_field(part, each, hints[each.name])
+        except InputError as error:
+            mistakes.append(error)
+    if mistakes:
+        raise together(mistakes)
     for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
         _require_one(part, names, must)
 
@@ -138,10 +149,23 @@ def words_of(name: str, spec: Spec) -> tuple[str, ...]:
     return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
 
 
-def _require_part(value: Any, kind: Any, name: str) -> None:
-    if not isinstance(value, kind):
-        classes = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
-        raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
+    name, value, spec = declared.name, getattr(part, declared.name), declared.metadata.get("spec")
+    if spec is None:
+        if not isinstance(value, hint):
+            classes = " or ".join(each.__name__ for each in get_args(hint) or (hint,))
+            raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+        return
+    if type(value) is type(declared.default) and value == declared.default:
+        return
+    wanted = True if spec.needs is None else getattr(part, spec.needs)
+    if wanted is None or wanted is False:
+        raise InputError(
+            f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
+        )
+    with placed(name):
+        object.__setattr__(part, name, _as_declared(value, hint, spec))
+    value_of(part, name)
 
 
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
@@ -186,7 +210,10 @@ def _text(value: Any) -> str:
         raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
     if isinstance(value, str):
         return value.strip()
-    return repr(int(value) if isinstance(value, Integral) else float(value))
+    if isinstance(value, Integral):
+        return repr(int(value))
+    number = float(value)  # of a range of whole numbers, each is written as one
+    return repr(int(number) if number.is_integer() else number)
 
 
 def refused(value: Any, what: str, remedy: str, place: str | None = None) -> InputError:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
@@ -22,12 +22,12 @@ __all__ = [
     "RIGID",
     "Amount",
     "Choice",
+    "Modulus",
     "Names",
     "PureNumber",
     "band",
     "known_material",
     "linear_loads",
-    "modulus",
     "points",
     "ranges",
     "rising_loads",
@@ -70,17 +70,18 @@ class Amount:
 
 @dataclass(frozen=True, slots=True)
 class PureNumber:
-    """Reads a number without a unit between two ends, which may be reached."""
+    """Reads a number without a unit between two ends, which may be reached where they count."""
 
     low: float
     high: float
     what: str
     example: str
+    ends: bool = True
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
         value = quantity.parse_number(text, self.example)
-        if not self.low <= value <= self.high:
+        if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
             raise InputError(
                 f"{self.what} lies between {self.low:g} and {self.high:g}, not at {text!r}",
                 f"give a number such as {self.example}",
@@ -143,12 +144,16 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
     return read
 
 
-def modulus(what: str) -> Callable[[str], float]:
-    """Return a reader of moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
-    positive = Amount(PRESSURE, what)
+@dataclass(frozen=True, slots=True)
+class Modulus:
+    """Reads moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
 
-    def read(text: str) -> float:
-        value = positive(text)
+    what: str
+    kind: ClassVar = PRESSURE
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        value = Amount(PRESSURE, self.what)(text)
         if value < _FOAM and not quantity.has_unit(text):
             bare = text.strip()
             raise InputError(
@@ -156,8 +161,6 @@ def modulus(what: str) -> Callable[[str], float]:
                 f"write {bare}GPa if gigapascals are meant, or {bare}Pa if it is so",
             )
         return value
-
-    return read
 
 
 def known_material(text: str) -> Material | None:
@@ -260,7 +263,7 @@ def ranges(text: str) -> tuple[slice, ...]:
 
 def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
     ends = text.split(":")
-    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,9}\s*", ends[2]) is None:
+    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
         raise InputError(f"{text!r} is no range", f"write from:to:count, such as {example}")
     low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
     if not 2 <= count <= MOST_LOADS:

@@ -3,33 +3,31 @@
 from __future__ import annotations
 
 import difflib
-import hashlib
 import json
 import os
 import tomllib
 import types
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Union, get_args, get_origin
 
-from roughcontact.errors import InputError, within
+import tomli_w
+
+from roughcontact.errors import InputError, every, together, within
+from roughcontact.files.aside import written_aside
 from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError, ReadError
+from roughcontact.files.fingerprint import fingerprint
 from roughcontact.files.netcdf import opened
+from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
-from roughcontact.recipe.recipe_fields import given, refused
+from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 
 __all__ = [
-    "FORMAT",
-    "carried",
-    "from_plain",
-    "located",
-    "pinned",
-    "read_job",
-    "require_same_files",
-    "to_plain",
+    *("FORMAT", "carried", "field_at", "from_plain", "located", "pinned", "read_job", "require_same_files"),
+    *("to_plain", "with_files", "write_job"),
 ]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
@@ -59,7 +57,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
     Raises
     ------
     InputError
-        If they state none: the place is the part and the field.
+        If they state none: all that is wrong, each with its part and field as its place.
     """
     values = dict(plain)
     number = values.pop("format", FORMAT)
@@ -80,16 +78,47 @@ def _part(kind: Any, values: Any) -> Any:
     """Return a part made of its fields, each of the type that is declared."""
     if not isinstance(values, Mapping):
         raise refused(values, "no table of fields", f"give a table of {_names(kind)}")
-    hints, known = get_type_hints(kind), {each.name: each for each in fields(kind)}
-    for name in values:
-        if name not in known:
-            near = difflib.get_close_matches(str(name), known, 1)
-            remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
-            raise InputError(f"there is no {name!r} here", remedy, str(name))
-    for name, each in known.items():
-        if name not in values and each.default is MISSING and each.default_factory is MISSING:
-            raise InputError(f"{name} is missing", f"give {name}", name)
-    return kind(**{name: _value(name, hints[name], value) for name, value in values.items()})
+    hints, known = hints_of(kind), {each.name: each for each in fields(kind)}
+    mistakes = [
+        InputError(f"{name} is missing", f"give {name}", name)
+        for name, each in known.items()
+        if name not in values and each.default is MISSING and each.default_factory is MISSING
+    ]
+    made = {}
+    for name, value in values.items():
+        try:
+            if name not in known:
+                near = difflib.get_close_matches(str(name), known, 1)
+                remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
+                raise InputError(f"there is no {name!r} here", remedy, str(name))
+            made[name] = _value(name, hints[name], value)
+        except InputError as error:
+            mistakes += every(error)
+    if mistakes:
+        raise together(mistakes)
+    return kind(**made)
+
+
+def field_at(plain: Mapping[str, Any], name: str) -> Spec:
+    """Return what is known of the field at a dotted name of a recipe in plain values, such as ``"bodies.modulus"``.
+
+    Raises
+    ------
+    InputError
+        If there is no such field.
+    """
+    kind: Any = JOBS.get(plain.get("job", ""), SurfaceJob)
+    for each in name.split("."):
+        found: dict[str, Spec | None] = {one.name: one.metadata.get("spec") for one in fields(kind)}
+        if each not in found:
+            raise InputError(f"there is no {each!r} here", f"there are {_names(kind)}", name)
+        if (spec := found[each]) is not None:
+            return spec
+        plain = plain.get(each, {})
+        hint = hints_of(kind)[each]
+        members = {one.KIND: one for one in get_args(hint)} if _is_union(hint) else {}
+        kind = members.get(plain.get("kind", File.KIND), File) if members else hint
+    raise InputError(f"{name} is no single value", f"there are {_names(kind)}", name)
 
 
 def _value(name: str, kind: Any, value: Any) -> Any:
@@ -191,7 +220,22 @@ def carried(job: Job, folder: Path | None) -> dict[str, Any]:
 
 def located(job: Job, folder: Path) -> Job:
     """Return a job whose relative file names, which count from a folder, count from the current one."""
-    return _with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+
+
+def write_job(job: Job, path: Path) -> None:
+    """Write a job as TOML; its files are named from the folder of the file, with their fingerprints.
+
+    Raises
+    ------
+    WriteError
+        If it cannot be written.
+    ReadError
+        If one of its files cannot be read.
+    """
+    text = tomli_w.dumps(to_plain(pinned(job, path.parent)))
+    with written_aside(path) as aside:
+        aside.write_text(text, encoding="utf-8")
 
 
 def pinned(job: Job, folder: Path) -> Job:
@@ -199,9 +243,9 @@ def pinned(job: Job, folder: Path) -> Job:
 
     def pin(file: File) -> File:
         name = os.path.relpath(file.file, folder)
-        return replace(file, file=Path(name).as_posix(), sha256=_digest(Path(file.file)))
+        return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
-    return _with_files(job, pin)
+    return with_files(job, pin)
 
 
 def require_same_files(job: Job) -> None:
@@ -214,7 +258,7 @@ def require_same_files(job: Job) -> None:
     """
 
     def require(file: File) -> File:
-        if file.sha256 is not None and _digest(Path(file.file)) != file.sha256:
+        if file.sha256 is not None and fingerprint(Path(file.file)) != file.sha256:
             raise InputError(
                 f"{file.file} is not the file that the recipe was written for: its SHA-256 differs",
                 "give that file, or leave out sha256 to take this one",
@@ -222,23 +266,15 @@ def require_same_files(job: Job) -> None:
             )
         return file
 
-    _with_files(job, require)
+    with_files(job, require)
 
 
-def _with_files(job: Job, change: Any) -> Job:
+def with_files(job: Job, change: Callable[[File], File]) -> Job:
+    """Return a job with each of its files changed by a function."""
+
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):
             return replace(source, lower=changed(source.lower), upper=changed(source.upper))
         return change(source) if isinstance(source, File) else source
 
     return replace(job, source=changed(job.source))
-
-
-def _digest(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError as error:
-        raise ReadError(
-            str(path), error.strerror or str(error), "give the name of a file that is there"
-        ) from error

@@ -68,6 +68,7 @@ def run(
     3
     """
     start = time.monotonic()
+    study.require_files()
     with Store.open(folder, study) as store:
         known = store.done_keys() if retry else store.done_keys() | store.failed_keys()
         summary = store.summary().with_failed_left() if retry else store.summary()

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, every, in_place, together
 from roughcontact.files.aside import WriteError
 
 if TYPE_CHECKING:
@@ -17,18 +17,21 @@ if TYPE_CHECKING:
 
 __all__ = [
     *(
+        "MOST_MISTAKES",
         "SAFE",
         "StoreError",
         "StudyError",
         "computed_again",
         "disk_trouble",
         "expected",
-        "invalid",
+        "mistakes_of",
         "on_disk",
+        "refusal",
     ),
 ]
 
 SAFE = "what was stored before is safe"
+MOST_MISTAKES = 20  # in one message
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
@@ -42,7 +45,7 @@ class StudyError(InputError):
     ...     rc.study.Study(name="few", case="curve", parameters={"hurts": 0.8})
     ... except rc.study.StudyError as error:
     ...     print(str(error).partition("?")[0] + "?")
-    parameters: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
+    parameters.hurts: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
     """
 
 
@@ -107,24 +110,39 @@ def expected(name: str, known: Iterable[str]) -> str:
     return (f"did you mean {near[0]!r}? " if near else "") + f"It may be {', '.join(known)}"
 
 
-def invalid(error: ValidationError, known: Iterable[str] = ()) -> StudyError:
-    """Return the error about all that is wrong with the values of a model, which has fields of the `known` names."""
-    found = [_invalid(each, known) for each in error.errors(include_url=False)]
-    if len(found) == 1:
-        return found[0]
-    return StudyError("; ".join(map(str, found)), place=", ".join(each.place for each in found if each.place))
+def refusal(found: Sequence[InputError]) -> StudyError:
+    """Return the error about all mistakes of a study, each with its place; at most the first `MOST_MISTAKES`."""
+    shown = list(found[:MOST_MISTAKES])
+    if len(found) > len(shown):
+        shown.append(StudyError("more mistakes like these follow", "correct these first"))
+    if len(shown) == 1:
+        [one] = shown
+        text = in_place(InputError(one.message, None, one.place))
+        error = StudyError(text, one.remedy, one.place)
+    else:
+        whole = together(shown)
+        error = StudyError(whole.message, None, whole.place)
+    error.parts = tuple(found)
+    return error
 
 
-def _invalid(found: Mapping[str, Any], known: Iterable[str]) -> StudyError:
-    place = ".".join(str(part) for part in found["loc"])
-    if found["type"] == "extra_forbidden":
-        return StudyError(f"there is no {place!r}: {expected(place, known)}", place=place)
-    if found["type"] == "missing":
-        return StudyError(f"{place!r} is missing", place=place)
+def mistakes_of(error: ValidationError, known: Iterable[str] = ()) -> list[InputError]:
+    """Return all that is wrong with the values of a model, which has fields of the `known` names."""
+    return [each for found in error.errors(include_url=False) for each in _mistakes(found, known)]
+
+
+def _mistakes(found: Mapping[str, Any], known: Iterable[str]) -> Iterator[InputError]:
+    loc = [str(part) for part in found["loc"]]
+    place = ".".join(loc)
     own = found.get("ctx", {}).get("error")  # of a validator, with words of its own
     if isinstance(own, InputError):
-        words, remedy = own.message, own.remedy
+        for each in every(own):
+            where = ".".join([*loc, *([each.place] if each.place else [])])
+            yield InputError(each.message, each.remedy, where or None)
+    elif found["type"] == "extra_forbidden":
+        yield InputError(f"there is no {place!r}: {expected(place, known)}", None, place)
+    elif found["type"] == "missing":
+        yield InputError(f"{place!r} is missing", f"give {loc[-1]}", place)
     else:
-        words = f"{found['input']!r} {found['msg'].removeprefix('Input ').removeprefix('Value ')}"
-        remedy = None
-    return StudyError(f"{place}: {words}" if place else words, remedy, place or getattr(own, "place", None))
+        words = found["msg"].removeprefix("Input ").removeprefix("Value ")
+        yield InputError(f"{found['input']!r} {words}", None, place or None)

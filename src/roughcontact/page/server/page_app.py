@@ -230,21 +230,12 @@ def _refusal(status: int, words: str) -> Response:
 
 def _choices() -> dict[str, Any]:
     """Return what can be chosen by name."""
-    from roughcontact.materials import MATERIALS
+    from roughcontact.page.forms import forms
     from roughcontact.theory.laws import LAWS
 
     given = {"hardness", "radius"}  # what no surface shows
     laws = {name: law.about for name, law in LAWS.items() if not given & {*law.needs} - {"hardness"}}
-    materials = {
-        name: {
-            "grade": each.grade,
-            "young": each.solid.young_modulus,
-            "poisson": each.solid.poisson_ratio,
-            "hardness": each.hardness,
-        }
-        for name, each in MATERIALS.items()
-    }
-    return {"materials": materials, "theories": laws}
+    return {"forms": forms(), "theories": laws}
 
 
 def _files() -> list[tuple[str, bytes]]:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
         asperities_case,  # noqa: F401
         cells_case,  # noqa: F401
         curve_case,  # noqa: F401
+        job_case,  # noqa: F401
         lines_case,  # noqa: F401
         loop_case,  # noqa: F401
         patch_case,  # noqa: F401
@@ -27,7 +28,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
 __all__ = ["CASES", "find_case"]
 
 # A case is opened when it is first asked for.
-_NAMES = ("adhesion", "asperities", "cells", "curve", "lines", "loop", "patch", "slip", "yielding")
+_NAMES = ("adhesion", "asperities", "cells", "curve", "job", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "a case of your own is named as module:attribute"
 

@@ -19,6 +19,9 @@ from roughcontact.validation import require
 __all__ = ["ForceRange", "PressedSquare", "RoughSquare", "require_rising"]
 
 
+_LIMITS = ("rolloff", "long_cutoff", "short_cutoff")
+
+
 def require_rising(parameters: Any, what: str) -> None:
     """Refuse parameters whose lowest load is not below the highest."""
     low, high = (getattr(parameters, f"{end}_{what}") for end in ("lowest", "highest"))
@@ -79,10 +82,15 @@ class RoughSquare(Parameters):
         Whether the body repeats itself.
     radius : float, optional
         Radius of curvature of a paraboloid under the roughness, its apex in the middle [m].
+    modulus : float
+        Reduced modulus E* [Pa].
+    tolerance : float
+        Of the certificate of every state.
     """
 
     points: int = Field(ge=4)
     size: Positive[Length]
+    modulus: Positive[Pressure]
     hurst: float = Field(ge=-1, le=3)
     rms: Positive[Length]
     rms_band: tuple[Positive[float], Positive[float]] | None = None
@@ -92,6 +100,7 @@ class RoughSquare(Parameters):
     amplitudes: Literal["exact", "gaussian"] = "exact"
     periodic: bool = False
     radius: Positive[Length] | None = None
+    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
 
     @model_validator(mode="after")
     def _band_on_grid(self) -> Self:
@@ -116,24 +125,14 @@ class RoughSquare(Parameters):
 
     def roughness_on(self, grid: Grid, rng: np.random.Generator) -> Surface:
         """Return the roughness on a grid of other sides, its limits the same lengths."""
-        return self_affine(
-            grid,
-            self.hurst,
-            self.rms,
-            rng,
-            rms_band=self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size),
-            rolloff=self._length(self.rolloff),
-            long_cutoff=self._length(self.long_cutoff),
-            short_cutoff=self._length(self.short_cutoff),
-            amplitudes=self.amplitudes,
-        )
+        limits = {name: (part := getattr(self, name)) and part * self.size for name in _LIMITS}
+        band = self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size)
+        spectrum = {"amplitudes": self.amplitudes, "rms_band": band, **limits}
+        return self_affine(grid, self.hurst, self.rms, rng, **spectrum)
 
     def on_body(self, roughness: Surface) -> Surface:
         """Return a roughness on the body that it belongs to."""
         return roughness if self.radius is None else paraboloid(self.grid, self.radius) + roughness
-
-    def _length(self, part: float | None) -> float | None:
-        return None if part is None else part * self.size
 
 
 class PressedSquare(RoughSquare):
@@ -141,15 +140,12 @@ class PressedSquare(RoughSquare):
 
     Parameters
     ----------
-    modulus : float
-        Reduced modulus E* [Pa].
     hardness : float, optional
         Pressure that no cell exceeds [Pa].
     relative_hardness : float, optional
         The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
     """
 
-    modulus: Positive[Pressure]
     hardness: Positive[Pressure] | None = None
     relative_hardness: float | None = Field(default=None, gt=0)
 
