@@ -3,7 +3,9 @@
 import json
 import shlex
 import shutil
+import zipfile
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,9 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
+from roughcontact.page import page_worker
+from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.stopping import Stopping
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.jobs import calls_of
 from roughcontact.recipe.library_calls import python_of
@@ -20,7 +25,7 @@ from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.recipe_fields import given, specs
 from roughcontact.recipe.repeated import differences
 from roughcontact.recipe.source import SOURCES, InPython
-from roughcontact.recipe.written import read_job
+from roughcontact.recipe.written import read_job, to_plain
 from roughcontact.threads import limit_threads, one_blas_thread
 
 JOBS = {path.stem: path for path in sorted((Path(__file__).parent / "jobs").glob("*.toml"))}
@@ -33,6 +38,11 @@ KINDS = {
 }
 # The variable that holds the answer, in the Python of a job.
 ANSWERS = {"press": "solution", "curve": "curve", "adhesion press": "state"}
+# A page presses maps, and shows no state of surfaces that stick by itself.
+PAGE = [
+    *(*KINDS["elastic"], *KINDS["under a hardness"]),
+    *("adhesive_curve", "adhesive_loop", "detachment"),
+]
 every_job = pytest.mark.parametrize("name", JOBS)
 
 
@@ -174,4 +184,32 @@ def test_a_changed_digit_is_reported(name, quantity, there):
     assert answer.exit_code == 1, answer.stderr
     assert (
         f"Note: 1 quantity differs:\nNote: {quantity}: 1 of {len(values)} differ, by at most" in answer.stderr
+    )
+
+
+def on_the_page(name, home):
+    """Return the messages of a worker of the page that exports the answer to a job, and the archive's files."""
+    plain, sent = to_plain(read_job(Path(f"{name}.toml"))), []
+    file = plain["source"].get("file")
+    files = {} if file is None else {file: {"path": str(home / file), "name": file}}
+    request = {"number": 1, "job": "export", "recipe": plain, "files": files, "more": {"kind": "zip"}}
+    page_worker.perform(
+        request, SessionCache(), lambda header, data=b"": sent.append((header, data)), Stopping()
+    )
+    packed = [data for header, data in sent if header["type"] == "file"]
+    return sent[-1][0], zipfile.ZipFile(BytesIO(packed[0])) if packed else None
+
+
+@pytest.mark.parametrize("name", PAGE)
+def test_the_page_gives_the_same_numbers(name, there):
+    before = numbers(result_of(name, there))
+    end, archive = on_the_page(name, there)
+    assert end["how"] == "done", end
+    stem = read_job(Path(f"{name}.toml")).NAME.replace(" ", "-")
+    found = json.loads(archive.read(f"{stem}.json"))
+    shared = found.keys() & before.keys()
+    assert {"force", "depth", "stiffness"} <= shared
+    assert (
+        list(differences({each: before[each] for each in shared}, {each: found[each] for each in shared}))
+        == []
     )
