@@ -14,6 +14,9 @@ from typer.testing import CliRunner
 from roughcontact.adhesion.attraction import LAWS as ATTRACTIONS
 from roughcontact.cli.app import app
 from roughcontact.materials import MATERIALS
+from roughcontact.recipe.adhesion_law import LAWS as ATTRACTIVE
+from roughcontact.recipe.outputs import THEORIES
+from roughcontact.recipe.texts import METALS
 from roughcontact.theory.laws import LAWS
 
 VARIABLE = "_ROUGHCONTACT_COMPLETE"
@@ -43,7 +46,7 @@ def proposed(line):
         ("roughcontact press part.x3p --lev", ["--level"]),
         ("roughcontact press part.x3p --fr", ["--free"]),
         ("roughcontact surface make new.npz --short", ["--short-cutoff"]),
-        ("roughcontact press part.x3p --level ", ["plane", "mean", "none"]),
+        ("roughcontact press part.x3p --level ", ["none", "mean", "plane", "quadratic"]),
         ("roughcontact curve part.x3p --format p", ["png", "pdf"]),
         ("roughcontact adhesion press part.x3p --law ", list(ATTRACTIONS)),
         ("roughcontact press part.x3p --materials st", ["steel", "stainless-steel"]),
@@ -72,6 +75,7 @@ def test_every_command_is_proposed_as_the_help_lists_them(invoke):
 def test_the_names_are_those_of_the_library():
     assert tuple(MATERIALS) == METALS
     assert tuple(LAWS) == THEORIES
+    assert tuple(ATTRACTIONS) == ATTRACTIVE
 
 
 def test_a_command_whose_package_is_missing_does_not_speak_into_the_line(monkeypatch):

@@ -90,10 +90,10 @@ def test_a_package_that_an_extra_lacks_is_named_with_what_it_is_for(invoke, quic
     [
         (
             *("numpy", "raise ImportError('torn apart')"),
-            *("the package numpy cannot be loaded (torn apart); run: ", "WRONG"),
+            *("the package numpy cannot be loaded (torn apart): run: ", "WRONG"),
         ),
         ("threadpoolctl", "1 / 0", "threadpoolctl: ZeroDivisionError: division by zero", "WRONG"),
-        ("psutil", "import gone_with_it", "the package gone_with_it is not installed; run: ", "WRONG"),
+        ("psutil", "import gone_with_it", "the package gone_with_it is not installed: run: ", "WRONG"),
         ("llvmlite", "raise OSError('no libffi')", "llvmlite: OSError: no libffi", "right"),
     ],
 )
@@ -124,7 +124,7 @@ def test_without_the_package_of_the_command_line_itself_it_is_named():
         [sys.executable, "-c", code, "doctor"], capture_output=True, encoding="utf-8", check=False
     )
     assert (answer.returncode, answer.stdout) == (BAD_INPUT, "")
-    assert answer.stderr.startswith("Error: the package typer is not installed; run: ")
+    assert answer.stderr.startswith("Error: the package typer is not installed: run: ")
 
 
 def test_a_wrong_answer_is_a_problem(checked):

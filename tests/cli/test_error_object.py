@@ -31,16 +31,16 @@ def error_of(answer):
         (
             ("press", "FILE", *MODULUS),
             "usage",
-            "one load is missing",
-            "give one load (--force or --pressure or --depth)",
-            None,
+            "none of --force, --pressure, --depth is given",
+            "give one, such as --force 10N",
+            "--force",
         ),
         (
             ("press", "missing.x3p", "--force", "1N", *MODULUS),
             "read",
             "missing.x3p: ",
             "check the path",
-            None,
+            "source",
         ),
         (
             ("curve", "FILE", "--forces", "1N,2N", "--pressures", "1Pa,2Pa", *MODULUS),
@@ -64,7 +64,7 @@ def error_of(answer):
             "--depth",
         ),
         (("surface", "info", "missing.x3p"), "read", "missing.x3p", "check the path", None),
-        (("surface", "spectrum", "missing.x3p"), "read", "missing.x3p", "check the path", None),
+        (("surface", "spectrum", "missing.x3p"), "read", "missing.x3p", "check the path", "source"),
         (
             ("press", "bare.npy", "--force", "1N", *MODULUS),
             "read",
@@ -75,14 +75,14 @@ def error_of(answer):
         (("surface", "prepare", "FILE", "out.xyz"), "write", "out.xyz", None, None),
         (
             ("surface", "make", "a.npz", *MADE, "--hurst", "9"),
-            "value",
-            "hurst must lie between -1 and 3",
-            None,
+            "usage",
+            "the Hurst exponent lies between -1 and 3",
+            "give a number such as 0.8",
             "--hurst",
         ),
         (
             ("surface", "make", "a.npz", *MADE, "--seed", "x"),
-            *("usage", "'x' is no seed", "write a whole number", "--seed"),
+            *("usage", "the seed is a whole number from 0 up, not 'x'", "give one such as 2", "--seed"),
         ),
         (("conductance", "FILE"), "usage", "a conductance follows", "give --resistivity", None),
         (("study", "run", "none.toml"), "study", "none.toml: No such file", "name the file of a study", None),

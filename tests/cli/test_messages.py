@@ -10,10 +10,10 @@ import typer
 
 import roughcontact as rc
 from roughcontact import memory
-from roughcontact.cli import options
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.run_memory import require_memory
+from roughcontact.files import read as read_module
 from roughcontact.files.file_errors import SurfaceWarning
 
 
@@ -165,14 +165,14 @@ class TestMemory:
         )
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
-        read = options.Source.map_or_line
+        read = read_module.read_either
 
-        def then_another_program_takes_it(reading):
-            surface = read(reading)
+        def then_another_program_takes_it(*given, **named):
+            surface = read(*given, **named)
             monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e3))
             return surface
 
-        monkeypatch.setattr(options.Source, "map_or_line", then_another_program_takes_it)
+        monkeypatch.setattr(read_module, "read_either", then_another_program_takes_it)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("surface", "info", rough)
         assert answer.exit_code == BAD_INPUT

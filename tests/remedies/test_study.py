@@ -183,7 +183,7 @@ $ study average done --out all.nc --window 1e-3
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study average done --out all.nc --window 0.07:1e-3
-! --window goes from a force to a larger one
+! a window goes from a force to a larger one, unlike '0.07:1e-3'; exchange the two
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study plot done --out all.png --quantity weight

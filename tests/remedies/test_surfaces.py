@@ -131,8 +131,8 @@ HEIGHTS = [
 PREPARED = [
     row(
         lambda: ROUGH.levelled("cubic"),
-        "levelling must be 'mean', 'plane' or 'quadratic'",
-        *each(ROUGH.levelled, "mean", "plane", "quadratic"),
+        "levelling must be 'mean', 'plane', 'quadratic' or 'auto'",
+        *each(ROUGH.levelled, "mean", "plane", "quadratic", "auto"),
     ),
     row(
         lambda: ROUGH.without_form("cone"),

@@ -61,7 +61,7 @@ def test_none_stays_where_it_is_allowed():
     ("make", "says"),
     [
         (lambda: Range(start=0, stop=1), "a range has either a count or a step: give one of them"),
-        (lambda: Square(size="1 N"), "size: '1 N' is not a length: write a length such as 5um"),
+        (lambda: Square(size="1 N"), "size: '1 N' is not a length; write a length such as 5um"),
         (
             lambda: Square(sise=1),
             "'size' is missing; there is no 'sise': did you mean 'size'? It may be size",

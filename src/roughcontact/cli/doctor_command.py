@@ -42,6 +42,7 @@ EXTRAS = {
     "page": "the page in the browser, 'roughcontact serve'",
     "mpi": "one surface on several processes",
     "cluster": "studies on Dask",
+    "notebook": "bars in notebooks while something is computed",
 }
 _VARIABLES = (
     *("ROUGHCONTACT_CPU", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OPENBLAS_CORETYPE", "MKL_NUM_THREADS"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
+from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -66,7 +66,6 @@ _PROGRESS = option(
     "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
     "[auto|json|none]",
     default=ProgressForm.AUTO,
-    everyday=False,
     rich_help_panel="Answer",
 )
 
@@ -83,7 +82,8 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
     if any(each.parameter.name == "json" for each in declared):
-        declared.append(_of_command("progress", ProgressForm, _PROGRESS, None))
+        shown = _of_command("progress", ProgressForm, _PROGRESS, None)
+        declared.append(replace(shown, everyday=not any(each.spec for each in declared)))
     more = frozenset(each.parameter.name for each in declared if not each.everyday)
     flat = [*(each.parameter for each in declared), *([_HELP_ALL] if more else [])]
 

@@ -15,7 +15,10 @@ __all__ = ["FORMAT", "JSON", "OUT", "OUTPUT", "Answer", "PictureFormat", "pictur
 _ANSWER = "Answer"
 PictureFormat = StrEnum("PictureFormat", ["PNG", "PDF", "SVG"])
 FORMAT = option(
-    "With --out: format of the pictures (default: png).", "[png|pdf|svg]", rich_help_panel=_ANSWER
+    "With --out: format of the pictures (default: png).",
+    "[png|pdf|svg]",
+    everyday=False,
+    rich_help_panel=_ANSWER,
 )
 OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)

@@ -20,18 +20,19 @@ _POISSON = PureNumber(-1, 0.5, "Poisson's ratio", "0.3")
 
 def _pair_of_materials(text: str) -> tuple[str, str]:
     """Return the names of two materials, of which one may be rigid."""
-    names = [part.strip().lower() for part in text.split(",")]
+    names = [part.strip() for part in text.split(",")]
     if len(names) != 2 or not all(names):
         raise InputError(
             f"{text!r} does not name two bodies",
             "name both, such as steel,aluminium or steel,steel or steel,rigid",
         )
     for name in names:
-        if name != RIGID and known_material(name) is None:
+        if name.lower() != RIGID and known_material(name) is None:
             raise InputError(f"{name!r} is no name", "give a number of yours as `young` or `modulus`")
-    if names == [RIGID, RIGID]:
+    one, other = map(str.lower, names)
+    if one == other == RIGID:
         raise InputError("one of the two bodies must be elastic", "name a material, such as steel,rigid")
-    return names[0], names[1]
+    return one, other
 
 
 def hardness_of(text: str) -> Call | float:

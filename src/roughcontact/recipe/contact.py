@@ -29,7 +29,7 @@ class Contact:
     tolerance: str = described(
         "Largest residual of the contact conditions: the certificate.",
         "1e-8",
-        read=PureNumber(1.0001e-14, 0.9999e-2, "the tolerance", "1e-8"),
+        read=PureNumber(1e-14, 1e-2, "the tolerance", "1e-8", ends=False),
         default=_TOLERANCE,
     )
 

@@ -112,7 +112,7 @@ class AdhesiveLoad:
         everyday=True,
     )
     mean_gap: str | None = described(
-        "Mean gap, on a periodic map without missing points.", "100nm", everyday=True
+        "Mean gap, on a periodic map without missing points.", "100nm"
     )
 
     def __post_init__(self) -> None:
@@ -126,7 +126,7 @@ class AdhesiveLoad:
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
                     f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
-                    f"give a curve with `{name}s` 0,{text}",
+                    f"compute an adhesion curve with `{name}s` 0,{text}",
                 )
         return {name: value}
 
@@ -148,7 +148,7 @@ class AdhesiveLoads:
     )
     pressures: str | None = described("Nominal pressures, likewise.", "0Pa,1kPa,-1kPa", everyday=True)
     mean_gaps: str | None = described(
-        "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9", everyday=True
+        "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9"
     )
 
     def __post_init__(self) -> None:

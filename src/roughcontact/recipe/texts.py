@@ -68,17 +68,18 @@ class Amount:
 
 @dataclass(frozen=True, slots=True)
 class PureNumber:
-    """Reads a number without a unit between two ends, which may be reached."""
+    """Reads a number without a unit between two ends, which may be reached where they count."""
 
     low: float
     high: float
     what: str
     example: str
+    ends: bool = True
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
         value = quantity.parse_number(text, self.example)
-        if not self.low <= value <= self.high:
+        if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
             raise InputError(
                 f"{self.what} lies between {self.low:g} and {self.high:g}, not at {text!r}",
                 f"give a number such as {self.example}",
@@ -249,7 +250,7 @@ def ranges(text: str) -> tuple[slice, ...]:
 
 def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
     ends = text.split(":")
-    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,9}\s*", ends[2]) is None:
+    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
         raise InputError(f"{text!r} is no range", f"write from:to:count, such as {example}")
     low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
     if not 2 <= count <= MOST_LOADS:

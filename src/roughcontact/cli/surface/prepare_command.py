@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.messages import note, plain
 from roughcontact.cli.options import JSON, OUTPUT
+from roughcontact.cli.output import output
 from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
@@ -34,13 +36,13 @@ _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and th
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """Where a surface goes; an `Answer` that names a folder, or none, has a ``file`` too."""
+    """Where a surface goes: a file. An `Answer` names a folder for it, or none."""
 
     out: Path = OUTPUT
     json: bool = JSON
 
     @property
-    def file(self) -> Path | None:
+    def file(self) -> Path:
         """The file of the surface."""
         return self.out
 
@@ -51,13 +53,14 @@ def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
     """
     source = job.source
-    if answer.file is not None:
+    if isinstance(answer, Saved):
         require_output(answer.file, Path(source.file) if isinstance(source, File) else None)
     if job.preparation == Preparation():
         note("no step is asked for: the surface is written as it was read")
-    surface = prepared(job, _require_memory)["surface"]
-    if answer.file is not None:
-        save_surface(surface, answer.file)
+    with nullcontext() if isinstance(answer, Saved) else output(answer.out):
+        surface = prepared(job, _require_memory)["surface"]
+        if answer.file is not None:
+            save_surface(surface, answer.file)
     file = name_of(source) if answer.file is None else plain(str(answer.file))
     record = {"command": "surface prepare", "file": file} | surface_record(surface)
     tell(record, surface_facts(surface, record), as_json=answer.json)

@@ -194,7 +194,11 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
         If there is not one for each axis, one has a step, or holds no cell; the message says `what` they are of.
     """
     if len(parts) != grid.ndim:
-        raise about(what, f"needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
+        raise about(
+            what,
+            f"needs one slice an axis, {grid.ndim} in all, not {len(parts)}",
+            f"give {'rows and columns' if grid.ndim == 2 else 'one range of cells'}",
+        )
     if any(part.step not in (None, 1) for part in parts):
         raise about(what, "has no step", "use downsampled for a subsample")
     ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]

@@ -3,18 +3,16 @@ import math
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
-from roughcontact.cli.unit_options import (
-    CONDUCTIVITY,
-    FORCE,
-    LENGTH,
-    PRESSURE,
-    parse,
-    parse_loads,
-    parse_points,
-    parse_size,
-)
 
-from roughcontact.cli.messages import UsageError
+from roughcontact.errors import InputError
+from roughcontact.files.quantity import CONDUCTIVITY, FORCE, LENGTH, PRESSURE, parse
+from roughcontact.recipe.texts import points, rising_loads, size
+
+
+def loads(text):
+    """Return rising forces, of a range as the call that makes it."""
+    found = rising_loads(text, FORCE)
+    return found if isinstance(found, list) else found.value({"np": np})
 
 
 @pytest.mark.parametrize(
@@ -36,7 +34,7 @@ from roughcontact.cli.messages import UsageError
     ],
 )
 def test_a_quantity_becomes_its_number_in_si(text, kind, value):
-    assert parse(text, kind, "--it") == pytest.approx(value, rel=4 * np.finfo(float).eps)
+    assert parse(text, kind) == pytest.approx(value, rel=4 * np.finfo(float).eps)
 
 
 BOUNDED = st.just(0.0) | st.floats(1e-30, 1e30) | st.floats(-1e30, -1e-30)
@@ -44,21 +42,18 @@ BOUNDED = st.just(0.0) | st.floats(1e-30, 1e30) | st.floats(-1e30, -1e-30)
 
 @given(BOUNDED, st.sampled_from(["", " N", "N"]))
 def test_a_number_in_si_keeps_every_bit(number, unit):
-    assert parse(f"{number!r}{unit}", FORCE, "--it") == number
+    assert parse(f"{number!r}{unit}", FORCE) == number
 
 
 @settings(deadline=None)  # the first unit imports the library of units
 @given(st.text(max_size=12) | st.text(max_size=8).map("1 {}".format))
 def test_any_text_is_a_finite_number_or_a_clear_refusal(text):
     try:
-        value = parse(text, FORCE, "--it")
-    except UsageError as error:
-        value, message = 0.0, str(error)
-    else:
-        message = "--it: write a force such as 10N"
+        value, said = parse(text, FORCE), "write a force such as 10N"
+    except InputError as error:
+        value, said = 0.0, str(error)
     assert math.isfinite(value)
-    assert message.startswith("--it: ")
-    assert "write a force such as 10N" in message
+    assert "write a force such as 10N" in said
 
 
 @pytest.mark.parametrize(
@@ -78,27 +73,26 @@ def test_any_text_is_a_finite_number_or_a_clear_refusal(text):
         ("1e999N", "not a finite number"),
     ],
 )
-def test_the_message_says_what_is_wrong_and_what_was_expected(text, complaint):
-    with pytest.raises(UsageError, match=r"--force: .*write a force such as 10N") as caught:
-        parse(text, FORCE, "--force")
+def test_the_message_says_what_is_wrong_and_what_to_write(text, complaint):
+    with pytest.raises(InputError, match=r"write a force such as 10N") as caught:
+        parse(text, FORCE)
     assert complaint in str(caught.value)
 
 
 def test_a_range_is_spaced_evenly_in_the_logarithm():
-    loads = parse_loads("1mN:1N:4", FORCE, "--forces")
-    np.testing.assert_allclose(loads, [1e-3, 1e-2, 1e-1, 1.0], rtol=1e-14)
+    np.testing.assert_allclose(loads("1mN:1N:4"), [1e-3, 1e-2, 1e-1, 1.0], rtol=1e-14)
 
 
 def test_a_comma_list_keeps_its_loads():
-    np.testing.assert_array_equal(parse_loads("1mN, 0.5N,2", FORCE, "--forces"), [1e-3, 0.5, 2.0])
-    np.testing.assert_array_equal(parse_loads("3N", FORCE, "--forces"), [3.0])
+    np.testing.assert_array_equal(loads("1mN, 0.5N,2"), [1e-3, 0.5, 2.0])
+    np.testing.assert_array_equal(loads("3N"), [3.0])
 
 
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "no load given"),
-        (" , ", "no load given"),
+        ("", "holds no load"),
+        (" , ", "holds no load"),
         ("2N,1N", "must increase"),
         ("1N,1N", "must increase"),
         ("0N,1N", "must be positive"),
@@ -109,50 +103,49 @@ def test_a_comma_list_keeps_its_loads():
         ("1N:2N:2.5", "from:to:count"),
         ("1N:2N:1", "from 2 to"),
         ("1N:2N:1000000000", "from 2 to"),
-        ("2N:1N:5", "must rise"),
-        ("0:1N:5", "must rise"),
+        ("2N:1N:5", "rises from above zero"),
+        ("0:1N:5", "rises from above zero"),
         ("1N:2Pa:5", "is not a force"),
     ],
 )
 def test_bad_loads_are_refused(text, complaint):
-    with pytest.raises(UsageError, match=r"^--forces: ") as caught:
-        parse_loads(text, FORCE, "--forces")
+    with pytest.raises(InputError) as caught:
+        loads(text)
     assert complaint in str(caught.value)
 
 
 def test_sizes_are_one_length_or_two():
-    assert parse_size("2 m", "--size") == (2.0,)
-    assert parse_size("1m x 0.5m", "--size") == (1.0, 0.5)
+    assert size("2 m") == (2.0,)
+    assert size("1m x 0.5m") == (1.0, 0.5)
 
 
 @pytest.mark.parametrize("text", ["1x2mm", "1 x 2 mm", "1×2mm", "1mm x 2mm", "1e-3x2e-3"])  # noqa: RUF001
 def test_a_unit_behind_two_lengths_is_that_of_both(text):
-    assert parse_size(text, "--size") == (1e-3, 2e-3)
+    assert size(text) == (1e-3, 2e-3)
 
 
-def test_a_unit_of_the_first_length_alone_is_asked_about(invoke, rough):
-    answer = invoke("surface", "info", rough, "--size", "1mm x 2")
-    assert answer.exit_code == 2
-    assert "--size: the second length of '1mm x 2' has no unit; write '1 x 2mm'" in answer.stderr
+def test_a_unit_of_the_first_length_alone_is_asked_about():
+    with pytest.raises(InputError, match=r"the second length of '1mm x 2' has no unit: write '1 x 2mm'"):
+        size("1mm x 2")
 
 
 @pytest.mark.parametrize("text", ["0mm", "-1mm", "1mm x 0mm", "1mm x 2mm x 3mm", "1mm x", "wide", "1N"])
 def test_bad_sizes_are_refused(text):
-    with pytest.raises(UsageError, match=r"^--size: "):
-        parse_size(text, "--size")
+    with pytest.raises(InputError):
+        size(text)
 
 
 def test_points_are_rows_by_columns():
-    assert parse_points("512", "--points") == (512, 512)
-    assert parse_points("512x256", "--points") == (512, 256)
+    assert points("512") == (512, 512)
+    assert points("512x256") == (512, 256)
 
 
 @pytest.mark.parametrize("text", ["0", "-3", "3x0", "3x4x5", "3.5", "", "many"])
 def test_bad_points_are_refused(text):
-    with pytest.raises(UsageError, match=r"^--points: "):
-        parse_points(text, "--points")
+    with pytest.raises(InputError):
+        points(text)
 
 
 @pytest.mark.parametrize("text", ["400W/m/K", "400 W/(m*K)", "400 W/( m · K )", "0.4 kW/(m*K)", "400"])
 def test_conductivities_as_people_write_them(text):
-    assert parse(text, CONDUCTIVITY, "--conductivity") == pytest.approx(400.0)
+    assert parse(text, CONDUCTIVITY) == pytest.approx(400.0)
