@@ -7,8 +7,6 @@ import subprocess
 import sys
 
 import pytest
-from roughcontact.cli.contact.theory_options import THEORIES
-from roughcontact.cli.material_options import METALS
 from typer.testing import CliRunner
 
 from roughcontact.adhesion.attraction import LAWS as ATTRACTIONS
