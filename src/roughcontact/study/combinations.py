@@ -60,6 +60,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
     """Return the parameters of each combination by their canonical text, and all that is wrong with them."""
     model = find_case(study.case).parameters
     mistakes = list(_misnamed(study, model))
+    said = {one.place for one in mistakes}
     values: dict[str, tuple[Any, ...]] = {}
     for name, entry in study.table.items():
         try:
@@ -72,7 +73,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
         few = "take fewer samples or values, or several studies"
         return {}, [*mistakes, InputError(much, few, "samples, rows, table")]
     # In place of a table whose values cannot be read nothing is given, which is not another mistake.
-    unread = {f"table.{name}" for name in study.table.keys() - values.keys()}
+    said |= {f"table.{name}" for name in study.table.keys() - values.keys()}
     found: dict[str, Parameters] = {}
     for row in study.rows or ({},):
         for chosen in itertools.product(*values.values()):
@@ -87,7 +88,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
                 new = [InputError(one.message, one.remedy, _place(study, one.place)) for one in every(error)]
                 known = {(one.place, one.message) for one in mistakes}
                 mistakes += [
-                    one for one in new if one.place not in unread and (one.place, one.message) not in known
+                    one for one in new if one.place not in said and (one.place, one.message) not in known
                 ]
                 continue
             text = canonical(parameters)
