@@ -30,3 +30,12 @@ def test_words_about_the_file_do_not_count():
 )
 def test_every_number_and_verdict_counts(changed, words):
     assert [str(each) for each in differences(BEFORE, {**BEFORE, **changed})] == [words]
+
+
+def test_tables_in_a_list_are_compared_one_by_one():
+    before = {"exponents": [{"value": 0.5, "count": 3}, {"value": 0.7, "count": 4}]}
+    after = {"exponents": [{"value": 0.5, "count": 3}, {"value": 0.35, "count": 4}]}
+    assert [str(each) for each in differences(before, after)] == [
+        "exponents.1.value: 1 of 1 differ, by at most 0.5 of the largest"
+    ]
+    assert differences(before, {"exponents": [*before["exponents"]]}) == []

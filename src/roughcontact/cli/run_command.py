@@ -127,7 +127,7 @@ def _compare(before: dict[str, Any], after: dict[str, Any]) -> None:
     if not (found := differences(before, after)):
         note("same numbers")
         return
-    note(f"{len(found)} quantities differ:")
+    note("1 quantity differs:" if len(found) == 1 else f"{len(found)} quantities differ:")
     for each in found:
         note(str(each))
     raise typer.Exit(MISSED)

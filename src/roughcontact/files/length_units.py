@@ -64,7 +64,7 @@ def length_factor(unit: str | float) -> float:
         return _by_pint(unit) if factor is None else factor
     factor = float(unit)
     if not (math.isfinite(factor) and factor > 0):
-        raise about("unit", f"must be a positive number of metres or one of {_KNOWN}, not {unit}")
+        raise about("unit", f"must be a length above 0, not {unit}", f"use {_KNOWN}, or a number of metres")
     return factor
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-from roughcontact.errors import within
+from roughcontact.errors import InputError, within
 from roughcontact.files.quantity import LENGTH
 from roughcontact.recipe.adhesion_law import AdhesionLaw, Sticking
 from roughcontact.recipe.bodies import Bodies
@@ -58,6 +58,7 @@ class AdhesivePressJob:
     contact: Contact = field(default_factory=Contact)
 
     def __post_init__(self) -> None:
+        check(self)
         with within("load"):
             self.load.named(self.contact.profile)
 
@@ -82,6 +83,7 @@ class AdhesiveCurveJob:
     contact: Contact = field(default_factory=Contact)
 
     def __post_init__(self) -> None:
+        check(self)
         with within("loads"):
             self.loads.named(self.contact.profile)
 
@@ -105,6 +107,9 @@ class AdhesiveLoopJob:
     preparation: Preparation = field(default_factory=Preparation)
     contact: Contact = field(default_factory=Contact)
 
+    def __post_init__(self) -> None:
+        check(self)
+
     def calls(self) -> Iterator[Call]:
         """Yield the calls that follow the loop."""
         yield from self.adhesion.calls()
@@ -126,9 +131,19 @@ class DetachJob:
     contact: Contact = field(default_factory=Contact)
 
     def __post_init__(self) -> None:
-        for name, loads in (("load", self.load), ("retreat", self.retreat)):
-            with within(name):
-                loads.named(self.contact.profile)
+        check(self)
+        with within("load"):
+            load = self.load.named(self.contact.profile)
+        with within("retreat"):
+            retreat = self.retreat.named(self.contact.profile)
+        for name, value in load.items():
+            first = retreat.get(f"{name}s", [value])[0]
+            if first > value:
+                raise InputError(
+                    f"surfaces are drawn back from a {name} of {value:g}, and {first:g} is above it",
+                    f"press to that {name}, or begin with {value:g} or less",
+                    f"retreat.{name}s",
+                )
 
     def calls(self) -> Iterator[Call]:
         """Yield the calls that press the surface and draw it back."""

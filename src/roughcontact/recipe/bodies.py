@@ -15,7 +15,7 @@ from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, Pu
 __all__ = ["Bodies", "Conduction", "hardness_of"]
 
 _YOUNG = Modulus("Young's modulus")
-_POISSON = PureNumber(-1, 0.5, "Poisson's ratio", "0.3")
+_POISSON = PureNumber(-0.99, 0.5, "Poisson's ratio", "0.3")
 
 
 def _pair_of_materials(text: str) -> tuple[str, str]:
@@ -108,12 +108,14 @@ def _of_both(kind: Kind, name: str) -> Callable[[str], tuple[Call | float, Call 
                 f"give one for both or two, such as {kind.example},{kind.example}, or names such as steel,aluminium",
             )
         amount = Amount(kind, positive=False, zero=True)
-        values = [
+        values: list[Call | float] = [
             amount(part)
             if (material := known_material(part)) is None
             else Call("rc.handbook", (material.name,), attribute=name)
             for part in parts
         ]
+        if values[0] == values[-1] == 0:
+            raise InputError(f"both bodies have the {name} 0", f"give one such as {kind.example}")
         return values[0], values[-1]
 
     return read

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any
 
-from roughcontact.recipe.jobs import Job
+from roughcontact.recipe.jobs import Job, is_of_profile
 from roughcontact.recipe.recipe_fields import option_of, specs, words_of
 from roughcontact.recipe.source import File, SelfAffine
 
@@ -22,13 +22,13 @@ def command_name(job: Job) -> str:
 
 
 def command_of(job: Job, recipe: str = "job.toml") -> str:
-    """Return the lines of a shell that do a job: a surface that is made is written first.
+    """Return the lines of a shell that do a job: a random map is written first.
 
     A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
     """
     if isinstance(job.source, File):
         return _line(*_words(job, job.source.file), *_options(job))
-    if not isinstance(job.source, SelfAffine):
+    if not isinstance(job.source, SelfAffine) or is_of_profile(job):
         return _line("run", recipe)
     return "\n".join(
         [

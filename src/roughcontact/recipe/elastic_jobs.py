@@ -14,7 +14,7 @@ from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory,
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
-from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.recipe_fields import check, value_of
 from roughcontact.recipe.source import Source
 
 __all__ = ["CurveJob", "PressJob", "SurfaceJob"]
@@ -27,6 +27,9 @@ class SurfaceJob:
     NAME: ClassVar = "surface"
     source: Source
     preparation: Preparation = field(default_factory=Preparation)
+
+    def __post_init__(self) -> None:
+        check(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +47,7 @@ class PressJob:
     theories: PressureTheory = field(default_factory=PressureTheory)
 
     def __post_init__(self) -> None:
+        check(self)
         self.loads()
         yields_at(self.bodies, self.plastic)
         _require_areas(self.contact, self.plastic.hardness, self.errors)
@@ -114,6 +118,7 @@ class CurveJob:
     units: Units = field(default_factory=Units)
 
     def __post_init__(self) -> None:
+        check(self)
         with within("loads"):
             self.loads.named(self.contact.profile)
         yields_at(self.bodies, self.plastic)

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from typing import Any, TypeAlias
 
+from roughcontact.errors import within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.source import File, SmoothBody
 
-__all__ = ["JOBS", "Job", "calls_of", "contact_calls", "known_names", "surface_calls", "surface_of"]
+__all__ = [
+    *("JOBS", "Job", "calls_of", "contact_calls", "is_of_profile", "known_names", "surface_calls"),
+    "surface_of",
+]
 
 Job: TypeAlias = (
     SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
@@ -29,11 +34,23 @@ JOBS: Mapping[str, type[Any]] = {
 }
 
 
-def surface_calls(job: Job) -> Iterator[Call]:
-    """Yield the calls that read or make the surface of a job, and prepare it."""
+def surface_calls(job: Job) -> list[Call]:
+    """Return the calls that read or make the surface of a job, and prepare it.
+
+    Raises
+    ------
+    InputError
+        If the source has no such surface: an example has no profile, heights made in Python are not made again.
+    """
+    with within("source"):
+        source = list(job.source.calls(line=is_of_profile(job)))
+    return [*source, *job.preparation.calls(_default_level(job))]
+
+
+def is_of_profile(job: Job) -> bool:
+    """Return whether a job presses a profile."""
     contact = getattr(job, "contact", None)
-    yield from job.source.calls(line=contact is not None and contact.profile is not None)
-    yield from job.preparation.calls(_default_level(job))
+    return contact is not None and contact.profile is not None
 
 
 def calls_of(job: Job) -> Iterator[Call]:
@@ -57,11 +74,13 @@ def surface_of(job: Job) -> Any:
 
 def known_names() -> dict[str, Any]:
     """Return the modules that calls begin with."""
-    import numpy as np
-
-    import roughcontact as rc
-
-    return {"rc": rc, "np": np, "float": float, "getattr": getattr}
+    # By name, as calls are made: the package opens studies, and these do jobs.
+    return {
+        "rc": import_module("roughcontact"),
+        "np": import_module("numpy"),
+        "float": float,
+        "getattr": getattr,
+    }
 
 
 def _default_level(job: Job) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.errors import InputError, placed
@@ -120,7 +121,7 @@ class AdhesiveLoad:
         """Return the load in SI, by the name of its argument."""
         [(name, text)] = given(self).items()
         with placed(name):
-            value = Amount(kinds_of(profile)[name], positive=False)(text)
+            value = Amount(kinds_of(profile)[name], "the mean gap", positive=name == "mean_gap")(text)
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
                     f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
@@ -154,7 +155,20 @@ class AdhesiveLoads:
 
     def named(self, profile: str | None) -> dict[str, list[float]]:
         """Return the loads in SI, by the name of their argument."""
-        return _up_and_down(self, profile)
+        found = _up_and_down(self, profile)
+        [(name, loads)] = found.items()
+        with placed(name):
+            if name in ("forces", "pressures") and loads[0] < 0:
+                raise InputError(
+                    f"a path begins with the bodies drawing near, not with the tension {loads[0]:g}",
+                    "begin with 0, and let the tension follow",
+                )
+            if name == "mean_gaps" and min(loads) <= 0:
+                raise InputError(
+                    f"a mean gap of {min(loads):g} m is full contact or beyond it",
+                    "give mean gaps such as 100nm",
+                )
+        return found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,7 +191,16 @@ class FallingLoads:
 
     def named(self, profile: str | None) -> dict[str, list[float]]:
         """Return the loads in SI, by the name of their argument; none where they were left out."""
-        return _up_and_down(self, profile)
+        found = _up_and_down(self, profile)
+        for name, loads in found.items():
+            for before, after in pairwise(loads):
+                if after > before:
+                    raise InputError(
+                        f"the {name} of a retreat must fall, and {after:g} follows {before:g}",
+                        "leave it out, or follow an approach and a retreat as an adhesive curve",
+                        name,
+                    )
+        return found
 
 
 def _up_and_down(part: AdhesiveLoads | FallingLoads, profile: str | None) -> dict[str, list[float]]:

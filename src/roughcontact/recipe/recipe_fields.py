@@ -5,11 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
-from typing import Any, get_type_hints
+from numbers import Integral, Real
+from typing import Any, get_args, get_type_hints
 
 from roughcontact.errors import InputError, placed, together
 
-__all__ = ["Spec", "check", "described", "given", "hints_of", "option_of", "specs", "value_of", "words_of"]
+__all__ = [
+    *("Spec", "check", "described", "given", "hints_of", "option_of", "refused", "specs", "value_of"),
+    "words_of",
+]
+
+_LARGEST_WHOLE = 1e15  # whole numbers beyond it are shorter as floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +111,8 @@ def value_of(part: Any, name: str) -> Any:
 def check(part: Any) -> None:
     """Take every field as text, and refuse what is none, stands alone, or excludes another.
 
-    A class may name in ``ONE_OF`` fields of which exactly one must be given, and in ``AT_MOST`` those of which several
-    exclude each other.
+    A field that holds a part must hold one of its class. A class may name in ``ONE_OF`` fields of which exactly one
+    must be given, and in ``AT_MOST`` those of which several exclude each other.
 
     Raises
     ------
@@ -116,12 +122,15 @@ def check(part: Any) -> None:
     kind: Any = type(part)
     hints = hints_of(kind)
     mistakes = []
-    for each, spec in specs(part):
-        if getattr(part, each.name) != each.default:
-            try:
+    for each in fields(part):
+        value, spec = getattr(part, each.name), each.metadata.get("spec")
+        try:
+            if spec is None:
+                _require_part(value, hints[each.name], each.name)
+            elif type(value) is not type(each.default) or value != each.default:
                 _check_field(part, each.name, hints[each.name], spec)
-            except InputError as error:
-                mistakes.append(error)
+        except InputError as error:
+            mistakes.append(error)
     if mistakes:
         raise together(mistakes)
     for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
@@ -148,6 +157,12 @@ def _check_field(part: Any, name: str, hint: Any, spec: Spec) -> None:
     value_of(part, name)
 
 
+def _require_part(value: Any, kind: Any, name: str) -> None:
+    if not isinstance(value, kind):
+        classes = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
+        raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+
+
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
     found = [name for name in names if getattr(part, name) is not None]
     if len(found) > 1:
@@ -171,11 +186,11 @@ def _quoted(name: str) -> str:
 def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
     """Return a value as the type of its field: a flag, a text, or texts."""
     if kind == tuple[str, ...]:
-        parts = [value] if isinstance(value, str) else list(value)
+        parts = value if isinstance(value, list | tuple) else [value]
         return tuple(_text(part) for part in parts)
     if kind in (bool, bool | None):
         if not isinstance(value, bool):
-            raise InputError(f"{value!r} is neither true nor false", "write true or false")
+            raise refused(value, "neither true nor false", "write true or false")
         return value
     return _text(value)
 
@@ -186,11 +201,17 @@ def _text(value: Any) -> str:
         from roughcontact.units import as_text  # late, with NumPy: options are texts
 
         value = as_text(value)
-    if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise InputError(
-            f"{value!r} is no value of a recipe",
-            "give a number in SI units or a text with a unit, such as '5 um'",
-        )
-    if isinstance(value, float) and value.is_integer():
-        value = int(value)  # of a range of whole numbers
-    return value.strip() if isinstance(value, str) else repr(value)
+    if isinstance(value, bool) or not isinstance(value, str | Real):
+        raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
+    if isinstance(value, str):
+        return value.strip()
+    number: Any = value
+    is_whole = isinstance(number, Integral) or (float(number).is_integer() and abs(number) < _LARGEST_WHOLE)
+    return repr(int(number) if is_whole else float(number))
+
+
+def refused(value: Any, what: str, remedy: str, place: str | None = None) -> InputError:
+    """Return the error about a value that has no text form: a function, an operator, a surface, a table."""
+    from roughcontact.validation import shown  # late, with NumPy
+
+    return InputError(f"{shown(value)} is {what}", remedy, place)

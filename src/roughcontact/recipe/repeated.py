@@ -70,10 +70,18 @@ def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Dif
 def _differences(before: Mapping[str, Any], after: Mapping[str, Any], path: str) -> Iterator[Difference]:
     for name in sorted((before.keys() | after.keys()) - (set() if path else _WORDS)):
         old, new = before.get(name), after.get(name)
+        old, new = _by_number(old), _by_number(new)
         if isinstance(old, Mapping) and isinstance(new, Mapping):
             yield from _differences(old, new, f"{path}{name}.")
         elif not _same(old, new):
             yield Difference(f"{path}{name}", old, new)
+
+
+def _by_number(value: Any) -> Any:
+    """Return a list of tables as a table of them, by their numbers; other values as they are."""
+    if isinstance(value, list) and value and all(isinstance(each, Mapping) for each in value):
+        return {str(number): each for number, each in enumerate(value)}
+    return value
 
 
 def _same(old: Any, new: Any) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, placed, within
+from roughcontact.files.length_units import length_factor
 from roughcontact.files.quantity import LENGTH
 from roughcontact.recipe.library_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
@@ -22,12 +24,31 @@ _POINTS = described("Points a side, or rows x columns.", "512", read=points, def
 _PERIODIC = described("For a surface that repeats itself.", default=False, everyday=True)
 
 
-def _metres_or_name(text: str) -> str | float:
-    """Return a unit by its name, or as the metres that it is."""
+def _unit(text: str) -> str | float:
+    """Return a unit of length by its name, or as the metres that it is."""
     try:
-        return float(text)
+        unit: str | float = float(text)
     except ValueError:
-        return text
+        unit = text
+    length_factor(unit)
+    return unit
+
+
+def _word(text: str) -> str:
+    """Return a name, which is not empty."""
+    if not text:
+        raise InputError("the name is empty", "write it, or leave the field out")
+    return text
+
+
+def _fingerprint(text: str) -> str:
+    """Return a SHA-256 as files of checksums write it."""
+    if re.fullmatch("[0-9a-f]{64}", text) is None:
+        raise InputError(
+            f"{text!r} is no SHA-256",
+            "write its 64 digits from 0 to f, as sha256sum prints them, or leave it out",
+        )
+    return text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,13 +58,18 @@ class File:
     KIND: ClassVar = "file"
     TITLE: ClassVar = "Reading the file"
     file: str = described(
-        "Measured heights: X3P, NumPy, text, ...", "FILE", default=..., everyday=True, positional=True
+        "Measured heights: X3P, NumPy, text, ...",
+        "FILE",
+        read=_word,
+        default=...,
+        everyday=True,
+        positional=True,
     )
-    channel: str | None = described("Channel of a file with several.", "NAME")
+    channel: str | None = described("Channel of a file with several.", "NAME", read=_word)
     unit: str | None = described(
         "Unit of the heights, or metres per unit; it overrides what the file states.",
         "um",
-        read=_metres_or_name,
+        read=_unit,
         everyday=True,
     )
     size: str | None = described(
@@ -59,7 +85,10 @@ class File:
         opposite="free",
     )
     sha256: str | None = described(
-        "Fingerprint of the file: another one under its name is refused.", "HEX", option=False
+        "Fingerprint of the file: another one under its name is refused.",
+        "HEX",
+        read=_fingerprint,
+        option=False,
     )
 
     def __post_init__(self) -> None:
@@ -118,6 +147,19 @@ class SelfAffine:
 
     def __post_init__(self) -> None:
         check(self)
+        longest, shortest = value_of(self, "long_cutoff"), value_of(self, "short_cutoff")
+        if longest is not None and shortest is not None and shortest > longest:
+            raise InputError(
+                "`short_cutoff` is longer than `long_cutoff`: no wave is left",
+                "exchange them",
+                "short_cutoff, long_cutoff",
+            )
+        if self.nodal and self.periodic:
+            raise InputError(
+                "`nodal` repeats the first row at the end, which a `periodic` surface would hold twice",
+                "leave out one of them",
+                "nodal",
+            )
 
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the calls that make the surface."""
@@ -161,7 +203,7 @@ class SmoothBody:
         "Radius of curvature.", "5mm", read=Amount(LENGTH, "the radius"), everyday=True
     )
     slope: str | None = described(
-        "Slope of a cone's flank.", "0.1", read=PureNumber(0, 1e6, "the slope", "0.1")
+        "Slope of a cone's flank.", "0.1", read=PureNumber(1e-6, 1e6, "the slope", "0.1")
     )
     amplitude: str | None = described("Amplitude of a wave.", "1um", read=Amount(LENGTH, "the amplitude"))
     wavelength: str | None = described("Length of a wave.", "0.1mm", read=_WAVE)
@@ -226,7 +268,8 @@ class Combined:
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the calls that make both and join them."""
         for name, source in (("lower", self.lower), ("upper", self.upper)):
-            yield from source.calls(line=line)
+            with within(name):
+                yield from source.calls(line=line)
             yield Call("surface.levelled", ("plane",), result=name, place=f"source.{name}", doing="Levelling")
         given = {} if self.turned_about == "y" else {"turned_about": self.turned_about}
         yield Call("rc.combined", (Name("lower"), Name("upper")), given, result="surface", place="source")
@@ -238,7 +281,7 @@ class InPython:
 
     KIND: ClassVar = "python"
     TITLE: ClassVar = "Made in Python"
-    surface_sha256: str = described("Fingerprint of heights and grid.", "HEX", default=...)
+    surface_sha256: str = described("Fingerprint of heights and grid.", "HEX", read=_fingerprint, default=...)
     history: tuple[str, ...] = described("How they were made, line by line.", default=())
 
     def __post_init__(self) -> None:
@@ -255,7 +298,6 @@ class InPython:
         raise InputError(
             f"the heights were made in Python ({'; '.join(self.history) or 'no history is kept'})",
             "write them by rc.write, and name the file as the source",
-            "source",
         )
 
 
@@ -266,6 +308,13 @@ SOURCES: tuple[type[Any], ...] = (File, SelfAffine, SmoothBody, Example, Combine
 def _grid(source: SelfAffine | SmoothBody, *, line: bool) -> Call:
     """Return the call that makes the grid of a new surface; with one length the cells are square."""
     shape, lengths = points(source.points), size(source.size)
+    for name, is_one in (("size", len(lengths) == 1), ("points", source.points.isdecimal())):
+        if line and not is_one:
+            with placed(name):
+                raise InputError(
+                    f"a profile has one length, and points along it, unlike {getattr(source, name)!r}",
+                    "give one number",
+                )
     width = lengths[-1] / shape[1]
     height = lengths[0] / shape[0] if len(lengths) == 2 else width
     named = {"periodic": True} if source.periodic else {}

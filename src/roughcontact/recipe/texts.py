@@ -62,7 +62,9 @@ class Amount:
                 f"{what} must be positive, not {text!r}", f"give a value such as {self.kind.example}"
             )
         if self.zero and value < 0:
-            raise InputError(f"{what} must not be negative, not {text!r}", "give 0 or more")
+            raise InputError(
+                f"{what} must not be negative, not {text!r}", f"give 0 or more, such as {self.kind.example}"
+            )
         return value
 
 
@@ -217,6 +219,8 @@ def band(text: str) -> tuple[float, float]:
     if len(parts) != 2:
         raise InputError(f"{text!r} is no band", "write the longest and the shortest wave, such as 1mm:10um")
     longest, shortest = (Amount(LENGTH, "a wavelength")(part) for part in parts)
+    if shortest > longest:
+        raise InputError(f"{text!r} begins with the shortest wave", f"exchange them: {parts[1]}:{parts[0]}")
     return longest, shortest
 
 
@@ -247,7 +251,14 @@ def ranges(text: str) -> tuple[slice, ...]:
         raise InputError(
             f"{text!r} is no part of a map", "write rows,columns such as 0:512,100:612, or 0:512 of a profile"
         )
-    return tuple(slice(*(int(end) if end else None for end in match.groups())) for match in matches if match)
+    found = [[int(end) if end else None for end in match.groups()] for match in matches if match]
+    for first, last in found:
+        if last is not None and last <= (first or 0):
+            raise InputError(
+                f"{first or 0}:{last} holds no cell",
+                f"end above {first or 0}, such as at {(first or 0) + 100}",
+            )
+    return tuple(slice(*ends) for ends in found)
 
 
 def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:

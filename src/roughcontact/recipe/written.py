@@ -16,13 +16,11 @@ import tomli_w
 
 from roughcontact.errors import InputError, every, together, within
 from roughcontact.files.aside import written_aside
-from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.fingerprint import fingerprint
-from roughcontact.files.netcdf import opened
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
-from roughcontact.recipe.recipe_fields import Spec, given, hints_of
+from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 
 __all__ = [
@@ -68,7 +66,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
             "format",
         )
     name = values.pop("job", None)
-    if name not in JOBS:
+    if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
     job: Job = _part(JOBS[name], values)
     return job
@@ -77,7 +75,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
 def _part(kind: Any, values: Any) -> Any:
     """Return a part made of its fields, each of the type that is declared."""
     if not isinstance(values, Mapping):
-        raise InputError(f"{values!r} is no table of fields", f"write {_names(kind)}")
+        raise refused(values, "no table of fields", f"give a table of {_names(kind)}")
     hints, known = hints_of(kind), {each.name: each for each in fields(kind)}
     mistakes = [
         InputError(f"{name} is missing", f"give {name}", name)
@@ -132,13 +130,13 @@ def _value(name: str, kind: Any, value: Any) -> Any:
 def _of_kind(members: list[Any], values: Any) -> Any:
     """Return a part of the kind that its table names; a table with a file is a file."""
     if not isinstance(values, Mapping):
-        raise InputError(
-            f"{values!r} is no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
+        raise refused(
+            values, "no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
         )
     kinds = {each.KIND: each for each in members}
     left = {name: value for name, value in values.items() if name != "kind"}
     kind = values.get("kind", File.KIND if "file" in values else None)
-    if kind not in kinds:
+    if not isinstance(kind, str) or kind not in kinds:
         raise InputError(f"there is no kind {kind!r} of it", f"choose of {', '.join(kinds)}", "kind")
     return _part(kinds[kind], left)
 
@@ -161,6 +159,8 @@ def read_job(path: Path) -> Job:
     InputError
         If it states no job.
     """
+    from roughcontact.files.content import content  # late, with NumPy
+
     plain = _result_in(path)
     if plain is None:
         with content(path) as (_, data):
@@ -184,6 +184,9 @@ def _result_in(path: Path) -> dict[str, Any] | None:
     ReadError
         If the file cannot be read.
     """
+    from roughcontact.files.content import content  # late, with NumPy
+    from roughcontact.files.netcdf import opened
+
     kind = path.suffix.casefold()
     if kind not in (".json", ".nc"):
         return None
@@ -242,7 +245,8 @@ def pinned(job: Job, folder: Path) -> Job:
     """Return a job whose files are named from a folder, with their fingerprints."""
 
     def pin(file: File) -> File:
-        name = os.path.relpath(file.file, folder)
+        # Bytes of a name that are no letters have no place in a text.
+        name = os.path.relpath(file.file, folder).encode("utf-8", "replace").decode("utf-8")
         return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
     return with_files(job, pin)
