@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from typing import Any, TypeAlias
 
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
@@ -54,12 +55,9 @@ def surface_of(job: Job) -> Any:
 
 
 def known_names() -> dict[str, Any]:
-    """Return the modules that calls begin with."""
-    import numpy as np
-
-    import roughcontact as rc
-
-    return {"rc": rc, "np": np, "float": float, "getattr": getattr}
+    """Return the modules that calls begin with, as a program of a user imports them."""
+    modules = {name: import_module(module) for name, module in (("rc", "roughcontact"), ("np", "numpy"))}
+    return {**modules, "float": float, "getattr": getattr}
 
 
 def _default_level(job: Job) -> str:
