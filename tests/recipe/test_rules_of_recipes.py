@@ -281,7 +281,7 @@ RULES = [
     (
         smallest("adhesion press") | {"load": {"force": "-1mN"}},
         "load.force",
-        "give a curve with `forces` 0,-1mN",
+        "compute an adhesion curve with `forces` 0,-1mN",
         [smallest("adhesion curve") | {"loads": {"forces": "0,-1mN"}}],
     ),
     (
@@ -363,7 +363,7 @@ GRID = rc.Grid((4, 4), 1e-6)
         (lambda: PressJob(source=MAP, load=1.0, bodies=BODIES), "load"),
         (lambda: PressJob(source=MAP, load=LOAD, bodies=1e9), "bodies"),
         (lambda: PressJob(source=MAP, load=LOAD, bodies=BODIES, contact=rc.half_space(GRID, 1e9)), "contact"),
-        (lambda: SurfaceJob(source=File, preparation=None), "source"),
+        (lambda: SurfaceJob(source=File), "source"),
         (lambda: Combined(lower=MAP, upper=rc.shapes.sphere(GRID, 1e-3)), "upper"),
         (lambda: Bodies(modulus=lambda: 1e9), "modulus"),
         (lambda: OneLoad(force=rc.half_space(GRID, 1e9)), "force"),
@@ -432,4 +432,4 @@ def test_a_wrong_file_ends_run_with_its_place_and_leaves_no_folder(text, words, 
 def test_a_recipe_with_numbers_of_toml_is_that_of_texts(tmp_path):
     (tmp_path / "job.toml").write_text(f"{PRESS}[load]\nforce = 10\n")
     job = read_job(tmp_path / "job.toml")
-    assert (job.load.force, job.bodies.modulus) == ("10", "1000000000.0")
+    assert (job.load.force, job.bodies.modulus) == ("10", "1000000000")

@@ -197,7 +197,7 @@ class FallingLoads:
                 if after > before:
                     raise InputError(
                         f"the {name} of a retreat must fall, and {after:g} follows {before:g}",
-                        "leave it out, or follow an approach and a retreat as an adhesive curve",
+                        "leave it out, or compute an adhesion curve",
                         name,
                     )
         return found

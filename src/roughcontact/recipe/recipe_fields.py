@@ -11,11 +11,17 @@ from typing import Any, get_args, get_type_hints
 from roughcontact.errors import InputError, placed, together
 
 __all__ = [
-    *("Spec", "check", "described", "given", "hints_of", "option_of", "refused", "specs", "value_of"),
+    "Spec",
+    "check",
+    "described",
+    "given",
+    "hints_of",
+    "option_of",
+    "refused",
+    "specs",
+    "value_of",
     "words_of",
 ]
-
-_LARGEST_WHOLE = 1e15  # whole numbers beyond it are shorter as floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,12 +129,8 @@ def check(part: Any) -> None:
     hints = hints_of(kind)
     mistakes = []
     for each in fields(part):
-        value, spec = getattr(part, each.name), each.metadata.get("spec")
         try:
-            if spec is None:
-                _require_part(value, hints[each.name], each.name)
-            elif type(value) is not type(each.default) or value != each.default:
-                _check_field(part, each.name, hints[each.name], spec)
+            _check_field(part, each, hints[each.name])
         except InputError as error:
             mistakes.append(error)
     if mistakes:
@@ -147,20 +149,23 @@ def words_of(name: str, spec: Spec) -> tuple[str, ...]:
     return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
 
 
-def _check_field(part: Any, name: str, hint: Any, spec: Spec) -> None:
-    if spec.needs is not None and not getattr(part, spec.needs):
+def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
+    name, value, spec = declared.name, getattr(part, declared.name), declared.metadata.get("spec")
+    if spec is None:
+        if not isinstance(value, hint):
+            classes = " or ".join(each.__name__ for each in get_args(hint) or (hint,))
+            raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+        return
+    if type(value) is type(declared.default) and value == declared.default:
+        return
+    wanted = True if spec.needs is None else getattr(part, spec.needs)
+    if wanted is None or wanted is False:
         raise InputError(
             f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
         )
     with placed(name):
-        object.__setattr__(part, name, _as_declared(getattr(part, name), hint, spec))
+        object.__setattr__(part, name, _as_declared(value, hint, spec))
     value_of(part, name)
-
-
-def _require_part(value: Any, kind: Any, name: str) -> None:
-    if not isinstance(value, kind):
-        classes = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
-        raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
 
 
 def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
@@ -205,9 +210,10 @@ def _text(value: Any) -> str:
         raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
     if isinstance(value, str):
         return value.strip()
-    number: Any = value
-    is_whole = isinstance(number, Integral) or (float(number).is_integer() and abs(number) < _LARGEST_WHOLE)
-    return repr(int(number) if is_whole else float(number))
+    if isinstance(value, Integral):
+        return repr(int(value))
+    number = float(value)  # of a range of whole numbers, each is written as one
+    return repr(int(number) if number.is_integer() else number)
 
 
 def refused(value: Any, what: str, remedy: str, place: str | None = None) -> InputError:
