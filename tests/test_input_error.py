@@ -111,8 +111,11 @@ def test_a_missed_tolerance_has_the_fields_too():
         (lambda: rc.Solid(1e9, 0.7), "poisson_ratio"),
         (lambda: rc.self_affine(rc.Grid((8, 8), 1e-6), "rough", 1e-7), "hurst"),
         (lambda: rc.press(None, 1e9, force=1.0), "surface"),
-        (lambda: rc.study.Study(name="few", case="curve", parameters={"hurts": 0.8}), "parameters.hurts"),
-        (lambda: rc.study.find_case("curve").parameters(points="many"), "points, size, hurst, rms, modulus"),
+        (
+            lambda: rc.study.Study(name="few", case="study.trial:CASE", parameters={"hirst": 1, "hurst": 1}),
+            "parameters.hirst",
+        ),
+        (lambda: rc.study.find_case("curve").parameters(points="many"), "points, size, modulus, hurst, rms"),
     ],
 )
 def test_checks_name_the_argument(call, place):

@@ -131,7 +131,7 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
     [
         (["run", "none.toml"], "none.toml: No such file or directory; name the file of a study"),
         (["run", "."], "there is no study.toml in .: name the folder that a study was run in"),
-        (["run", "bad.toml"], "bad.toml: there is no 'sample': did you mean 'samples'?"),
+        (["run", "bad.toml"], "bad.toml: sample: there is no 'sample': did you mean 'samples'?"),
         (["run", "tried.toml", "--scheduler", "tcp://a:1"], "--scheduler: only --executor dask has one"),
         (
             ["run", "tried.toml", "--executor", "serial", "--workers", "2"],

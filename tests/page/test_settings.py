@@ -292,7 +292,7 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
     assert "Sq" in person.text("roughness")
     rc.write(rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6)), tmp_path / "flat.npz")
     person.open(tmp_path / "flat.npz")
-    said = person.page.locator("#said", has_text="flat")
+    said = person.page.locator("#said", has_text="The surface is flat")
     said.wait_for(timeout=1000 * PATIENCE)
     person.page.locator("#surface[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
     assert person.text("roughness") == ""

@@ -160,7 +160,7 @@ LOADS = [
     row(press("1,5N"), "write the decimal point as '.'", press("1.5N")),
     row(press("-1nm", "depth"), "Give 0 or more", press("0nm", "depth")),
     row(
-        request("press", **PRESSED, contact={"profile": "line"}),
+        request("press", **{**PRESSED, "load": {"force": "1N/m"}}, contact={"profile": "line"}),
         "A page presses maps. Press a profile by the command line",
         request("press", **PRESSED),
     ),

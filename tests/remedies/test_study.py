@@ -64,7 +64,7 @@ FILES = [
     row(study(hurst="[5.0]"), "hurst: 5.0 should be less than or equal to 3", study(hurst="[3.0]")),
     row(
         study(**CURVE | {"modulus": None}),
-        "does not take these parameters: 'modulus' is missing",
+        "parameters.modulus: 'modulus' is missing; give modulus",
         study(**CURVE),
     ),
     row(

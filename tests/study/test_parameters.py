@@ -40,7 +40,7 @@ def test_text_with_a_unit_is_a_number_in_si(name, text, number):
 @pytest.mark.parametrize(
     ("name", "value", "complaint"),
     [
-        ("size", "1 N", "'1 N' is not a length; write a length such as 5um"),
+        ("size", "1 N", "'1 N' is not a length: write a length such as 5um"),
         ("size", "1 mmm", "unknown unit 'mmm'"),
         ("size", "-1 mm", "greater than 0"),
         ("size", True, "True is not a length"),

@@ -9,7 +9,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.study.study_errors import StudyError
+from roughcontact.study.study_errors import MOST_MISTAKES, StudyError
 from study.trial import CASE, NAME
 
 TEXT = """
@@ -186,6 +186,25 @@ def test_what_makes_no_sense_is_refused_in_plain_words(more, complaint):
     assert complaint in str(caught.value)
     assert "pydantic" not in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_all_mistakes_come_in_one_message_each_with_its_place_and_once():
+    table = {"hurst": [4, 5, 0.5], "points": [], "size": {"start": "1 N", "stop": 2, "count": 3}}
+    with pytest.raises(StudyError) as caught:
+        Study(name="a/b", case=NAME, samples=0, parameters={"hurts": 1, "end": "ill"}, table=table)
+    assert [each.place for each in caught.value.parts] == [
+        *("name", "samples", "table.points", "parameters.hurts", "table.size"),
+        *("table.hurst", "parameters.end", "table.hurst"),
+    ]
+    assert "table.hurst: 4 should be less than or equal to 3" in str(caught.value)
+    assert caught.value.place.startswith("name, samples, table.points")
+
+
+def test_of_many_mistakes_the_first_are_shown():
+    with pytest.raises(StudyError) as caught:
+        Study(name="a", case=NAME, table={"hurst": list(range(4, 1000))})
+    assert str(caught.value).count("should be less") == MOST_MISTAKES
+    assert str(caught.value).endswith("more mistakes like these follow: correct these first")
 
 
 def test_what_is_missing_is_named():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 from typing import Any, TypeAlias
 
 from roughcontact.errors import within
@@ -12,13 +13,7 @@ from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.source import File, SmoothBody
 
 __all__ = [
-    "JOBS",
-    "Job",
-    "calls_of",
-    "contact_calls",
-    "is_of_profile",
-    "known_names",
-    "surface_calls",
+    *("JOBS", "Job", "calls_of", "contact_calls", "is_of_profile", "known_names", "surface_calls"),
     "surface_of",
 ]
 
@@ -79,11 +74,13 @@ def surface_of(job: Job) -> Any:
 
 def known_names() -> dict[str, Any]:
     """Return the modules that calls begin with."""
-    import numpy as np
-
-    import roughcontact as rc
-
-    return {"rc": rc, "np": np, "float": float, "getattr": getattr}
+    # By name, as calls are made: the package opens studies, and these do jobs.
+    return {
+        "rc": import_module("roughcontact"),
+        "np": import_module("numpy"),
+        "float": float,
+        "getattr": getattr,
+    }
 
 
 def _default_level(job: Job) -> str:

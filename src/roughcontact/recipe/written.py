@@ -16,10 +16,8 @@ import tomli_w
 
 from roughcontact.errors import InputError, every, together, within
 from roughcontact.files.aside import written_aside
-from roughcontact.files.content import content
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.fingerprint import fingerprint
-from roughcontact.files.netcdf import opened
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
@@ -161,6 +159,8 @@ def read_job(path: Path) -> Job:
     InputError
         If it states no job.
     """
+    from roughcontact.files.content import content  # late, with NumPy
+
     plain = _result_in(path)
     if plain is None:
         with content(path) as (_, data):
@@ -184,6 +184,9 @@ def _result_in(path: Path) -> dict[str, Any] | None:
     ReadError
         If the file cannot be read.
     """
+    from roughcontact.files.content import content  # late, with NumPy
+    from roughcontact.files.netcdf import opened
+
     kind = path.suffix.casefold()
     if kind not in (".json", ".nc"):
         return None
@@ -242,7 +245,8 @@ def pinned(job: Job, folder: Path) -> Job:
     """Return a job whose files are named from a folder, with their fingerprints."""
 
     def pin(file: File) -> File:
-        name = os.path.relpath(file.file, folder)
+        # Bytes of a name that are no letters have no place in a text.
+        name = os.path.relpath(file.file, folder).encode("utf-8", "replace").decode("utf-8")
         return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
     return with_files(job, pin)

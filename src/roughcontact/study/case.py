@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import reduce
 from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar, get_args
 
@@ -19,6 +18,7 @@ from pydantic.fields import FieldInfo
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, Kind, parse
 from roughcontact.study.checked import Checked
+from roughcontact.study.nested_names import at
 from roughcontact.study.study_errors import mistakes_of, refusal
 
 if TYPE_CHECKING:
@@ -37,13 +37,6 @@ __all__ = [
     "Record",
     "Stiffness",
 ]
-
-
-def at(values: Any, name: str) -> Any:
-    """Return the value of a dotted name in nested tables; None where there is none."""
-    return reduce(
-        lambda table, key: table.get(key) if isinstance(table, Mapping) else None, name.split("."), values
-    )
 
 
 class Parameters(Checked):

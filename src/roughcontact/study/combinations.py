@@ -6,47 +6,23 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from roughcontact.errors import InputError, every
 from roughcontact.study.cases import find_case
+from roughcontact.study.nested_names import flat, merged
 from roughcontact.study.ranges import Range
 from roughcontact.study.study_errors import MOST_MISTAKES, StudyError, expected
 from roughcontact.study.task import canonical
 
 if TYPE_CHECKING:
     from roughcontact.study.case import Parameters
-    from roughcontact.study.study import Study
 
-__all__ = ["MOST_CASES", "combined", "flat", "merged", "reads_files"]
+__all__ = ["MOST_CASES", "combined", "reads_files"]
 
 MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
+Study: TypeAlias = Any  # that of study/study.py, which imports this file
 _OF_THE_STUDY = ("folder", "files")
-
-
-def flat(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values in nested tables by dotted names; ranges are values."""
-    found: dict[str, Any] = {}
-    for name, value in values.items():
-        if isinstance(value, Mapping) and value and not value.keys() & Range.model_fields.keys():
-            found |= {f"{name}.{inner}": each for inner, each in flat(value).items()}
-        else:
-            found[name] = value
-    return found
-
-
-def merged(*tables: Mapping[str, Any]) -> dict[str, Any]:
-    """Return tables as one, later values in place of earlier ones; a dotted name is a value in a nested table."""
-    whole: dict[str, Any] = {}
-    for table in tables:
-        for name, value in table.items():
-            first, _, rest = name.partition(".")
-            value = {rest: value} if rest else value
-            if isinstance(value, Mapping):
-                before = whole.get(first, {})
-                value = merged(before if isinstance(before, Mapping) else {}, value)
-            whole[first] = value
-    return whole
 
 
 def reads_files(case: str) -> bool:
@@ -60,6 +36,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
     """Return the parameters of each combination by their canonical text, and all that is wrong with them."""
     model = find_case(study.case).parameters
     mistakes = list(_misnamed(study, model))
+    said = {one.place for one in mistakes}
     values: dict[str, tuple[Any, ...]] = {}
     for name, entry in study.table.items():
         try:
@@ -72,9 +49,10 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
         few = "take fewer samples or values, or several studies"
         return {}, [*mistakes, InputError(much, few, "samples, rows, table")]
     # In place of a table whose values cannot be read nothing is given, which is not another mistake.
-    unread = {f"table.{name}" for name in study.table.keys() - values.keys()}
+    said |= {f"table.{name}" for name in study.table.keys() - values.keys()}
     found: dict[str, Parameters] = {}
-    for row in study.rows or ({},):
+    rows: tuple[dict[str, Any], ...] = study.rows or ({},)
+    for row in rows:
         for chosen in itertools.product(*values.values()):
             if len(mistakes) > MOST_MISTAKES:
                 return found, mistakes
@@ -87,7 +65,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
                 new = [InputError(one.message, one.remedy, _place(study, one.place)) for one in every(error)]
                 known = {(one.place, one.message) for one in mistakes}
                 mistakes += [
-                    one for one in new if one.place not in unread and (one.place, one.message) not in known
+                    one for one in new if one.place not in said and (one.place, one.message) not in known
                 ]
                 continue
             text = canonical(parameters)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.study.collect import Collector
-from roughcontact.study.combinations import flat
+from roughcontact.study.nested_names import flat
 from roughcontact.study.study_errors import StudyError
 from roughcontact.version import __version__
 

@@ -11,7 +11,7 @@ from roughcontact.errors import InputError
 from roughcontact.recipe.jobs import Job, surface_calls
 from roughcontact.recipe.written import pinned, to_plain
 from roughcontact.study.cases.job_case import draws, without_outputs
-from roughcontact.study.combinations import flat, merged
+from roughcontact.study.nested_names import flat, merged
 from roughcontact.study.study import Study
 
 __all__ = ["is_random", "job_study"]

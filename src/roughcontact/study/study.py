@@ -26,7 +26,8 @@ from roughcontact.files.fingerprint import fingerprint
 from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
 from roughcontact.study.checked import TOO_DEEP, Checked
-from roughcontact.study.combinations import combined, flat, reads_files
+from roughcontact.study.combinations import combined, reads_files
+from roughcontact.study.nested_names import flat
 from roughcontact.study.ranges import Range
 from roughcontact.study.study_errors import StudyError, mistakes_of, refusal
 from roughcontact.study.task import Task, canonical, key_of

@@ -7,7 +7,6 @@ from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import typer
 
 from roughcontact.cli.contact.conductance_command import conductors_of
@@ -16,7 +15,6 @@ from roughcontact.cli.contact.curve_theories import theories_of
 from roughcontact.cli.contact.interface_files import write_tables
 from roughcontact.cli.contact.load_errors import errors_of, require_errors
 from roughcontact.cli.contact.loop_files import write_loop
-from roughcontact.cli.contact.stored_loads import stored_loads
 from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, softer_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
@@ -34,14 +32,13 @@ from roughcontact.recipe.written import carried
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import numpy.typing as npt
-
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
+    from roughcontact.validation import Array
 
 __all__ = ["EXAMPLES", "curve"]
 
@@ -70,6 +67,9 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
+    import numpy as np
+
+    from roughcontact.cli.contact.stored_loads import stored_loads
     from roughcontact.contact.join_curves import joined
     from roughcontact.solver.loads import Loads
 
@@ -132,7 +132,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise typer.Exit(MISSED)
 
 
-def _rest(job: CurveJob, loads: Loads, left: npt.NDArray[np.float64], out: Path | None) -> str:
+def _rest(job: CurveJob, loads: Loads, left: Array, out: Path | None) -> str:
     """Return how to compute the loads that a curve was stopped before."""
     words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
     if out is not None and job.plastic.hardness is None and not job.errors.errors:

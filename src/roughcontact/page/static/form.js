@@ -60,7 +60,7 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
       const picked = make("select", { id, onchange: () => set(name, kind !== "truth" || !picked.value ? picked.value : picked.value === "yes") }, ...list.map((entry) => option(...entry)));
       return { root: picked, show: (value) => (picked.value = value === true ? "yes" : value === false ? "no" : value ?? each.default ?? "") };
     }
-    const plain = { id, placeholder: each.default || example, autocomplete: "off", spellcheck: false };
+    const plain = { id, placeholder: kind === "texts" ? example : each.default || example, autocomplete: "off", spellcheck: false };
     if (kind === "texts") {
       const area = make("textarea", { ...plain, rows: 2, onchange: () => set(name, area.value.split("\n").map((text) => text.trim()).filter(Boolean)) });
       return { root: area, show: (value) => put(area, (value || []).join("\n")) };
@@ -80,7 +80,10 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
 
   const way = make("select", { id: part, onchange: () => choose(way.value) }, ...(one_of.length ? [] : [option("", "none given")]), ...group.map((name) => option(name, field(name).label)));
   const root = make("fieldset", {}, make("legend", { className: "unseen", textContent: title }));
-  if (group.length > 1) root.append(make("label", {}, `${alone ? title.split(" (")[0] : "Given by"} `, way));
+  if (group.length > 1) {
+    root.append(make("label", { title: field(group[0]).help }, `${alone ? title.split(" (")[0] : "Given by"} `, way));
+    root.lastChild.dataset.help = field(group[0]).help;
+  }
   const more = make("details", { className: "more" }, make("summary"));
   const first = fields.some(({ everyday }) => everyday) || (alone && fields.length > 1);
   const rest = alone && !fields.some(({ everyday }) => everyday) ? title : part === "preparation" ? "More steps" : "More";

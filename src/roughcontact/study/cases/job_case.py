@@ -24,8 +24,8 @@ from roughcontact.recipe.written import (
     to_plain,
     with_files,
 )
-from roughcontact.study.case import Case, Parameters, Record, at
-from roughcontact.study.combinations import flat
+from roughcontact.study.case import Case, Parameters, Record
+from roughcontact.study.nested_names import at, flat
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
