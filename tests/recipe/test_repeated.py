@@ -39,3 +39,10 @@ def test_tables_in_a_list_are_compared_one_by_one():
         "exponents.1.value: 1 of 1 differ, by at most 0.5 of the largest"
     ]
     assert differences(before, {"exponents": [*before["exponents"]]}) == []
+
+
+def test_a_quantity_may_come_and_not_go():
+    assert differences(BEFORE, BEFORE | {"area": 2.0}) == []
+    assert [str(each) for each in differences(BEFORE | {"area": 2.0}, BEFORE)] == [
+        "area: 2.0 before, None now"
+    ]

@@ -187,6 +187,7 @@ def test_a_changed_digit_is_reported(name, quantity, there):
     )
 
 
+@cache
 def on_the_page(name, home):
     """Return the messages of a worker of the page that exports the answer to a job, and the archive's files."""
     plain, sent = to_plain(read_job(Path(f"{name}.toml"))), []
@@ -207,9 +208,32 @@ def test_the_page_gives_the_same_numbers(name, there):
     assert end["how"] == "done", end
     stem = read_job(Path(f"{name}.toml")).NAME.replace(" ", "-")
     found = json.loads(archive.read(f"{stem}.json"))
-    shared = found.keys() & before.keys()
-    assert {"force", "depth", "stiffness"} <= shared
-    assert (
-        list(differences({each: before[each] for each in shared}, {each: found[each] for each in shared}))
-        == []
-    )
+    shared = {each: before[each] for each in found.keys() & before.keys()}
+    assert {"force", "depth", "stiffness"} <= shared.keys()
+    assert [str(each) for each in differences(shared, found)] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [("press_measured", "press.json"), ("press_measured", "pressure.nc"), ("loop_shape", "curve.nc")],
+)
+def test_what_the_page_gives_away_is_repeated(name, file, there):
+    _, archive = on_the_page(name, there)
+    exported = there / f"page-{name}-{file}"
+    exported.write_bytes(archive.read(file))
+    answer = invoked("run", exported)
+    assert answer.exit_code == 0, answer.stderr
+    assert "same numbers" in answer.stderr
+
+
+@pytest.mark.parametrize(("name", "place"), [("adhesive_state", "job"), ("line_press", "contact.profile")])
+def test_the_page_refuses_what_it_cannot_show(name, place, there):
+    end, archive = on_the_page(name, there)
+    assert (end["how"], end["places"], archive) == ("refused", [place], None)
+
+
+@pytest.mark.parametrize("file", ["loop.nc", "curve.nc"])
+def test_each_file_of_a_loop_is_repeated(file, there):
+    answer = invoked("run", result_of("loop_shape", there).with_name(file))
+    assert answer.exit_code == 0, answer.stderr
+    assert "same numbers" in answer.stderr

@@ -46,7 +46,9 @@ class Difference:
 
 
 def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Difference]:
-    """Return what two records of the same job do not have in common, to the last digit.
+    """Return what a record of a job lost or changed when the job was done again, to the last digit.
+
+    What only the second holds is no difference: the page writes fewer quantities than the command.
 
     Parameters
     ----------
@@ -68,7 +70,7 @@ def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Dif
 
 
 def _differences(before: Mapping[str, Any], after: Mapping[str, Any], path: str) -> Iterator[Difference]:
-    for name in sorted((before.keys() | after.keys()) - (set() if path else _WORDS)):
+    for name in sorted(before.keys() - (set() if path else _WORDS)):
         old, new = before.get(name), after.get(name)
         old, new = _by_number(old), _by_number(new)
         if isinstance(old, Mapping) and isinstance(new, Mapping):

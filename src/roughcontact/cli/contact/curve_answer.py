@@ -68,6 +68,8 @@ class CurveAnswer:
         Those of the curve.
     out : Path or None
         The folder of its files.
+    loop : Loop or None
+        First loading, which is the curve, with unloading and loading again.
     """
 
     job: CurveJob
@@ -81,6 +83,7 @@ class CurveAnswer:
     pressed: Pressed
     loads: Loads
     out: Path | None
+    loop: Loop | None
 
     @cached_property
     def tolerance(self) -> float:
@@ -195,6 +198,8 @@ class CurveAnswer:
             "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
             "recipe": self.recipe,
         }
+        if self.loop is not None:
+            record["loop"] = self.loop.to_record()
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
 
@@ -222,14 +227,14 @@ class CurveAnswer:
             save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
-    def tell(self, json: bool, loop: Loop | None = None) -> None:
+    def tell(self, json: bool) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
         from roughcontact.halfspace.operators.geometry import Geometry
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
         if json:
-            report.emit(self.record | ({} if loop is None else {"loop": loop.to_record()}))
+            report.emit(self.record)
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
@@ -243,8 +248,8 @@ class CurveAnswer:
             report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.theories.taken)])
-            if loop is not None:
-                report.print_facts(report.loop_facts(loop))
+            if self.loop is not None:
+                report.print_facts(report.loop_facts(self.loop))
             for each in self.errors:
                 each.tell(self.units, patch=not self.per_area, joint=self.per_area)
         missed = sum(not status.converged for status in curve.status)

@@ -112,7 +112,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
         per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(given(job.units))
         errors = errors_of(job.errors, outer)
-        beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out)
+        beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out, loop)
         found = CurveAnswer(job, computed, surface, notes, *beside)
         if folder is not None:
             unit = kinds_of(profile)[loads.kind].unit
@@ -124,7 +124,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
                 more = write_tables(job.tables, folder, computed, surface, conductors)
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
-    found.tell(answer.json, loop)
+    found.tell(answer.json)
     answer.note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
     if left.size or (plastic.loop and loop is None):
         raise typer.Exit(INTERRUPTED)

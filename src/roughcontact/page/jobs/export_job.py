@@ -126,7 +126,10 @@ def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
     source = _provenance(request, cache, request.job.NAME, getattr(found, "loading", found).modulus, 1e-8)
     stem = request.job.NAME.replace(" ", "-")
     if (figure := shown_curve(found).figure) is not None:
-        return _writers(stem, found.to_dataset(), found.to_record(), figure, source)
+        record = found.to_record()
+        if (loading := getattr(found, "loading", None)) is not None:  # a loop, as the command writes it
+            record = loading.to_record() | {"loop": record}
+        return _writers(stem, found.to_dataset(), record, figure, source)
     return _writers(stem, *_beside(request, cache), source)
 
 

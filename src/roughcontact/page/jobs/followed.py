@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.errors import within
+from roughcontact.errors import InputError, within
 from roughcontact.recipe.library_calls import Call, perform
 
 if TYPE_CHECKING:
@@ -54,6 +54,12 @@ def collected(followed: Followed) -> Any:
 def follow(calls: Iterable[Call], known: dict[str, Any]) -> Followed:
     """Perform calls up to the one that follows loads, and return the states that it follows."""
     *before, last = up_to_path(calls)
+    if last.function not in _FOLLOWED:
+        raise InputError(
+            "a page shows no single state of surfaces that stick",
+            "take an adhesion curve that ends there",
+            "job",
+        )
     for call in before:
         perform(call, known)
     with within(last.place):
