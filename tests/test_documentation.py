@@ -70,9 +70,8 @@ def folder(tmp_path, monkeypatch):
     np.savetxt(tmp_path / "scan.csv", scan, "%.9g", ";", header="x [um];z [um]", comments="")
     joint = rc.self_affine(periodic, hurst=0.8, rms=1e-7, rolloff=32e-6, rng=rng)
     rc.write(joint, tmp_path / "joint.npz")
-    studies = (HOME / "docs" / "studies.md").read_text(encoding="utf-8")
-    study, job, *_ = re.findall(r"```toml\n(.*?)```", studies, re.DOTALL)
-    for name, text in (("hurst.toml", study), ("job.toml", job)):
+    pages = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    for name, text in re.findall(r"```toml\n# (\S+\.toml)\n(.*?)```", pages, re.DOTALL):
         (tmp_path / name).write_text(fewer(text), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path

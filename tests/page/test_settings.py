@@ -281,7 +281,7 @@ def test_surfaces_that_come_without_a_file_are_prepared_alike(person):
     person.choose("example", ball.get_attribute("value"))
     person.wait()
     person.write("source.points", "48")
-    assert person.command == "roughcontact run press-job.json"
+    assert person.command == "roughcontact run press-job.toml"
     person.choose("source.shape", "cone")
     person.trouble("source.radius", "a cone takes slope")
 

@@ -226,6 +226,19 @@ def test_what_the_page_gives_away_is_repeated(name, file, there):
     assert "same numbers" in answer.stderr
 
 
+@pytest.mark.parametrize("name", ["press_measured", "press_after_example"])
+def test_the_recipe_in_what_the_page_gives_away_is_run(name, there):
+    """Where a file is, the page names it without a folder; where none is, the command that it states runs this file."""
+    _, archive = on_the_page(name, there)
+    (there / "press-job.toml").write_bytes(archive.read("press-job.toml"))
+    stated = archive.read("commands.sh").decode().strip()
+    assert (stated == "roughcontact run press-job.toml") == (name == "press_after_example")
+    answer = invoked("run", "press-job.toml", "--out", f"{name}-again")
+    assert answer.exit_code == 0, answer.stderr
+    again = numbers(_record_in(there / f"{name}-again"))
+    assert differences(numbers(result_of(name, there)), again) == []
+
+
 @pytest.mark.parametrize(("name", "place"), [("adhesive_state", "job"), ("line_press", "contact.profile")])
 def test_the_page_refuses_what_it_cannot_show(name, place, there):
     end, archive = on_the_page(name, there)

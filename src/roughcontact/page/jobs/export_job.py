@@ -12,6 +12,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import tomli_w
+
 from roughcontact.errors import InputError
 from roughcontact.page.jobs.curve_jobs import compared
 from roughcontact.page.jobs.session_cache import SessionCache
@@ -23,7 +25,6 @@ from roughcontact.recipe.jobs import calls_of, contact_calls, known_names
 from roughcontact.recipe.library_calls import Call, python_of
 from roughcontact.recipe.recipe_fields import given
 from roughcontact.recipe.source import File
-from roughcontact.recipe.written import to_plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -83,7 +84,7 @@ def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None
         for file, write in ({} if isinstance(each.job, SurfaceJob) else _files(each, cache)).items():
             write(folder / file)
         name = each.job.NAME.replace(" ", "-")
-        write_json(to_plain(each.shown), folder / f"{name}-job.json", {})
+        (folder / f"{name}-job.toml").write_text(tomli_w.dumps(each.recipe), encoding="utf-8")
     # What makes the surface stands once.
     commands = dict.fromkeys(line for each in asked for line in each.statement["command"].splitlines())
     (folder / "commands.sh").write_text("\n".join(commands) + "\n", encoding="utf-8")

@@ -80,7 +80,7 @@ class PageRequest:
     @property
     def statement(self) -> dict[str, str]:
         """The job as commands for a shell, one a line, and as a program in Python."""
-        recipe = f"{self.job.NAME.replace(' ', '-')}-job.json"
+        recipe = f"{self.job.NAME.replace(' ', '-')}-job.toml"
         return {"command": command_of(self.shown, recipe), "python": python_of(calls_of(self.shown))}
 
     @property
