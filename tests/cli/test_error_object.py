@@ -137,8 +137,6 @@ def test_each_command_answers_with_an_error(
     monkeypatch.chdir(tmp_path)
     np.save("bare.npy", np.eye(8))
     pathlib.Path("wrong.toml").write_text(WRONG)
-        'name = "w"\ncase = "curve"\n[parameters]\npoints = 8\nsize = 1e-3\nmodulus = 1e9\nhurst = 0.8\nrms = 1e-6\nhurts = 0.8\n'
-    )
     answer = invoke(*(rough if word == "FILE" else word for word in words), "--json")
     assert answer.exit_code == 2
     error = error_of(answer)
