@@ -426,11 +426,18 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    said = "stopped: 2 of 4 loads are computed; compute the others with --forces 4e-06,8e-06, and a new --out"
+    said = "stopped: 2 of 4 loads are computed; the same command computes the others"
     assert said in answer.stderr
     assert said in json.loads((tmp_path / "out" / "curve.json").read_text())["notes"][-1]
     kept = rc.read_curve(tmp_path / "out" / "curve.nc")
     np.testing.assert_allclose(kept.force, [1e-6, 2e-6])
+    monkeypatch.setattr(loading, "solutions_along", whole)
+    again = invoke(*words)
+    assert again.exit_code == 0, again.stderr
+    assert "2 of 4 loads are in" in again.stderr
+    whole_curve = rc.read_curve(tmp_path / "out" / "curve.nc")
+    assert whole_curve.depth[:2].tolist() == kept.depth.tolist()
+    np.testing.assert_allclose(whole_curve.force, [1e-6, 2e-6, 4e-6, 8e-6])
 
 
 def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, tmp_path, monkeypatch):

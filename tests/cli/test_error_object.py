@@ -25,6 +25,19 @@ def error_of(answer):
     return error
 
 
+WRONG = """
+name = "w"
+case = "curve"
+[parameters]
+points = 8
+size = 1e-3
+modulus = 1e9
+hurst = 0.8
+rms = 1e-6
+hurts = 0.8
+"""
+
+
 @pytest.mark.parametrize(
     ("words", "kind", "message", "remedy", "place"),
     [
@@ -123,7 +136,7 @@ def test_each_command_answers_with_an_error(
 ):
     monkeypatch.chdir(tmp_path)
     np.save("bare.npy", np.eye(8))
-    pathlib.Path("wrong.toml").write_text('name = "w"\ncase = "curve"\n[parameters]\nhurts = 0.8\n')
+    pathlib.Path("wrong.toml").write_text(WRONG)
     answer = invoke(*(rough if word == "FILE" else word for word in words), "--json")
     assert answer.exit_code == 2
     error = error_of(answer)

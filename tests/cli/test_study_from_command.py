@@ -110,7 +110,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["none.toml"], "none.toml: No such file or directory"),
+        (["none.toml"], "none.toml: it cannot be opened (No such file or directory)"),
         (
             ["job.toml", "--vary", "preparation.level"],
             "--vary: 'preparation.level' names no field and values",

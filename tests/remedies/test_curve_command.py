@@ -85,7 +85,7 @@ $ {FAR} --depths 1nm:2nm
 > {FAR} --depths -20nm:20nm:41
 
 $ {FAR} --forces -1nN,1nN
-! begin with 0 or more, and let the tension follow ('roughcontact adhesion curve')
+! begin with 0, and let the tension follow
 > {FAR} --forces 0N,-1nN
 
 $ {FAR} --mean-gaps 100nm
@@ -94,7 +94,7 @@ $ {FAR} --mean-gaps 100nm
 > {FAR} --forces 1uN
 
 $ {FAR} --mean-gaps=-1nm,1nm --periodic
-! give mean gaps above 0
+! -1 nm is full contact or beyond it; give mean gaps such as 100nm
 > {FAR} --mean-gaps=2nm,1nm --periodic
 """
 

@@ -79,7 +79,7 @@ SHEET = [
     ),
     row(request("look", {"points": "many"}), "Write 512 or 512x256", request("look", {"points": "32x16"})),
     row(request("look", {"seed": "-1"}), "a whole number from 0 up", request("look", {"seed": "2"})),
-    row(asked("look", {"kind": "self-affine"}), "Hurst is missing. Give hurst", request("look")),
+    row(asked("look", {"kind": "self-affine"}), "Hurst is missing; give hurst", request("look")),
 ]
 
 FILES = [
@@ -112,7 +112,7 @@ FILES = [
 ]
 
 PREPARED = [
-    row(prepared(crop="20:20,0:48"), "Nothing is left of (48, 48) cells", prepared(crop="20:40,0:48")),
+    row(prepared(crop="20:20,0:48"), "20:20 holds no cell; end above 20", prepared(crop="20:40,0:48")),
     row(prepared(crop="some"), "Write rows,columns such as 0:512,100:612", prepared(crop="0:512,10:612")),
     row(prepared(short_cutoff="1 m"), "such as 1e-5 m", prepared(short_cutoff="1e-5 m")),
     row(prepared(long_cutoff="1nm"), "give at least 4e-06 m", prepared(long_cutoff="4e-06 m")),

@@ -110,7 +110,7 @@ $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
-! lies between -1 and 0.5, not at '0.7'; give a number such as 0.3
+! lies between -0.99 and 0.5, not at '0.7'; give a number such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --young 1GPa --poisson 0.5
 
@@ -269,7 +269,7 @@ $ {DETACH} --depth 10nm --depths 20nm
 > {DETACH} --depth 10nm --depths 1e-08
 
 $ {DETACH} --depth 10nm --depths=-5nm,5nm
-! leave it out, or use 'roughcontact adhesion curve', with which surfaces come together again
+! leave it out, or compute an adhesion curve
 > {DETACH} --depth 10nm --depths=-5nm
 > adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --depths=-5nm,5nm
 

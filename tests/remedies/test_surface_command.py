@@ -27,7 +27,7 @@ $ {MAKE} --rms-band 1mm
 > {MAKE.replace("32", "512")} --rms-band 1mm:10um
 
 $ {MAKE} --rms-band 100um:1mm
-! must begin with the longest
+! exchange them: 1mm:100um
 > {MAKE} --rms-band 1mm:100um
 
 $ surface make new.docx --hurst 0.8 --rms 1um --size 1mm --points 32
@@ -95,7 +95,7 @@ $ {PREPARE} --average 0
 > {PREPARE} --average 1
 
 $ {PREPARE} --downsample 20
-! a factor of 20 leaves less than two of 24 cells: give at most 12
+! a factor of 20 leaves less than two of 24 cells; give at most 12
 > {PREPARE} --downsample 12
 
 $ {PREPARE} --alias

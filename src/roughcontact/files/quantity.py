@@ -22,7 +22,6 @@ __all__ = [
     "has_unit",
     "parse",
     "parse_number",
-    "parse_with_unit",
     "unit_in",
 ]
 
@@ -83,20 +82,6 @@ def parse(text: str, kind: Kind) -> float:
         raise InputError(
             f"{text!r} is beyond anything of this world", f"check its exponent and unit; {remedy}"
         )
-    return value
-
-
-def parse_with_unit(text: str, kind: Kind) -> float:
-    """Return the quantity in SI; a bare number is refused, since metres or pascals are hardly ever meant.
-
-    Raises
-    ------
-    ValueError
-        If the text is no finite number with a unit of that kind.
-    """
-    value = parse(text, kind)
-    if not has_unit(text):
-        raise InputError(f"{text.strip()!r} has no unit", f"write {kind.name} such as {kind.example}")
     return value
 
 
