@@ -36,6 +36,7 @@ TITLES = {  # in this order
     "study": "Studies",
     "plot": "Pictures",
     "files": "Files",
+    "errors": "Errors",
     "memory": "Memory",
     "progress": "Progress",
 }

@@ -196,7 +196,11 @@ def test_pictures_and_theories_fetch_what_they_need(library, rough):
 
 def test_a_surface_is_prepared_on_the_host(library, rough):
     there = elsewhere(rough, library)
-    for prepare in (lambda s: s.levelled("plane"), lambda s: s.filtered(short_cutoff=0.1), lambda s: s.flipped("x")):
+    for prepare in (
+        lambda s: s.levelled("plane"),
+        lambda s: s.filtered(short_cutoff=0.1),
+        lambda s: s.flipped("x"),
+    ):
         with pytest.raises(ValueError, match="prepare the surface first"):
             prepare(there)
 

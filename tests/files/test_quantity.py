@@ -3,7 +3,7 @@ from types import ModuleType
 
 import pytest
 
-from roughcontact.files import quantity
+from roughcontact import units
 from roughcontact.files.quantity import AREA, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
 
 
@@ -17,8 +17,8 @@ def test_a_quantity_becomes_its_number_in_si():
 @pytest.mark.parametrize("prefix", ["p", "n", "u", "µ", "μ", "m", "c", "k", "M", "G", "T"])
 def test_prefixes_are_those_of_the_library_of_units_without_it(monkeypatch, kind, prefix):
     unit = f"{prefix}{kind.unit}"
-    wanted = quantity.registry().Quantity(1.0, unit).to(kind.unit).magnitude
-    monkeypatch.setattr(quantity, "registry", None)
+    wanted = units.registry().Quantity(1.0, unit).to(kind.unit).magnitude
+    monkeypatch.setattr(units, "registry", None)
     assert parse(f"3{unit}", kind) == pytest.approx(3 * wanted, rel=1e-15)
 
 
@@ -54,7 +54,7 @@ def test_what_is_no_number_is_refused():
 
 
 def test_a_broken_library_of_units_is_not_the_fault_of_the_unit(monkeypatch):
-    monkeypatch.setattr(quantity, "registry", quantity.registry.__wrapped__)
+    monkeypatch.setattr(units, "registry", units.registry.__wrapped__)
     monkeypatch.setitem(sys.modules, "pint", None)  # as if it were not installed
     with pytest.raises(ImportError):
         parse("5 lbf", FORCE)

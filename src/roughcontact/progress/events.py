@@ -83,8 +83,8 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
         Takes an `Event`. It is called by the thread that computes, which waits for it; an exception that it raises ends
         the computation. Inside another such block the inner function alone is called.
     interval : float
-        Least time between two events of a task that runs [s]. A task inside another one is reported once it has lasted
-        so long. First and last events of outer tasks are always reported.
+        Least time in seconds between two events of a task that runs. A task inside another one is reported once it has
+        lasted so long. First and last events of outer tasks are always reported.
 
     Yields
     ------
