@@ -15,7 +15,7 @@ from roughcontact.recipe.contact import Contact
 from roughcontact.recipe.elastic_jobs import PressJob, SurfaceJob
 from roughcontact.recipe.jobs import JOBS, calls_of, surface_calls
 from roughcontact.recipe.prescribed_loads import OneLoad
-from roughcontact.recipe.source import Combined, Example, File
+from roughcontact.recipe.source import Combined, Example, File, InPython
 from roughcontact.recipe.written import from_plain, read_job, require_same_files, to_plain
 
 
@@ -352,6 +352,15 @@ def test_heights_that_were_made_in_python_are_named_and_not_made_again():
 
 
 GRID = rc.Grid((4, 4), 1e-6)
+
+
+def test_a_surface_of_python_has_the_name_of_its_heights():
+    ball, other = (rc.shapes.sphere(GRID, radius) for radius in (1e-3, 2e-3))
+    assert InPython.of(ball) == InPython.of(rc.shapes.sphere(GRID, 1e-3))
+    assert InPython.of(ball).surface_sha256 != InPython.of(other).surface_sha256
+    job = PressJob(source=InPython.of(ball), load=OneLoad(force="1mN"), bodies=Bodies(modulus="1GPa"))
+    assert from_plain(to_plain(job)) == job
+    assert to_plain(job)["source"]["history"] == list(ball.provenance)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from roughcontact.errors import InputError, placed, within
 from roughcontact.files.length_units import length_factor
@@ -13,6 +13,9 @@ from roughcontact.files.quantity import LENGTH
 from roughcontact.recipe.library_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, points, size, whole
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
 
 __all__ = ["SOURCES", "Combined", "Example", "File", "InPython", "SelfAffine", "SmoothBody", "Source"]
 
@@ -286,6 +289,22 @@ class InPython:
 
     def __post_init__(self) -> None:
         check(self)
+
+    @classmethod
+    def of(cls, surface: Surface) -> InPython:
+        """Return what names a surface: equal heights on equal grids have one name.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> from roughcontact.recipe.source import InPython
+        >>> ball = rc.shapes.sphere(rc.Grid((4, 4), 1e-6), radius=1e-3)
+        >>> InPython.of(ball).surface_sha256[:8], InPython.of(ball).history
+        ('436783b0', ('sphere, radius 0.001 m',))
+        """
+        from roughcontact.files.provenance import surface_hash  # late, with NumPy
+
+        return cls(surface_sha256=surface_hash(surface), history=surface.provenance)
 
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Refuse: nothing says how to make them again.
