@@ -121,7 +121,7 @@ def portray(page: Page, file: Path) -> None:
     page.locator("#map").hover(position={"x": 300, "y": 250})
     settled(page)
     page.mouse.move(0, 0)
-    page.get_by_text("Points", exact=True).click()  # whose table would be cut off
+    page.locator("#curves summary", has_text="Points").click()  # whose table would be cut off
     page.evaluate("() => scrollTo(0, 0)")
     end = page.locator("#curve").bounding_box()
     assert end is not None
@@ -183,12 +183,12 @@ def cancel(page: Page) -> tuple[float, float]:
     """Return the times from a request to stop to the end of the answer, and from there to the next map [s]."""
 
     def made(points: int) -> dict[str, Any]:
-        return {"kind": "made", "hurst": "0.8", "rms": "1um", "size": "1mm", "points": points}
+        return {"kind": "self-affine", "hurst": "0.8", "rms": "1um", "size": "1mm", "points": str(points)}
 
     page.wait_for_timeout(6000)  # in which the server has another process ready
-    load = {"control": "pressure", "text": "10 MPa"}
-    long = {"job": "curve", "recipe": {"source": made(1024)}}
-    short = {"job": "press", "recipe": {"source": made(512), "load": load}}
+    bodies, load = {"modulus": "100GPa"}, {"pressure": "10 MPa"}
+    long = {"job": "curve", "recipe": {"job": "curve", "source": made(1024), "bodies": bodies}}
+    short = {"job": "press", "recipe": {"job": "press", "source": made(512), "bodies": bodies, "load": load}}
     end, there = page.evaluate(CANCEL, [long, short])
     return end / 1e3, there / 1e3
 

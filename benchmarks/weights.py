@@ -28,6 +28,7 @@ PURPOSES = {
     "pydantic": "study files: what they may hold, in words",
     "filelock": "one writer for the store of a study",
     "platformdirs": "the user's folder for caches, where machine code is kept",
+    "tomli-w": "study files and recipes, written",
 }
 
 

@@ -13,6 +13,7 @@ from pkgutil import resolve_name
 from typing import Any
 
 from format_page import formats
+from recipe_page import recipes
 
 from public_names import PublicName, public_names
 
@@ -35,7 +36,9 @@ TITLES = {  # in this order
     "study": "Studies",
     "plot": "Pictures",
     "files": "Files",
+    "errors": "Errors",
     "memory": "Memory",
+    "progress": "Progress",
 }
 
 
@@ -57,6 +60,7 @@ def write_reference(folder: Path) -> None:
     for page, names in modules.items():
         _write(folder / f"{page}.rst", _page(page, names))
     _write(folder / "commands.md", [_commands()])
+    _write(folder / "recipes.md", recipes())
     _write(folder / "formats.md", formats())
     _write(folder / "parts.inc", _parts(rooms.keys()))
 
@@ -65,6 +69,7 @@ def _parts(rooms: Collection[str]) -> list[str]:
     """Return a list of all parts, with a sentence each, and the menu of them."""
     about = {
         "commands": ("Command line", "every command with its options, and lines to copy."),
+        "recipes": ("Recipes", "every field of a job in a file."),
         "formats": ("File formats", "what is read and written, by the ending of the file."),
     }
     for room in sorted(rooms, key=list(TITLES).index):

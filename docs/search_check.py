@@ -28,7 +28,12 @@ QUESTIONS = {
     "memory": "memory",
     "hardness": "plastic",
     "how many threads": "threads",
-    "progress in a notebook": "notebooks",
+    "tab key": "completion",
+    "shell completion": "completion",
+    "check the installation": "doctor",
+    "report a defect": "doctor",
+    "progress in a notebook": "progress",
+    "how far is a long job": "progress",
     "press": "reference/roughcontact.press",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

@@ -24,9 +24,12 @@ PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
 # Pages whose commands want a cluster, days, or a file of the reader's.
 NOT_HERE = {"cluster.md", "law.md", "reproduction.md"}
 # Counts of a study that take minutes, and what is run in their place.
-FEWER = {"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"}
+FEWER = {
+    **{"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"},
+    **{"--samples 10 ": "--samples 2 ", "points = 128": "points = 32"},
+}
 # Libraries that a block may want and a machine may lack.
-OPTIONAL = re.compile(r"^import (torch)$", re.MULTILINE)
+OPTIONAL = {"torch": "import torch\n", "tqdm": "rc.progress.bar("}
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 
@@ -34,7 +37,8 @@ COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 def blocks():
     for page in PAGES:
         for number, (code, printed) in enumerate(BLOCK.findall(page.read_text(encoding="utf-8"))):
-            lacking = [each for each in OPTIONAL.findall(code) if importlib.util.find_spec(each) is None]
+            wanted = [name for name, sign in OPTIONAL.items() if sign in code]
+            lacking = [each for each in wanted if importlib.util.find_spec(each) is None]
             skipped = pytest.mark.skipif(bool(lacking), reason=f"{', '.join(lacking)}: not installed")
             yield pytest.param(code, printed, id=f"{page.name}-{number}", marks=skipped)
 
@@ -66,10 +70,9 @@ def folder(tmp_path, monkeypatch):
     np.savetxt(tmp_path / "scan.csv", scan, "%.9g", ";", header="x [um];z [um]", comments="")
     joint = rc.self_affine(periodic, hurst=0.8, rms=1e-7, rolloff=32e-6, rng=rng)
     rc.write(joint, tmp_path / "joint.npz")
-    study = re.search(
-        r"```toml\n(.*?)```", (HOME / "docs" / "studies.md").read_text(encoding="utf-8"), re.DOTALL
-    )
-    (tmp_path / "hurst.toml").write_text(fewer(study[1]), encoding="utf-8")
+    pages = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    for name, text in re.findall(r"```toml\n# (\S+\.toml)\n(.*?)```", pages, re.DOTALL):
+        (tmp_path / name).write_text(fewer(text), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

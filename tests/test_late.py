@@ -4,6 +4,7 @@ import compileall
 import inspect
 import os
 import pydoc
+import re
 import shutil
 import subprocess
 import sys
@@ -36,12 +37,28 @@ def test_each_name_is_there_once(package):
     assert all(getattr(package, name) is getattr(package, name) for name in names)
 
 
-def test_another_name_is_refused_with_those_that_there_are():
+def test_a_misspelt_name_is_refused_with_similar_ones():
     with pytest.raises(
-        AttributeError,
-        match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; it has law, laws, adhesive_asperities",
+        AttributeError, match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; similar names: hertz$"
     ):
         _ = rc.theory.hurtz
+    with pytest.raises(AttributeError, match=r"no attribute 'lodaing_curve'; similar names: loading_curve, "):
+        _ = rc.lodaing_curve
+
+
+def test_a_name_like_no_other_is_refused_with_those_that_there_are():
+    with pytest.raises(
+        AttributeError, match=r"has no attribute 'zzz'; it has law, laws, adhesive_asperities"
+    ):
+        _ = rc.theory.zzz
+
+
+def test_help_of_the_package_begins_with_the_ways_in():
+    named = set(re.findall(r"(?<!`)`(\w+)`(?!`)", rc.__doc__))
+    assert {"read", "press", "loading_curve", "theory", "handbook"} <= named <= set(rc.__all__)
+    shown = pydoc.plain(pydoc.render_doc(rc)).partition("PACKAGE CONTENTS")[0]
+    assert "`loading_curve`" in shown
+    assert len(shown.splitlines()) < 25  # the first screen
 
 
 def test_without_texts_all_is_imported_at_once(tmp_path):

@@ -49,6 +49,17 @@ def test_the_environment_may_ask_for_fewer(asked, given):
     assert int(found.stdout) == (given or min(cores, 8))
 
 
+def test_each_bound_of_the_threads_has_its_words(monkeypatch):
+    monkeypatch.setattr(os, "cpu_count", lambda: 16)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(12), raising=False)
+    monkeypatch.setenv("MPI_LOCALNRANKS", "4")
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    words = ["the cores that it may use", "OMP_NUM_THREADS", "the most that help"]
+    assert threads_module.limits() == dict(zip(words, (12, 3, 8), strict=True))
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    assert threads_module.limits()["its share of the cores by MPI"] == 4
+
+
 @pytest.mark.parametrize("launcher", ["MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE"])
 def test_processes_on_one_machine_share_its_cores(launcher, monkeypatch):
     monkeypatch.delenv("OMP_NUM_THREADS", raising=False)

@@ -86,7 +86,7 @@ def test_exactly_one_is_given():
 
 def test_a_message_has_the_first_value_that_is_wrong():
     with pytest.raises(ValueError, match=r"too much \(given: 7\)$"):
-        require(np.array([True, False, False]), "too much", [1, 7, 9])
+        require(np.array([True, False, False]), "too much", value=[1, 7, 9])
     with pytest.raises(ValueError, match=r"not exceed 3: .*\(given: 3.5\)"):
         pohrt_popov.exponent([1.0, 3.5])
     with pytest.raises(ValueError, match=r"exceed 0: .*\(given: nan\)"):
@@ -145,7 +145,10 @@ def test_the_function_stays_itself():
         ({"depth": [1.0, np.nan]}, "depth must be a number, not nan"),
         ({"hurst": [0.8]}, r"hurst must be one number in SI units, not an array of shape \(1,\)"),
         ({"length": "x"}, "length must be one number in SI units, not 'x'"),
-        ({"force": np.ones(2), "depth": np.ones(3)}, r"do not fit: force \(2,\), depth \(3,\)$"),
+        (
+            {"force": np.ones(2), "depth": np.ones(3)},
+            r"do not fit: force \(2,\), depth \(3,\); give numbers or arrays of one shape$",
+        ),
     ],
     ids=str,
 )

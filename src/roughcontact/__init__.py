@@ -1,4 +1,14 @@
-"""Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load."""
+"""Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.
+
+Get a surface: `read`, `Surface`, `self_affine`, `shapes`, `examples`; `read_line` for a profile. Its methods prepare
+it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
+
+Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` where surfaces
+attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer.
+
+Rooms of their own: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`.
+``help(rc.press)`` shows one name; the command ``roughcontact doctor`` checks an installation.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +23,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact import (
         mdr as mdr,
         plot as plot,
+        progress as progress,
         statistics as statistics,
         study as study,
         theory as theory,
@@ -48,6 +59,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.size_law import NixGao as NixGao
     from roughcontact.contact.solution import Solution as Solution
     from roughcontact.contact.stiffness import contact_stiffness as contact_stiffness
+    from roughcontact.errors import InputError as InputError
     from roughcontact.evaluation.below import (
         StressPeak as StressPeak,
         below as below,

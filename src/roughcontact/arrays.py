@@ -7,6 +7,7 @@ from typing import Any
 import array_api_compat
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.kernels import buffers
 from roughcontact.validation import Array
 
@@ -20,7 +21,6 @@ __all__ = [
     "max_abs",
     "multiply",
     "namespace",
-    "numbers",
     "on_host",
     "require_floating",
     "require_no_unit",
@@ -59,14 +59,18 @@ def require_numpy(field: object, method: str) -> None:
 def require_no_unit(field: Any) -> None:
     """Raise a ValueError for an array of astropy, whose unit NumPy's functions would drop."""
     if type(field) is not np.ndarray and isinstance(field, np.ndarray) and hasattr(field, "unit"):
-        raise ValueError(f"a field is read as plain SI numbers, not in {field.unit}: give its numbers")
+        raise InputError(
+            f"a field is read as plain SI numbers, not in {field.unit}", "give its numbers", place="field"
+        )
 
 
 def require_floating(field: Any) -> None:
     """Raise a ValueError for an array of another library than NumPy, which converts itself, of whole numbers."""
     if is_numpy(field) or namespace(field).isdtype(field.dtype, ("real floating", "complex floating")):
         return
-    raise ValueError(f"a field must hold floating numbers, not {field.dtype}: convert it to float64")
+    raise InputError(
+        f"a field must hold floating numbers, not {field.dtype}", "convert it to float64", place="field"
+    )
 
 
 def wants_gradient(array: Any) -> bool:
@@ -92,14 +96,6 @@ def as_like(values: Array, array: Any) -> Any:
     if isinstance(array, np.ndarray):
         return values
     return namespace(array).asarray(values, dtype=array.dtype, device=array_api_compat.device(array))
-
-
-def numbers(array: Any) -> Array:
-    """Return the few entries of an array, such as the sums of its fields, on the host: each is fetched by itself."""
-    if isinstance(array, np.ndarray):
-        return array
-    entries = namespace(array).reshape(array, (-1,))
-    return np.array([float(entries[i]) for i in range(entries.shape[0])]).reshape(tuple(array.shape))
 
 
 def inner(a: Any, b: Any) -> float:

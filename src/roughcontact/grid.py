@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.units import in_si
 from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
 
@@ -59,24 +60,26 @@ class Grid:
     ) -> None:
         sizes: tuple[int, ...] = tuple(np.atleast_1d(shape).tolist())
         if len(sizes) not in (1, 2):
-            raise ValueError(f"shape must have one or two axes, not {len(sizes)}: {sizes}")
+            raise about("shape", f"must have one or two axes, not {len(sizes)}: {sizes}")
         if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
-            raise ValueError(f"shape must hold positive whole numbers of cells, not {sizes}")
+            raise about("shape", f"must hold positive whole numbers of cells, not {sizes}")
         steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise ValueError(f"spacing must be positive, finite numbers [m], not {steps}")
+            raise about("spacing", f"must be positive, finite numbers [m], not {steps}")
         # Of a line the spacing may be the area of cells of which it is a list.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
-            raise ValueError(
-                f"spacing must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
-                f"their digits, not {steps}: give lengths in other units"
+            raise about(
+                "spacing",
+                f"must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
+                f"their digits, not {steps}",
+                "give lengths in other units",
             )
         object.__setattr__(self, "shape", tuple(int(n) for n in sizes))
         object.__setattr__(self, "spacing", tuple(float(step) for step in steps))
         repeats = _per_axis(periodic, len(sizes), "periodic")
         if any(b not in (True, False) for b in repeats):
-            raise ValueError(f"periodic must hold True or False, not {repeats}")
+            raise about("periodic", f"must hold True or False, not {repeats}")
         object.__setattr__(self, "periodic", tuple(bool(b) for b in repeats))
 
     @property
@@ -194,12 +197,12 @@ class RadialGrid:
     def __post_init__(self) -> None:
         given = np.asarray(in_si(self.edges, "m", "edges"))
         if given.dtype.kind not in "fiu":
-            raise ValueError(f"edges must be radii [m], real numbers, not of type {given.dtype}")
+            raise about("edges", f"must be radii [m], real numbers, not of type {given.dtype}")
         edges = np.array(given, dtype=np.float64)
         if edges.ndim != 1 or len(edges) < 2:
-            raise ValueError(f"edges must hold the radii of at least two circles, not shape {edges.shape}")
+            raise about("edges", f"must hold the radii of at least two circles, not shape {edges.shape}")
         if not (np.isfinite(edges).all() and edges[0] >= 0 and (np.diff(edges) > 0).all()):
-            raise ValueError("edges must be finite radii [m] that increase strictly, from 0 or above")
+            raise about("edges", "must be finite radii [m] that increase strictly, from 0 or above")
         for width in (np.diff(edges).min(), edges[-1]):
             moderate(float(width), "edges and widths of rings [m]")
         edges.flags.writeable = False
@@ -235,8 +238,9 @@ class RadialGrid:
         radius = in_si(radius, "m", "radius")
         numbers = _is_real(rings) and _is_real(radius)
         if not (numbers and rings >= 1 and rings % 1 == 0 and 0 < radius < math.inf):
-            raise ValueError(
-                f"a disc needs a whole number of rings, at least one, and a radius above 0, not {rings} and {radius}"
+            raise InputError(
+                f"a disc needs a whole number of rings, at least one, and a radius above 0, not {rings} and {radius}",
+                place="rings, radius",
             )
         return cls(np.linspace(0.0, moderate(scalar(radius, "radius [m]"), "radius [m]"), int(rings) + 1))
 
@@ -338,5 +342,5 @@ def _per_axis(value: Any, ndim: int, name: str) -> tuple[Any, ...]:
     if np.ndim(value) == 0:
         return (value,) * ndim
     if len(value) != ndim:
-        raise ValueError(f"{name} needs one value or {ndim}, not {len(value)}: {value}")
+        raise InputError(f"{name} needs one value or {ndim}, not {len(value)}: {value}", place=name)
     return tuple(value)

@@ -52,9 +52,12 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
     """
     home = package["__name__"]
     if names is None or name not in names:
-        raise AttributeError(
-            f"module {home!r} has no attribute {name!r}; it has {', '.join(package['__all__'])}"
-        )
+        from difflib import get_close_matches  # late: it takes as long to import as all that is imported here
+
+        known = package["__all__"]
+        close = get_close_matches(name, known)
+        hint = f"similar names: {', '.join(close)}" if close else f"it has {', '.join(known)}"
+        raise AttributeError(f"module {home!r} has no attribute {name!r}; {hint}")
     with no_fork:  # a process forked in the middle of an import could never import the same
         members = vars(import_module(names[name]))
         package[name] = members[name] if name in members else import_module(f"{names[name]}.{name}")

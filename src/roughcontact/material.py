@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import moderate, require_numbers, scalar, shown
 
 __all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
@@ -35,11 +36,11 @@ class Solid:
     def __post_init__(self) -> None:
         require_numbers(self, young_modulus="Pa")
         if not self.young_modulus > 0:
-            raise ValueError(f"young_modulus must be positive [Pa], not {self.young_modulus}")
+            raise about("young_modulus", f"must be positive [Pa], not {self.young_modulus}")
         if self.young_modulus < math.inf:
             moderate(self.young_modulus, "young_modulus [Pa]")
         if not -1 < self.poisson_ratio <= 0.5:
-            raise ValueError(f"poisson_ratio must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
+            raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
 
     @property
     def shear_modulus(self) -> float:
@@ -125,14 +126,16 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
         value = reduced_modulus(modulus)
     elif isinstance(modulus, tuple):
         if len(modulus) != 2:
-            raise ValueError(
-                f"two solids have a reduced modulus, not {len(modulus)}: give one Solid, or a pair"
+            raise InputError(
+                f"two solids have a reduced modulus, not {len(modulus)}",
+                "give one Solid, or a pair",
+                place="modulus",
             )
         value = reduced_modulus(*modulus)
     else:
         value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
-        raise ValueError(f"the reduced modulus must be positive and finite [Pa], not {value}")
+        raise InputError(f"the reduced modulus must be positive and finite [Pa], not {value}")
     return moderate(value, "the reduced modulus [Pa]")
 
 
@@ -148,8 +151,9 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
         return bodies, None
     if isinstance(bodies, tuple) and len(bodies) == 2:
         return bodies
-    raise ValueError(
-        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {shown(bodies)}"
+    raise InputError(
+        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {shown(bodies)}",
+        place="bodies",
     )
 
 
@@ -157,11 +161,13 @@ def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:
     bodies = (first,) if second is None else (first, second)
     for body in bodies:
         if not isinstance(body, Solid):
-            raise ValueError(f"a Solid is wanted (young_modulus, poisson_ratio), not {body!r}")
+            raise InputError(f"a Solid is wanted (young_modulus, poisson_ratio), not {body!r}")
     return bodies
 
 
 def _inverse(compliance: float) -> float:
     if compliance == 0:
-        raise ValueError("two rigid bodies have no reduced modulus: give one of them a finite young_modulus")
+        raise InputError(
+            "two rigid bodies have no reduced modulus", "give one of them a finite young_modulus"
+        )
     return 1 / compliance

@@ -131,6 +131,7 @@ def handbook(name: str) -> Material:
     key = _ALIASES.get(name, name)
     require(
         key in MATERIALS,
-        f"there is no material named {name!r}; there are {', '.join(MATERIALS)}: for another give its numbers",
+        f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
+        "for another give its numbers",
     )
     return MATERIALS[key]

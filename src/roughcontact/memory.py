@@ -12,6 +12,8 @@ from pathlib import Path
 
 import psutil
 
+from roughcontact.errors import InputError
+
 __all__ = ["MemoryWarning", "free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
 
 SMALL = 2**24  # [bytes] what every machine has: nothing is asked
@@ -58,10 +60,12 @@ def require_memory(least: int, most: int, what: str, remedy: str) -> None:
         need = (
             f"{gigabytes(least)} of memory at least" if impossible else f"up to {gigabytes(most)} of memory"
         )
-        text = f"{what} needs {need}, and {gigabytes(there)} are there: {remedy}, {_ELSEWHERE}"
+        error = InputError(
+            f"{what} needs {need}, and {gigabytes(there)} are there", f"{remedy}, {_ELSEWHERE}"
+        )
         if impossible:
-            raise ValueError(text)
-        warnings.warn(text, MemoryWarning, stacklevel=6)  # whoever calls `press`
+            raise error
+        warnings.warn(str(error), MemoryWarning, stacklevel=6)  # whoever calls `press`
 
 
 def require_free(need: int, what: str, remedy: str, error: Callable[[str, str], Exception]) -> None:

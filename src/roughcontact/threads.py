@@ -20,6 +20,7 @@ __all__ = [
     "controller",
     "join_in",
     "limit_threads",
+    "limits",
     "no_fork",
     "once",
     "one_blas_thread",
@@ -236,10 +237,16 @@ def controller() -> ThreadpoolController:
 
 @cache
 def _available() -> int:
+    return max(1, min(limits().values()))
+
+
+def limits() -> dict[str, int]:
+    """Return what bounds the number of threads of this process, in words, each with its number."""
     there = os.cpu_count() or 1
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else there
-    share = max(1, there // max(1, *map(_stated, BESIDE)))
-    return max(1, min(MOST, cores, _stated("OMP_NUM_THREADS") or share))
+    stated, beside = _stated("OMP_NUM_THREADS"), max(1, *map(_stated, BESIDE))
+    chosen = {"OMP_NUM_THREADS": stated} if stated else {"its share of the cores by MPI": there // beside}
+    return {"the cores that it may use": cores, **chosen, "the most that help": MOST}
 
 
 def _stated(variable: str) -> int:

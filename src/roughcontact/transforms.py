@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import DeviceTable, is_numpy, namespace, require_floating
+from roughcontact.errors import InputError
 from roughcontact.kernels import buffers, loader
 from roughcontact.kernels.compiled_convolution import CompiledConvolution
 from roughcontact.kernels.plane_plan import fits
@@ -20,7 +21,10 @@ from roughcontact.slabs.slab_convolution import SlabConvolution
 from roughcontact.threads import limit_threads, spread, threads
 from roughcontact.validation import Array
 
-__all__ = ["Convolution", "convolve", "even_multiplier", "fast_even_length", "filtered", "padded_length"]
+__all__ = [
+    *("Convolution", "convolve", "even_multiplier", "fast_even_length", "filtered", "padded_length"),
+    "workers_for",
+]
 
 Pair = tuple[int, int]
 
@@ -74,7 +78,7 @@ class Convolution:
     def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
         """Return the machine's kernel for fields of one shape and precision."""
         if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
-            raise ValueError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
+            raise InputError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
         ready = CompiledConvolution.of(self._kernel(), shape, self.lengths, dtype.name)
         self._ready[shape, dtype] = ready
         if dtype == np.float64:
@@ -196,7 +200,7 @@ def _multiply_even(spectrum: Any, factors: Any) -> None:
     spectrum[upper:, :] *= namespace(factors).flip(factors[1 : spectrum.shape[0] - upper + 1, :], axis=0)
 
 
-def _workers(lengths: tuple[int, int]) -> int:
+def workers_for(lengths: tuple[int, int]) -> int:
     """Return how many threads a transform takes."""
     return threads() if lengths[0] * lengths[1] >= LARGE else 1
 
@@ -216,16 +220,15 @@ def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
 
     Notes
     -----
-    Only the rows that hold data are transformed along x, and on the host the padded columns exist for one slab at a
+    On the host only the rows that hold data are transformed along x, and the padded columns exist for one slab at a
     time.
     """
     if is_numpy(field):
         return _on_host(field, multiply, padded)
-    xp = namespace(field)
-    (*_, ny, nx), (my, mx) = field.shape, padded
-    spectrum = xp.fft.fft(xp.fft.rfft(field, n=mx, axis=-1), n=my, axis=-2)
+    xp, (*_, ny, nx) = namespace(field), field.shape
+    spectrum = xp.fft.rfftn(field, s=padded, axes=(-2, -1))
     multiply(spectrum, slice(None))
-    return xp.fft.irfft(xp.fft.ifft(spectrum, n=my, axis=-2)[..., :ny, :], n=mx, axis=-1)[..., :nx]  # type: ignore[no-any-return]
+    return xp.fft.irfftn(spectrum, s=padded, axes=(-2, -1))[..., :ny, :nx]  # type: ignore[no-any-return]
 
 
 def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
@@ -233,7 +236,7 @@ def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
 
     *_, ny, nx = field.shape
     my, mx = padded
-    workers = _workers(padded)
+    workers = workers_for(padded)
     if my == ny:  # no part of the spectrum is empty
         spectrum = scipy.fft.rfft(field, n=mx, axis=-1, workers=workers)
         spectrum = scipy.fft.fft(spectrum, axis=-2, overwrite_x=True, workers=workers)

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import about
+
 __all__ = ["PLAIN", "as_text", "in_si", "registry"]
 
 # The types of almost all arguments, which carry no unit: they pay one look into this set.
@@ -82,7 +84,7 @@ def _parts_in_si(values: Any, unit: str | None, what: str) -> Any:
         return values
     bare = [value for value, other in zip(values, changed, strict=True) if not other and value != 0]
     if bare:
-        raise ValueError(f"{what} holds numbers with a unit and {bare[0]!r} without: give each a unit")
+        raise about(what, f"holds numbers with a unit and {bare[0]!r} without", "give each a unit")
     return tuple(parts) if isinstance(values, tuple) else parts
 
 
@@ -130,11 +132,11 @@ def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
         )
     except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
         wanted = f"plain numbers in {unit}" if unit else "plain numbers"
-        raise ValueError(f"{what} carries the unit {stated!r}, which is not known: give {wanted}") from error
+        raise about(what, f"carries the unit {stated!r}, which is not known", f"give {wanted}") from error
     if given.is_compatible_with(unit or ""):
         return given.m_as(unit or "")
     if unit is not None:
-        raise ValueError(f"{what} must be in {unit}, or in a unit of the same dimension, not in {stated}")
+        raise about(what, f"must be in {unit}, or in a unit of the same dimension, not in {stated}")
     plain = given.to_base_units().magnitude
     number = f"{plain:.12g}" if np.ndim(plain) == 0 else "their numbers in SI units"
-    raise ValueError(f"{what} is read as plain numbers, not in {stated}: give {number}")
+    raise about(what, f"is read as plain numbers, not in {stated}", f"give {number}")

@@ -11,6 +11,7 @@ from typing import Any, ParamSpec, TypeAlias, TypeVar, overload
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError, about
 from roughcontact.units import PLAIN, in_si
 
 __all__ = [
@@ -102,14 +103,16 @@ def scalar(value: Any, what: str) -> float:
     if type(value) is float:
         return value
     x = _floats(value, what, "one number")
-    require(np.ndim(x) == 0, f"{what} must be one number in SI units, not an array of shape {np.shape(x)}")
+    if np.ndim(x):
+        raise about(what, f"must be one number in SI units, not an array of shape {np.shape(x)}")
     return float(x)
 
 
 def finite(value: npt.ArrayLike, what: str) -> Array:
     """Return `value` as `number` does, if all of it is finite."""
     x = number(value, what)
-    require(np.isfinite(x), f"{what} must be finite", x)
+    if not (there := np.isfinite(x)).all():
+        raise about(what, f"must be finite (given: {np.asarray(x)[~there].flat[0]:g})")
     return x
 
 
@@ -122,10 +125,8 @@ def moderate(value: float, what: str) -> float:
         If it is too small or too large for that.
     """
     if not SMALLEST <= value <= LARGEST:
-        raise ValueError(
-            f"{what} must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, "
-            f"not at {value:g}: give it in other units"
-        )
+        problem = f"must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, not at {value:g}"
+        raise about(what, problem, "give it in other units")
     return value
 
 
@@ -148,7 +149,7 @@ def positive(value: npt.ArrayLike, what: str, *, zero: bool = False) -> Array:
     right = np.isfinite(x) & ((x >= 0) if zero else (x > 0))
     if not right.all():
         wanted = "finite and not negative" if zero else "positive and finite"
-        raise ValueError(f"{what} must be {wanted}, not {np.asarray(x)[~right].flat[0]}")
+        raise about(what, f"must be {wanted}, not {np.asarray(x)[~right].flat[0]}")
     return x
 
 
@@ -160,7 +161,7 @@ def positive_scalar(value: Any, what: str) -> float:
 def whole(value: int, what: str) -> int:
     """Return a whole number from 1 up, or refuse it."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
-        raise ValueError(f"{what} must be a whole number, at least 1, not {shown(value)}")
+        raise about(what, f"must be a whole number, at least 1, not {shown(value)}")
     return int(value)
 
 
@@ -173,17 +174,22 @@ def pair(values: tuple[npt.ArrayLike, npt.ArrayLike], what: str) -> tuple[Array,
         If there are not two, they are not positive, or their shapes do not fit.
     """
     if not isinstance(values, tuple | list | np.ndarray) or len(values) != 2:
-        raise ValueError(f"{what} must be two, such as (1e-3, 2e-3), not {shown(values)}")
+        raise about(what, f"must be two, such as (1e-3, 2e-3), not {shown(values)}")
     first, second = (positive(value, what) for value in values)
     if np.ndim(first) and np.ndim(second) and np.shape(first) != np.shape(second):
-        raise ValueError(
-            f"{what} must be two numbers or arrays of one shape, not {first.shape} and {second.shape}"
-        )
+        raise about(what, f"must be two numbers or arrays of one shape, not {first.shape} and {second.shape}")
     return first, second
 
 
-def require(condition: npt.ArrayLike, message: str, value: npt.ArrayLike | None = None) -> None:
-    """Raise a `ValueError` with the `message` unless the `condition` holds everywhere.
+def require(
+    condition: npt.ArrayLike,
+    message: str,
+    remedy: str | None = None,
+    *,
+    place: str | None = None,
+    value: npt.ArrayLike | None = None,
+) -> None:
+    """Raise an `InputError` with the `message`, the `remedy` and the `place` unless the `condition` holds everywhere.
 
     The message ends with the first `value`, an array of the shape of the condition or one number, for which it does
     not hold.
@@ -191,7 +197,7 @@ def require(condition: npt.ArrayLike, message: str, value: npt.ArrayLike | None 
     right = np.asarray(condition)
     if not right.all():
         wrong = "" if value is None else f" (given: {np.broadcast_to(value, right.shape)[~right].flat[0]:g})"
-        raise ValueError(message + wrong)
+        raise InputError(message + wrong, remedy, place)
 
 
 def as_generator(rng: RngLike) -> np.random.Generator:
@@ -205,9 +211,10 @@ def as_generator(rng: RngLike) -> np.random.Generator:
     try:
         return np.random.default_rng(rng)
     except (TypeError, ValueError) as error:
-        raise ValueError(
-            f"rng must be a numpy.random.Generator or a seed, not {shown(rng)}: give a whole number from 0 up, such as "
-            "rng=1, or None for numbers that differ from run to run"
+        raise about(
+            "rng",
+            f"must be a numpy.random.Generator or a seed, not {shown(rng)}",
+            "give a whole number from 0 up, such as rng=1, or None for numbers that differ from run to run",
         ) from error
 
 
@@ -229,7 +236,7 @@ def exactly_one(**given: Any) -> tuple[str, Any]:
     stated = {name: value for name, value in given.items() if value is not None}
     *others, last = given
     wanted, found = f"{', '.join(others)} and {last}", " and ".join(stated) or "none"
-    require(len(stated) == 1, f"give exactly one of {wanted}, not {found}")
+    require(len(stated) == 1, f"give exactly one of {wanted}, not {found}", place=", ".join(given))
     return stated.popitem()
 
 
@@ -295,7 +302,7 @@ def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, 
         shapes, converted = {}, {}
         for name, value in given.items():
             if name in bodies and not _is_a(bodies[name], value):
-                raise ValueError(f"{name} must be {BODIES[kinds[name]]}, not {shown(value)}")
+                raise about(name, f"must be {BODIES[kinds[name]]}, not {shown(value)}")
             if type(value) not in PLAIN and (name in units or name in wanted):
                 unit = units.get(name)
                 plain = in_si(value, unit(given) if callable(unit) else unit, name)
@@ -347,7 +354,9 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
         np.broadcast_shapes(*shapes.values())
     except ValueError as error:
         given = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
-        raise ValueError(f"give numbers or arrays of one shape; these shapes do not fit: {given}") from error
+        raise InputError(
+            f"these shapes do not fit: {given}", "give numbers or arrays of one shape", ", ".join(shapes)
+        ) from error
 
 
 def _is_a(kind: str, value: Any) -> bool:
@@ -361,8 +370,8 @@ def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:
         return ()
     x = number(value, name) if kind in ARRAYS else np.asarray(scalar(value, name))
     if kind in WHOLE:
-        require(np.isfinite(x) and x % 1 == 0, f"{name} must be a whole number, not {value}")
-    require(~np.isnan(x), f"{name} must be a number, not nan")
+        require(np.isfinite(x) and x % 1 == 0, f"{name} must be a whole number, not {value}", place=name)
+    require(~np.isnan(x), f"{name} must be a number, not nan", place=name)
     return np.shape(x)
 
 
@@ -378,9 +387,9 @@ def _floats(value: Any, what: str, wanted: str) -> Array:
     except (TypeError, ValueError, OverflowError) as error:
         parts = value if isinstance(value, tuple) else (value,)
         remedy = (
-            "; of a material give the reduced modulus as a number: rc.reduced_modulus(...)"
+            "of a material give the reduced modulus as a number: rc.reduced_modulus(...)"
             if "modulus" in what and any(hasattr(part, "young_modulus") for part in parts)
-            else ""
+            else None
         )
-        raise ValueError(f"{what} must be {wanted} in SI units, not {shown(value)}{remedy}") from error
+        raise about(what, f"must be {wanted} in SI units, not {shown(value)}", remedy) from error
     return plain

@@ -4,6 +4,9 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
+from roughcontact.contact import loop
+
+assert loop  # imported before tests replace functions that it takes over
 
 
 @pytest.fixture

@@ -147,7 +147,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("average", "STUDY", "--out", "a.xlsx"), "--out: cannot write a.xlsx: give a file .nc"),
+        (("average", "STUDY", "--out", "a.xlsx"), "--out: cannot write a.xlsx; give a file .nc"),
         (
             ("plot", "STUDY", "--out", "a.jpg"),
             "cannot write the picture a.jpg: end its name in png, pdf, svg",
@@ -158,16 +158,16 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
             "'points' is no number that varies: choose",
         ),
         (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
-        (("table", "STUDY", "--window", "2:1"), "--window goes from a force to a larger one"),
+        (("table", "STUDY", "--window", "2:1"), "a window goes from a force to a larger one"),
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
         (
             ("table", "STUDY", "--at", "2"),
-            "--at: the loads go from 0.005 to 0.07: choose a force between them",
+            "--at: the loads go from 0.005 to 0.07; choose a force between them",
         ),
         (("table", "STUDY", "--at", "0"), "--at: a force over E* h L is above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),
-            "--quantity: no 'stifness' differs between samples: choose of",
+            "--quantity: no 'stifness' differs between samples; choose of",
         ),
         (("table", "STUDY", "--quantity", "stiffness"), "stiffness lies along load: choose a force by --at"),
     ],

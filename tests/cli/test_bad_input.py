@@ -106,34 +106,40 @@ PRESS_OPTIONS = {
     "zero force": (changed(force="0N"), "the force must be positive"),
     "force in kilograms": (
         changed(force="1kg"),
-        "--force: '1kg' is not a force; expected a force such as 10N",
+        "--force: '1kg' is not a force; write a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
     "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
-    "no load": (changed(force=None), "give one load (--force or --pressure or --depth)"),
+    "no load": (
+        changed(force=None),
+        "none of --force, --pressure, --depth is given: give one, such as --force 10N",
+    ),
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
     "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
     "negative modulus": (changed(modulus="-1GPa"), "modulus must be positive"),
-    "no modulus": (changed(modulus=None), "--modulus or --materials or --young"),
+    "no modulus": (changed(modulus=None), "none of --modulus, --materials, --young is given"),
     "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
-    "half a body": (changed(modulus=None, young="1GPa"), "--poisson is missing"),
+    "half a body": (
+        changed(modulus=None, young="1GPa"),
+        "--young is given without --poisson: give --poisson",
+    ),
     "half of the other body": (
         changed(modulus=None, young="1GPa", poisson="0.3", young2="1GPa"),
-        "--poisson2 is missing",
+        "--young2 is given without --poisson2: give --poisson2",
     ),
-    "too many bodies": (changed(young2="1GPa"), "leave out"),
+    "too many bodies": (changed(young2="1GPa"), "--young2 belongs to --young"),
     "zero Young's modulus": (
         changed(modulus=None, young="0", poisson="0.3"),
         "--young: Young's modulus must be positive",
     ),
     "Poisson's ratio": (
         changed(modulus=None, young="1GPa", poisson="0.7"),
-        "--poisson: Poisson's ratio lies above",
+        "--poisson: Poisson's ratio lies between",
     ),
     "decimal comma": (
         changed(modulus=None, young="1GPa", poisson="0,3"),
-        "--poisson: '0,3' holds a comma: write the decimal point as '.'",
+        "--poisson: '0,3' holds a comma; write the decimal point as '.'",
     ),
     "Poisson's ratio in words": (changed(modulus=None, young="1GPa", poisson="third"), "not a number"),
     "a force beyond measure": (changed(force="1e300N"), "--force: '1e300N' is beyond anything"),
@@ -141,8 +147,8 @@ PRESS_OPTIONS = {
     "size of zero": (changed(size="0mm"), "--size: a side length must be positive"),
     "unit that is none": (changed(unit="second"), "unit 'second' is not a unit of length"),
     "unknown channel": (changed(channel="colour"), "no channel 'colour'"),
-    "loose tolerance": (changed(tolerance="1"), "--tolerance: the tolerance must lie between"),
-    "tight tolerance": (changed(tolerance="0"), "the tolerance must lie between"),
+    "loose tolerance": (changed(tolerance="1"), "--tolerance: the tolerance lies between"),
+    "tight tolerance": (changed(tolerance="0"), "the tolerance lies between"),
     "no tolerance": (changed(tolerance="small"), "--tolerance: 'small' is not a number"),
 }
 
@@ -157,8 +163,8 @@ def test_a_bad_option_of_press(invoke, rough, tmp_path, case):
 
 
 CURVE_OPTIONS = {
-    "no load": (("--forces", ""), "no load given"),
-    "empty list": (("--forces", ", ,"), "no load given"),
+    "no load": (("--forces", ""), "holds no load"),
+    "empty list": (("--forces", ", ,"), "holds no load"),
     "falling loads": (("--forces", "2N,1N"), "must increase"),
     "equal loads": (("--forces", "1N,1N"), "must increase"),
     "a load of zero": (("--forces", "0,1N"), "must be positive"),

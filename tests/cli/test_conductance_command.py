@@ -103,7 +103,7 @@ def test_a_curve_has_the_columns_at_once(invoke, rough):
         ((), "give --resistivity, --conductivity, or both"),
         (("--resistivity", "5N"), "'5N' is not a resistivity"),
         (("--resistivity=-1"), "must not be negative"),
-        (("--resistivity", "1,2,3"), "one value for both bodies or two"),
+        (("--resistivity", "1,2,3"), "give one for both or two"),
         (("--conductivity", "400W/m"), "is not a thermal conductivity"),
         (("--resistivity", "0"), "no limit"),
     ],

@@ -66,10 +66,6 @@ def test_a_person_gets_one_line_a_load(invoke, rough):
     assert "full-contact stiffness" in answer.stdout
 
 
-def test_progress_goes_to_standard_error(invoke, rough):
-    assert "12/12" in invoke("curve", rough, *FORCES, *MODULUS, "--json").stderr
-
-
 def test_loads_can_be_pressures_or_depths(invoke, rough, surface):
     def ask(*loads):
         return json.loads(invoke("curve", rough, *loads, *MODULUS, "--level", "none", "--json").stdout)
@@ -88,7 +84,7 @@ def test_without_loads_it_takes_those_of_the_library_and_says_so(invoke, rough, 
     says = f"the map is {found.kind.value}; no loads are named: 24 forces from {ends[0]} to {ends[1]}"
     assert says in answer.stderr
     assert all(note in answer.stderr for note in found.notes)
-    assert "24 forces that suit the surface" in " ".join(invoke("curve", "--help").stdout.split())
+    assert "24 forces that suit the surface" in " ".join(invoke("curve", "--help-all").stdout.split())
 
 
 def test_a_flat_surface_needs_its_loads_named(invoke, tmp_path):
@@ -226,14 +222,14 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--theory", "person"), "there is no 'person'; there are persson"),
+        (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose of persson"),
         (("--theory", "gw,gw"), "each theory once"),
         (("--theory", ","), "each theory once"),
-        (("--hurst", "0.8"), "--hurst is for theories"),
-        (("--theory", "hertz"), "by --radius"),
+        (("--hurst", "0.8"), "--hurst belongs to --theory"),
+        (("--theory", "hertz"), "give --radius"),
         (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),
-        (("--theory", "cmy"), "by --hardness"),
+        (("--theory", "cmy"), "give --hardness"),
     ],
 )
 def test_theories_that_cannot_be_are_one_line(invoke, rough, words, message):
@@ -430,11 +426,18 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("curve", rough, "--modulus", "1GPa", "--forces", "1uN,2uN,4uN,8uN", "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    said = "stopped: 2 of 4 loads are computed; compute the others with --forces 4e-06,8e-06, and a new --out"
+    said = "stopped: 2 of 4 loads are computed; the same command computes the others"
     assert said in answer.stderr
     assert said in json.loads((tmp_path / "out" / "curve.json").read_text())["notes"][-1]
     kept = rc.read_curve(tmp_path / "out" / "curve.nc")
     np.testing.assert_allclose(kept.force, [1e-6, 2e-6])
+    monkeypatch.setattr(loading, "solutions_along", whole)
+    again = invoke(*words)
+    assert again.exit_code == 0, again.stderr
+    assert "2 of 4 loads are in" in again.stderr
+    whole_curve = rc.read_curve(tmp_path / "out" / "curve.nc")
+    assert whole_curve.depth[:2].tolist() == kept.depth.tolist()
+    np.testing.assert_allclose(whole_curve.force, [1e-6, 2e-6, 4e-6, 8e-6])
 
 
 def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, tmp_path, monkeypatch):
@@ -506,11 +509,14 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--loop",), "--loop is about what flows: give a --hardness"),
-        (("--flow", "raised"), "--flow is about what flows: give a --hardness"),
+        (("--loop",), "--loop is about what flows under a hardness, which is not given: give --hardness"),
+        (
+            ("--flow", "raised"),
+            "--flow is about what flows under a hardness, which is not given: give --hardness",
+        ),
         (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop goes by forces or pressures"),
-        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "leave it out with --flow raised"),
-        (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow raised goes by forces"),
+        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "--flow is raised: leave out one of them"),
+        (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow goes by forces"),
     ],
 )
 def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):

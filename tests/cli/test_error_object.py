@@ -1,16 +1,18 @@
 """Who asks for JSON gets JSON where the answer fails, too: one object on standard output."""
 
 import json
+import pathlib
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.cli.error_object import remedy_in
 
 PROGRAM = [sys.executable, "-m", "roughcontact"]
 MODULUS = ("--modulus", "1GPa")
+MADE = ("--hurst", "0.8", "--rms", "1um", "--size", "1mm")
 
 
 def error_of(answer):
@@ -19,64 +21,135 @@ def error_of(answer):
     record = json.loads(line)
     assert record.keys() == {"error"}
     error = record["error"]
-    assert error.keys() == {"kind", "message", "remedy", "exit_status"}
+    assert error.keys() == {"kind", "message", "remedy", "place", "exit_status"}
     return error
 
 
+WRONG = """
+name = "w"
+case = "curve"
+[parameters]
+points = 8
+size = 1e-3
+modulus = 1e9
+hurst = 0.8
+rms = 1e-6
+hurts = 0.8
+"""
+
+
 @pytest.mark.parametrize(
-    ("words", "kind", "message", "remedy"),
+    ("words", "kind", "message", "remedy", "place"),
     [
         (
             ("press", "FILE", *MODULUS),
             "usage",
-            "give one load (--force or --pressure or --depth)",
-            "give one load (--force or --pressure or --depth)",
+            "none of --force, --pressure, --depth is given",
+            "give one, such as --force 10N",
+            "--force",
         ),
         (
             ("press", "missing.x3p", "--force", "1N", *MODULUS),
             "read",
             "missing.x3p: ",
-            "",
+            "check the path",
+            "source",
         ),
         (
             ("curve", "FILE", "--forces", "1N,2N", "--pressures", "1Pa,2Pa", *MODULUS),
             "usage",
-            "--forces and --pressures exclude each other: give one of them",
+            "--forces and --pressures exclude each other",
             "give one of them",
+            "--forces, --pressures",
         ),
         (
             ("press", "FILE", "--force", "1N", *MODULUS, "--out", "FILE"),
             "write",
-            "is a file; choose another name",
+            "is a file",
             "choose another name",
+            None,
         ),
-        (("press", "FILE", "--depth", "1m", *MODULUS, "--periodic"), "value", "give a smaller depth", None),
-        (("surface", "info", "missing.x3p"), "read", "missing.x3p", ""),
-        (("surface", "spectrum", "missing.x3p"), "read", "missing.x3p", ""),
-        (("surface", "prepare", "FILE", "out.xyz"), "write", "out.xyz", None),
-        (("surface", "make", "a.npz", "--hurst", "9", "--rms", "1um", "--size", "1mm"), "value", "", None),
-        (("conductance", "FILE"), "usage", "give --resistivity", ""),
-        (("study", "run", "none.toml"), "study", "none.toml: No such file", ""),
-        (("study", "status", "nowhere"), "store", "nowhere: there is no study.toml", "name the folder that"),
-        (("study", "export", "nowhere", "--out", "a.nc"), "store", "nowhere", "name the folder that"),
-        (("study", "average", "nowhere", "--out", "a.nc"), "store", "nowhere", "name the folder that"),
-        (("study", "plot", "nowhere", "--out", "a.png"), "store", "nowhere", "name the folder that"),
-        (("study", "table", "nowhere"), "store", "nowhere", "name the folder that"),
+        (
+            ("press", "FILE", "--depth", "1m", *MODULUS, "--periodic"),
+            "value",
+            "in full contact",
+            "give a smaller depth",
+            "--depth",
+        ),
+        (("surface", "info", "missing.x3p"), "read", "missing.x3p", "check the path", None),
+        (("surface", "spectrum", "missing.x3p"), "read", "missing.x3p", "check the path", "source"),
+        (
+            ("press", "bare.npy", "--force", "1N", *MODULUS),
+            "read",
+            "bare.npy: it states",
+            "pass --unit",
+            "--unit, --size",
+        ),
+        (("surface", "prepare", "FILE", "out.xyz"), "write", "out.xyz", None, None),
+        (
+            ("surface", "make", "a.npz", *MADE, "--hurst", "9"),
+            "usage",
+            "the Hurst exponent lies between -1 and 3",
+            "give a number such as 0.8",
+            "--hurst",
+        ),
+        (
+            ("surface", "make", "a.npz", *MADE, "--seed", "x"),
+            *("usage", "the seed is a whole number from 0 up, not 'x'", "give one such as 2", "--seed"),
+        ),
+        (("conductance", "FILE"), "usage", "a conductance follows", "give --resistivity", None),
+        (("study", "run", "none.toml"), "study", "none.toml: No such file", "name the file of a study", None),
+        (("study", "run", "wrong.toml"), "study", "no parameter 'hurts'", None, "parameters.hurts"),
+        (
+            ("study", "status", "nowhere"),
+            "store",
+            "nowhere: there is no study.toml",
+            "name the folder",
+            "folder",
+        ),
+        (
+            ("study", "export", "nowhere", "--out", "a.nc"),
+            "store",
+            "nowhere",
+            "name the folder that",
+            "folder",
+        ),
+        (
+            ("study", "average", "nowhere", "--out", "a.nc"),
+            "store",
+            "nowhere",
+            "name the folder that",
+            "folder",
+        ),
+        (
+            ("study", "plot", "nowhere", "--out", "a.png"),
+            "store",
+            "nowhere",
+            "name the folder that",
+            "folder",
+        ),
+        (("study", "table", "nowhere"), "store", "nowhere", "name the folder that", "folder"),
     ],
 )
 def test_each_command_answers_with_an_error(
-    invoke, rough, tmp_path, monkeypatch, words, kind, message, remedy
+    invoke, rough, tmp_path, monkeypatch, words, kind, message, remedy, place
 ):
     monkeypatch.chdir(tmp_path)
+    np.save("bare.npy", np.eye(8))
+    pathlib.Path("wrong.toml").write_text(WRONG)
     answer = invoke(*(rough if word == "FILE" else word for word in words), "--json")
     assert answer.exit_code == 2
     error = error_of(answer)
     assert (error["kind"], error["exit_status"]) == (kind, 2)
     assert message in error["message"]
-    assert f"Error: {error['message']}" in answer.stderr  # the line for people stays where it is
-    if remedy is not None:
+    assert error["message"] in answer.stderr  # the line for people stays where it is
+    if remedy is None:
+        assert error["remedy"] is None
+    else:
         assert error["remedy"].startswith(remedy)
-        assert error["message"].endswith(error["remedy"])
+        assert error["remedy"] not in error["message"]
+        assert answer.stderr.endswith(f"{error['remedy']}\n")
+    assert error["place"] == place
 
 
 def test_without_json_standard_output_stays_empty(invoke, rough):
@@ -132,21 +205,3 @@ def test_an_answer_ends_as_without_json(rough):
     assert answer.returncode == 0
     assert json.loads(answer.stdout)["command"] == "press"
     assert call([*words, "--help"]).returncode == 0
-
-
-@pytest.mark.parametrize(
-    ("message", "remedy"),
-    [
-        ("a file; choose another name", "choose another name"),
-        (
-            "two loads: give one of them, or none: leave out --depth",
-            "give one of them, or none: leave out --depth",
-        ),
-        ("give the unit", "give the unit"),
-        ("there is no 'sample': did you mean 'samples'?", None),
-        ("the gives and takes: nothing", None),
-        ("giver: none", None),
-    ],
-)
-def test_the_remedy_is_the_end_that_says_what_to_do(message, remedy):
-    assert remedy_in(message) == remedy

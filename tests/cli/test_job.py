@@ -64,8 +64,8 @@ def test_other_commands_are_refused(arguments, named):
     problem = job.refusal(arguments)
     assert (problem is None) == (named is None)
     if named:
-        assert "4 processes" in problem
-        assert named in problem
+        assert "4 processes" in str(problem)
+        assert named in str(problem)
 
 
 @pytest.mark.usefixtures("third_of_four")

@@ -10,10 +10,10 @@ import typer
 
 import roughcontact as rc
 from roughcontact import memory
-from roughcontact.cli import options
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.run_memory import require_memory
+from roughcontact.files import read as read_module
 from roughcontact.files.file_errors import SurfaceWarning
 
 
@@ -49,8 +49,9 @@ def test_a_file_that_the_system_refuses_is_one_line(tmp_path, capsys):
         ("def f():\n try:\n  int('many')\n except ValueError:\n  raise", ValueError),
         ("def f():\n return {}['key']", KeyError),
         ("def f():\n raise TypeError('one', 'two')", TypeError),
-        ("def f():\n raise OSError('strange')", None),
-        ("def f():\n raise ValueError(\n  'on two lines'\n )", None),
+        ("def f():\n raise OSError('strange')", OSError),
+        ("def f():\n raise ValueError('of no class of ours')", ValueError),
+        ("def f():\n from roughcontact import InputError\n raise InputError('strange')", None),
     ],
 )
 def test_foreign_errors_show_themselves_as_mistakes_of_ours(source, error):
@@ -164,14 +165,14 @@ class TestMemory:
         )
 
     def test_info_asks_before_it_levels(self, invoke, rough, monkeypatch):
-        read = options.Source.map_or_line
+        read = read_module.read_either
 
-        def then_another_program_takes_it(reading):
-            surface = read(reading)
+        def then_another_program_takes_it(*given, **named):
+            surface = read(*given, **named)
             monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1e3))
             return surface
 
-        monkeypatch.setattr(options.Source, "map_or_line", then_another_program_takes_it)
+        monkeypatch.setattr(read_module, "read_either", then_another_program_takes_it)
         monkeypatch.setattr(rc.Surface, "levelled", lambda *_: pytest.fail("it went to level"))
         answer = invoke("surface", "info", rough)
         assert answer.exit_code == BAD_INPUT

@@ -20,7 +20,7 @@ def test_the_command_names_a_package_that_is_missing(rough, package):
         [sys.executable, "-c", script, *words], capture_output=True, encoding="utf-8", check=False
     )
     assert (answer.returncode, answer.stdout) == (BAD_INPUT, "")
-    pattern = rf'Error: the package {package} is not installed; run: {PIP}"{package}>=[\d.]+"\n'
+    pattern = rf'Error: the package {package} is not installed: run: {PIP}"{package}>=[\d.]+"\n'
     assert re.fullmatch(pattern, answer.stderr)
 
 
@@ -36,6 +36,6 @@ def test_the_command_refuses_netcdf_without_h5py_before_any_work(invoke, rough, 
     monkeypatch.setitem(sys.modules, "h5py", None)
     answer = invoke(verb, *words)
     assert answer.exit_code == BAD_INPUT
-    words = rf'the package h5py, which cannot be imported \(.*\); run: {PIP}"h5py>=3.11"\n'
+    words = rf'the package h5py, which cannot be imported \(.*\)[:;] run: {PIP}"h5py>=3.11"\n'
     assert re.fullmatch(f"Error: .*{words}", answer.stderr)
     assert not (tmp_path / "out").exists()

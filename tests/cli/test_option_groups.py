@@ -1,13 +1,20 @@
-"""Options that are declared once: in groups within groups, and as defaults of parameters."""
+"""Options that are declared once: as fields of a recipe, in groups within groups, and as defaults of parameters."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
+from roughcontact.cli.commands import do
 from roughcontact.cli.option_groups import argument, grouped, option
+from roughcontact.cli.options import Answer
+from roughcontact.recipe.jobs import JOBS
+from roughcontact.recipe.recipe_fields import check, described
+from roughcontact.recipe.source import File, Source
+from roughcontact.recipe.texts import Choice, Names, whole
+from roughcontact.recipe.written import from_plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,3 +74,100 @@ def test_help_has_the_panel_and_no_opposite_of_a_switch(run):
     assert "How much" in text
     assert "Do it." in text
     assert "--no-flag" not in text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    TITLE: ClassVar = "A part"
+    ONE_OF: ClassVar = ("length", "width")
+    length: str | None = described("Its length.", "2", read=whole(1, "the length"), everyday=True)
+    width: str | None = described("Its width, as long as it is: and more.", "3", everyday=True)
+    kind_of: str = described("Which kind.", read=Choice(("round", "square")), default="round")
+    holes: tuple[str, ...] = described("Holes; may be given again.", "1:2", default=())
+    names: str | None = described("Whose.", "a,b", read=Names("name", ("ann", "bob")), needs="length")
+    hidden: str | None = described("Not for a command.", "TEXT", option=False)
+
+    def __post_init__(self):
+        check(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartJob:
+    source: Source
+    part: Part = field(default_factory=Part)
+
+
+@pytest.fixture
+def made():
+    seen = []
+
+    def command(job: PartJob) -> None:
+        """Do a job."""
+        seen.append(job)
+
+    app = typer.Typer(add_completion=False)
+    app.command()(grouped(command))
+    return lambda *words: (CliRunner().invoke(app, words, env={"COLUMNS": "100", "TERM": "dumb"}), seen)
+
+
+def test_fields_of_a_recipe_become_options(made):
+    answer, seen = made(
+        "a.txt", "--length", "5", "--holes", "1:2", "--holes=-3:4", "--kind-of", "square", "--free"
+    )
+    assert answer.exit_code == 0, answer.output
+    part = Part(length="5", kind_of="square", holes=("1:2", "-3:4"))
+    assert seen == [PartJob(source=File(file="a.txt", periodic=False), part=part)]
+    assert made("a.txt", "--width", "1", "--periodic")[1][-1].source == File(file="a.txt", periodic=True)
+    assert made("a.txt", "--width", "1")[1][-1].source.periodic is None
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("a.txt",), "Error: none of --length, --width is given: give one, such as --length 2"),
+        (("a.txt", "--length", "x"), "Error: --length: the length is a whole number from 1 up, not 'x'"),
+        (
+            ("a.txt", "--width", "1", "--names", "ann"),
+            "Error: --names belongs to --length, which is not given",
+        ),
+        (
+            ("a.txt", "--length", "1", "--kind-of", "squar"),
+            "Error: --kind-of: there is no 'squar' here; did you mean",
+        ),
+        (("a.txt", "--length", "1", "--size", "wide"), "Error: --size: 'wide' does not start with a number"),
+        (("a.txt", "--length", "1", "--hidden", "x"), "--hidden"),
+    ],
+)
+def test_a_field_that_makes_no_sense_is_named_as_its_option(made, words, message):
+    answer, seen = made(*words)
+    assert answer.exit_code == 2
+    assert message in answer.output
+    assert not seen
+
+
+def test_help_of_a_field_is_what_the_recipe_says(made):
+    text = made("--help")[0].output
+    assert "A part" in text
+    assert "[round|square]" in text
+    assert "--hidden" not in text
+    assert "--free" in text
+
+
+@pytest.mark.parametrize("name", JOBS)
+def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, rough, capsys):
+    plain = {"job": name, "source": {"file": str(rough), "periodic": False}}
+    if name != "surface":
+        plain["bodies"] = {"modulus": "1GPa"}
+    if name in ("press", "adhesion detach"):
+        plain["load"] = {"depth": "10nm"}
+    if name == "curve":
+        plain["loads"] = {"depths": "10nm,20nm"}
+    if name.startswith("adhesion"):
+        plain["adhesion"] = {"work": "1mJ/m^2", **({} if name == "adhesion detach" else {"range": "100nm"})}
+    plain |= {
+        "adhesion press": {"load": {"depth": "-2nm"}},
+        "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},
+        "adhesion loop": {"turn": {"depth": "1nm", "points": "2"}},
+    }.get(name, {})
+    do(from_plain(plain), Answer(out=tmp_path / "out"))
+    assert str(rough) in capsys.readouterr().out or list((tmp_path / "out").iterdir())

@@ -261,14 +261,20 @@ def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (("--materials", "steel"), "name both bodies, such as steel,aluminium or steel,steel"),
-        (("--materials", "steel,aluminium,copper"), "name both bodies"),
+        (
+            ("--materials", "steel"),
+            "'steel' does not name two bodies; name both, such as steel,aluminium",
+        ),
+        (("--materials", "steel,aluminium,copper"), "does not name two bodies"),
         (("--materials", "steel,cheese"), "no material named 'cheese'; there are steel"),
         (("--materials", "steel,110GPa"), "'110GPa' is no name"),
         (("--materials", "rigid,rigid"), "one of the two bodies must be elastic"),
         (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
-        (("--materials", "steel,steel", "--poisson", "0.3"), "--materials is about the pair: leave out"),
-        (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam: write 110GPa"),
+        (
+            ("--materials", "steel,steel", "--poisson", "0.3"),
+            "--poisson belongs to --young, which is not given",
+        ),
+        (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam; write 110GPa"),
         (("--young", "210", "--poisson", "0.3"), "--young: 210 without a unit"),
         (("--modulus", "1GPa", "--hardness", "2"), "--hardness: 2 without a unit"),
     ],
@@ -315,7 +321,7 @@ def test_a_format_without_a_folder_is_refused_before_the_work(invoke, rough, mon
 
 
 def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
-    words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--short-cutoff", "10um")
+    words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--shortest-wave", "10um")
     answer = invoke(*words, "--json", "--out", tmp_path / "out")
     assert answer.exit_code == 0
     budget = rc.error_budget(rc.press(surface, 110e9, force=0.01), short_cutoff=10e-6)
@@ -348,10 +354,10 @@ def test_errors_are_told_in_units_that_suit(invoke, rough):
 
 def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):
     for words, message in (
-        (("--short-cutoff", "10um"), "--short-cutoff belongs to --errors"),
-        (("--errors", "--short-cutoff", "10"), "leaves nothing of a map"),
-        (("--errors", "--short-cutoff", "1um"), "too short for cells"),
-        (("--errors", "--short-cutoff", "-1um"), "a wavelength must be positive"),
+        (("--shortest-wave", "10um"), "--shortest-wave belongs to --errors"),
+        (("--errors", "--shortest-wave", "10"), "leaves nothing of a map"),
+        (("--errors", "--shortest-wave", "1um"), "too short for cells"),
+        (("--errors", "--shortest-wave", "-1um"), "a wavelength must be positive"),
     ):
         answer = invoke("press", rough, *FORCE, *MODULUS, *words)
         assert answer.exit_code == 2
@@ -383,11 +389,17 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--after", "2N"), "--after is about what flows: give a --hardness"),
-        (("--flow", "raised"), "--flow is about what flows: give a --hardness"),
+        (
+            ("--after", "2N"),
+            "--after is about what flows under a hardness, which is not given: give --hardness",
+        ),
+        (
+            ("--flow", "raised"),
+            "--flow is about what flows under a hardness, which is not given: give --hardness",
+        ),
         (("--after", "1N", "--hardness", "1GPa"), "--after 1N is not larger than the force"),
         (("--after", "1MPa", "--hardness", "1GPa"), "--after"),
-        (("--after", "2N", "--hardness", "1GPa", "--errors"), "leave it out with --after"),
+        (("--after", "2N", "--hardness", "1GPa", "--errors"), "--after is given: leave out one of them"),
     ],
 )
 def test_a_load_before_that_makes_no_sense_is_refused(invoke, rough, given, says):

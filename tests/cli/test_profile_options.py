@@ -97,10 +97,14 @@ def test_a_map_is_no_profile(invoke, rough):
 @pytest.mark.parametrize(
     ("command", "given", "message"),
     [
-        ("press", ("line", "--force", "1N"), "'1N' is not a force per length; expected a force per length"),
+        ("press", ("line", "--force", "1N"), "'1N' is not a force per length; write a force per length"),
         ("press", ("winkler", "--pressure", "1MPa"), "--pressure: '1MPa' is not a force per length"),
         ("press", ("line", "--force=-1N/m"), "--force: the force per length must be positive"),
-        ("press", ("winkler", "--force", "1N", "--hardness", "2GPa"), "--hardness is a pressure: springs"),
+        (
+            "press",
+            ("winkler", "--force", "1N", "--hardness", "2GPa"),
+            "--hardness is a pressure, and springs",
+        ),
         ("press", ("line", "--force", "1N/m", "--theory", "persson", "--out", "o"), "--theory is about"),
         ("curve", ("line", "--resistivity", "17nohm*m"), "a line contact has no conductance of its own"),
         ("curve", ("winkler", "--resistivity", "17nohm*m"), "give --of total"),

@@ -87,7 +87,7 @@ def test_spectrum_asks_before_it_fills(invoke, holed):
     ("arguments", "words"),
     [
         (("--longest", "-1um"), "--longest: a wavelength must be positive"),
-        (("--longest", "4um", "--shortest", "30um"), "must be longer than --shortest 30um"),
+        (("--longest", "4um", "--shortest", "30um"), "must be longer than the shortest, 30um"),
         (("--shortest", "1kg"), "--shortest"),
         (("--longest", "4.1um", "--shortest", "4um"), "rad/m"),
     ],
@@ -197,7 +197,7 @@ def test_prepare_takes_a_line_scan(invoke, line, tmp_path):
     expected = made.cropped(slice(12, None)).levelled("plane").averaged(5)
     np.testing.assert_array_equal(rc.read_line(out).heights, expected.heights)
     wrong = invoke("surface", "prepare", path, out, "--crop", "1:5,2:7")
-    assert (wrong.exit_code, "write one range such as 0:512" in wrong.stderr) == (2, True)
+    assert (wrong.exit_code, "give one range of cells" in wrong.stderr) == (2, True)
 
 
 def test_spectrum_of_a_line_scan_is_c1d_and_the_c2d_that_follows(invoke, line, tmp_path):
@@ -237,22 +237,22 @@ def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
         (("--crop", "5:5,:"), "nothing is left"),
         (("--form", "egg"), "sphere or cylinder"),
         (("--form", "13"), "0 to 12"),
-        (("--short-cutoff", "10"), "give its unit"),
+        (("--short-cutoff", "10"), "leaves nothing of a map"),
         (("--short-cutoff", "1um"), "cut-off"),
         (("--short-cutoff", "20um", "--long-cutoff", "8um"), "must be below"),
         (("--downsample", "0"), "from 1 up"),
         (("--downsample", "90"), "leaves less than two"),
         (("--alias",), "belongs to --downsample"),
-        (("--average", "-3"), "--average: K must be a whole number from 1 up"),
+        (("--average", "-3"), "--average: the number of cells is a whole number from 1 up"),
         (("--average", "65"), "leaves less than two"),
         (("--tip", "2"), "a radius of 2 m is no tip; write it with its unit, such as 2um"),
-        (("--tip", "0um"), "is no tip"),
+        (("--tip", "0um"), "--tip: the radius of a tip must be positive"),
         (("--tip", "1N"), "--tip: '1N' is not a length"),
         (("--tip-shape", "sphere"), "--tip-shape belongs to --tip"),
-        (("--share", "0.1"), "--share belongs to --window tukey"),
-        (("--window", "hann", "--share", "0.1"), "--share belongs to --window tukey"),
-        (("--window", "tukey", "--share", "1.5"), "lies between 0 and 1, not at 1.5"),
-        (("--crop", "1:5"), "has 1 range(s); write rows,columns"),
+        (("--share", "0.1"), "--share belongs to --window"),
+        (("--window", "hann", "--share", "0.1"), "--share belongs to a Tukey window: give --window tukey"),
+        (("--window", "tukey", "--share", "1.5"), "lies between 0 and 1, not at '1.5'"),
+        (("--crop", "1:5"), "--crop: a crop needs one slice an axis, 2 in all, not 1; give rows and columns"),
     ],
 )
 def test_prepare_refuses_steps_that_make_no_sense(invoke, free, tmp_path, arguments, words):
@@ -360,9 +360,9 @@ def test_prepare_despikes_and_masks_in_its_order(invoke, spiky, tmp_path):
     ("text", "words"),
     [
         ("circle=0:5,0:5", "--mask: 'circle=0:5,0:5' is no region"),
-        ("box=1-5,3", "--mask box: '1-5,3' is no part of a map"),
-        ("ellipse=0:5", "has 1 range(s)"),
-        ("above=3N", "--mask above: '3N' is not a length"),
+        ("box=1-5,3", "--mask: '1-5,3' is no part of a map"),
+        ("ellipse=0:5", "2 in all, not 1; give rows and columns"),
+        ("above=3N", "--mask: '3N' is not a length"),
         ("above=-1m", "leaves no measured point"),
     ],
 )

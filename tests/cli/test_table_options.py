@@ -26,7 +26,7 @@ def numbers(text):
 
 def test_the_tables_are_those_of_the_library(invoke, joint, tmp_path):
     out = tmp_path / "out"
-    words = ("--table", "abaqus,abaqus-mm", "--table", "csv,lammps", "--table-area", "1mm^2", "--out", out)
+    words = ("--table", "abaqus,abaqus-mm,csv,lammps", "--table-area", "1mm^2", "--out", out)
     answer = invoke("curve", joint, *LOADS, *HEAT, *words)
     assert answer.exit_code == 0, answer.stderr
     assert "interface.inp, interface_mm.inp, interface.csv and interface.table are in" in answer.stderr
@@ -63,11 +63,11 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     ("words", "message"),
     [
         (("--table", "abaqus"), "--table writes files: say where by --out"),
-        (("--table", "ansys", "--out", "OUT"), "--table: there is no 'ansys': choose of csv, abaqus"),
-        (("--table", "csv,csv", "--out", "OUT"), "--table: name each table once"),
-        (("--table", ",", "--out", "OUT"), "--table: name each table once"),
-        (("--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
-        (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for --table lammps"),
+        (("--table", "ansys", "--out", "OUT"), "--table: there is no table 'ansys'; choose of csv, abaqus"),
+        (("--table", "csv,csv", "--out", "OUT"), "name each table once"),
+        (("--table", ",", "--out", "OUT"), "name each table once"),
+        (("--table-area", "1mm^2", "--out", "OUT"), "--table-area belongs to --table"),
+        (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for the table lammps"),
         (("--table", "lammps", "--table-area", "1mm", "--out", "OUT"), "'1mm' is not an area"),
         (("--table", "lammps", "--table-area", "0mm^2", "--out", "OUT"), "the area must be positive"),
     ],

@@ -1,10 +1,13 @@
-"""Arrays of other libraries: what goes in comes out, and nothing goes through NumPy on the way."""
+"""Arrays of other libraries: what goes in comes out, and nothing but coarse levels goes through NumPy on the way."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 
 import roughcontact as rc
 from libraries import LIBRARIES, without_torch
+from roughcontact.slabs import levels_of_slabs
 
 
 @pytest.fixture(params=LIBRARIES, ids=lambda kind: kind.__name__)
@@ -193,6 +196,62 @@ def test_pictures_and_theories_fetch_what_they_need(library, rough):
 
 def test_a_surface_is_prepared_on_the_host(library, rough):
     there = elsewhere(rough, library)
-    for prepare in (lambda s: s.levelled("plane"), lambda s: s.filtered(short=0.1), lambda s: s.flipped("x")):
+    for prepare in (
+        lambda s: s.levelled("plane"),
+        lambda s: s.filtered(short_cutoff=0.1),
+        lambda s: s.flipped("x"),
+    ):
         with pytest.raises(ValueError, match="prepare the surface first"):
             prepare(there)
+
+
+def test_files_are_those_of_the_host(library, rough, tmp_path):
+    bodies = rc.Solid(1.0, 0.3), rc.Solid(1.0, 0.3)
+    there = rc.press(elsewhere(rough, library), bodies, force=1e-3)
+    slid = rc.slide(there, bodies, friction=0.3, force=1e-4)
+    surfaces, back = (each.problem.surface for each in (there, there.on_host())), there.on_host()
+    for one, other, kinds in (
+        (*surfaces, ("npz", "nc", "x3p", "txt", "npy", "vti")),
+        (there, back, ("nc", "vti")),
+        (slid, slid.on_host(), ("nc", "vti")),
+    ):
+        for kind in kinds:
+            files = [tmp_path / f"{name}.{kind}" for name in ("there", "here")]
+            for each, file in zip((one, other), files, strict=True):
+                rc.write(each, file)
+            if kind == "nc":  # whose attributes say when it was written
+                with xr.open_dataset(files[0]) as one_read, xr.open_dataset(files[1]) as other_read:
+                    xr.testing.assert_equal(one_read, other_read)
+            else:
+                assert files[0].read_bytes() == files[1].read_bytes(), kind
+
+
+def test_fields_below_are_those_of_the_host(library, rough):
+    there = rc.press(elsewhere(rough, library), 1.0, force=2e-3)
+    back, body = there.on_host(), rc.Solid(1.0, 0.3)
+    stress, expected = (rc.below(each, 0.01, body) for each in (there, back))
+    np.testing.assert_array_equal(stress.von_mises, expected.von_mises)
+    moved, expected = (rc.displacement_below(each, 0.01, body) for each in (there, back))
+    np.testing.assert_array_equal(moved.z, expected.z)
+    assert rc.largest_von_mises(there, body) == rc.largest_von_mises(back, body)
+    axes = rc.plot.von_mises_section(there, body)
+    assert axes.get_xlabel()
+    plt.close(axes.figure)
+
+
+@pytest.mark.parametrize(("cells", "there"), [(2**12, False), (2**11, True)])
+def test_coarse_levels_are_solved_on_the_host_where_they_are_small(library, monkeypatch, cells, there):
+    monkeypatch.setattr(levels_of_slabs, "SMALL", cells)
+    solved = []
+    run = rc.ActiveSet.run
+
+    def noted(self, operator, separation, spec, initial):
+        solved.append((separation.shape[0], library.is_there(separation)))
+        return run(self, operator, separation, spec, initial)
+
+    monkeypatch.setattr(rc.ActiveSet, "run", noted)
+    rough = rc.self_affine(rc.Grid((256, 256), 1 / 256), 0.8, 0.01, rng=np.random.default_rng(3))
+    solution = rc.press(elsewhere(rough, library), 1.0, force=3e-3)
+    assert library.is_there(solution.pressure)
+    assert solved[-1] == (256, True)
+    assert {place for side, place in solved if side <= 64} == {there}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.memory_needed import largest_maps
 from roughcontact.kernels import buffers
 from roughcontact.threads import limit_threads
 
@@ -92,3 +93,11 @@ def test_a_period_of_16384_cells_fits_24_gigabytes_with_its_heights():
 def test_nonsense_is_refused():
     with pytest.raises(ValueError, match="a surface or its grid is wanted, not"):
         rc.memory_needed(np.zeros((8, 8)))
+
+
+@pytest.mark.parametrize("memory", [1e9, 23.4e9])
+def test_the_largest_maps_are_the_largest_that_fit(memory):
+    for which, side in enumerate(largest_maps(memory)):
+        fits = [rc.memory_needed(rc.Grid((n, n), 1.0))[which] + 8 * n * n <= memory for n in (side, side + 1)]
+        assert fits == [True, False]
+    assert largest_maps(0.0) == (0, 0)

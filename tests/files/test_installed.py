@@ -10,7 +10,7 @@ import pytest
 import scipy.io
 
 import roughcontact as rc
-from roughcontact.files.installed import broken_package, lacking
+from roughcontact.files.installed import Requirement, broken_package, lacking, requirements
 
 PIP = re.escape(sys.executable) + r" -m pip install "
 
@@ -35,8 +35,8 @@ def caught(source, **space):
 )
 def test_the_command_installs_what_the_module_belongs_to(monkeypatch, module, requirement):
     monkeypatch.setitem(sys.modules, module, None)
-    words = f"the package {module} is not installed; run: {PIP}"
-    assert re.fullmatch(f'{words}"{requirement}"', broken_package(caught(f"import {module}")))
+    words = f"the package {module} is not installed: run: {PIP}"
+    assert re.fullmatch(f'{words}"{requirement}"', str(broken_package(caught(f"import {module}"))))
     problem, remedy = lacking("json", module)
     assert problem.startswith(f"the package {module}, which cannot be imported (")
     assert re.fullmatch(f'run: {PIP}"{requirement}"', remedy)
@@ -51,7 +51,7 @@ def test_without_what_it_requires_the_command_installs_the_whole(monkeypatch):
 
     monkeypatch.setattr("importlib.metadata.requires", requires)
     monkeypatch.setitem(sys.modules, "h5py", None)
-    assert broken_package(caught("import h5py")).endswith('install "roughcontact"')
+    assert str(broken_package(caught("import h5py"))).endswith('install "roughcontact"')
 
 
 @pytest.mark.parametrize(
@@ -62,10 +62,8 @@ def test_without_what_it_requires_the_command_installs_the_whole(monkeypatch):
     ],
 )
 def test_a_package_that_does_not_load_is_installed_anew(error, words):
-    told = broken_package(caught("raise error", __name__="numpy", error=error))
-    assert told.startswith(
-        f"the package {words} cannot be loaded ({str(error).partition(chr(10))[0]}); run: "
-    )
+    told = str(broken_package(caught("raise error", __name__="numpy", error=error)))
+    assert told.startswith(f"the package {words} cannot be loaded ({str(error).partition(chr(10))[0]})")
     assert f'pip install --force-reinstall "{words}>=' in told
 
 
@@ -75,9 +73,9 @@ def test_what_is_not_about_a_package_of_others():
     assert broken_package(caught("import json.no_such_module")) is None  # of Python itself
     assert broken_package(caught("int('x')")) is None
     assert broken_package(ImportError("raised by nobody")) is None
-    told = broken_package(caught("import numpy.no_such_module"))
+    told = str(broken_package(caught("import numpy.no_such_module")))
     assert told.startswith(
-        "the package numpy cannot be loaded (No module named 'numpy.no_such_module'); run: "
+        "the package numpy cannot be loaded (No module named 'numpy.no_such_module'): run: "
     )
 
 
@@ -86,7 +84,7 @@ def test_netcdf_without_h5py_is_one_sentence(tmp_path, monkeypatch):
     surface = rc.Surface(heights, rc.Grid((24, 24), 1e-6))
     rc.write(surface, tmp_path / "rough.nc")
     monkeypatch.setitem(sys.modules, "h5py", None)
-    words = rf'the package h5py, which cannot be imported \(.*\); run: {PIP}"h5py>=3.11"$'
+    words = rf'the package h5py, which cannot be imported \(.*\)[:;] run: {PIP}"h5py>=3.11"$'
     with pytest.raises(rc.ReadError, match=words):
         rc.read(tmp_path / "rough.nc")
     with pytest.raises(rc.WriteError, match=words):
@@ -105,3 +103,29 @@ def test_netcdf_without_h5py_is_one_sentence(tmp_path, monkeypatch):
         file.flush()
         (tmp_path / "classic.nc").write_bytes(stream.getvalue())
     assert rc.read(tmp_path / "classic.nc").grid.shape == (24, 24)
+
+
+def test_the_metadata_of_the_installation_are_read_whole(monkeypatch):
+    lines = [
+        "numpy>=2.0",
+        "h5py>=3.11; python_version < '3.15'",
+        "gone>=1; python_version < '3.1'",
+        "surfacetopography<2,>=1.27; extra == 'formats'",
+        "no-such-package>=7; python_version < '3.99' and extra == 'page'",
+    ]
+    monkeypatch.setattr("importlib.metadata.requires", lambda name: lines)
+    found = {each.name: each for each in requirements()}
+    late = {"h5py"} if sys.version_info < (3, 15) else set()
+    assert found.keys() - late == {"numpy", "surfacetopography", "no-such-package"}
+    assert (found["numpy"].version, found["numpy"].problem) == (np.__version__, None)
+    assert (found["surfacetopography"].least, found["surfacetopography"].extra) == ("1.27", "formats")
+    assert (found["no-such-package"].version, found["no-such-package"].extra) == (None, "page")
+
+
+def test_a_package_that_is_missing_or_old_is_a_problem():
+    assert Requirement("numpy", "2.0", "", "2.0").problem is None
+    assert Requirement("numpy", "2.9", "", "2.10.0rc1").problem is None
+    old = Requirement("numpy", "2.0", "", "1.26.4").problem
+    assert re.fullmatch(rf'the package numpy 1\.26\.4 is older than 2\.0; run: {PIP}"numpy>=2\.0"', old)
+    gone = Requirement("pint", "0.24.4", "", None).problem
+    assert re.fullmatch(rf'the package pint is not installed; run: {PIP}"pint>=0\.24\.4"', gone)

@@ -3,7 +3,7 @@ from types import ModuleType
 
 import pytest
 
-from roughcontact.files import quantity
+from roughcontact import units
 from roughcontact.files.quantity import AREA, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
 
 
@@ -17,8 +17,8 @@ def test_a_quantity_becomes_its_number_in_si():
 @pytest.mark.parametrize("prefix", ["p", "n", "u", "µ", "μ", "m", "c", "k", "M", "G", "T"])
 def test_prefixes_are_those_of_the_library_of_units_without_it(monkeypatch, kind, prefix):
     unit = f"{prefix}{kind.unit}"
-    wanted = quantity.registry().Quantity(1.0, unit).to(kind.unit).magnitude
-    monkeypatch.setattr(quantity, "registry", None)
+    wanted = units.registry().Quantity(1.0, unit).to(kind.unit).magnitude
+    monkeypatch.setattr(units, "registry", None)
     assert parse(f"3{unit}", kind) == pytest.approx(3 * wanted, rel=1e-15)
 
 
@@ -37,9 +37,9 @@ def test_a_digit_behind_a_unit_is_its_power():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("5 kg", "'5 kg' is not a force; expected a force such as 10N"),
-        ("5 newtn", "unknown unit 'newtn' in '5 newtn'; expected a force such as 10N"),
-        ("N", "'N' does not start with a number; expected a force such as 10N"),
+        ("5 kg", "'5 kg' is not a force: write a force such as 10N"),
+        ("5 newtn", "unknown unit 'newtn' in '5 newtn': write a force such as 10N"),
+        ("N", "'N' does not start with a number: write a force such as 10N"),
     ],
 )
 def test_what_is_none_is_refused_with_a_value_error(text, message):
@@ -49,12 +49,12 @@ def test_what_is_none_is_refused_with_a_value_error(text, message):
 
 
 def test_what_is_no_number_is_refused():
-    with pytest.raises(ValueError, match=r"^'0.3 m' is not a number; expected a number such as 0.5$"):
+    with pytest.raises(ValueError, match=r"^'0.3 m' is not a number: write a number such as 0.5$"):
         parse_number("0.3 m", "0.5")
 
 
 def test_a_broken_library_of_units_is_not_the_fault_of_the_unit(monkeypatch):
-    monkeypatch.setattr(quantity, "registry", quantity.registry.__wrapped__)
+    monkeypatch.setattr(units, "registry", units.registry.__wrapped__)
     monkeypatch.setitem(sys.modules, "pint", None)  # as if it were not installed
     with pytest.raises(ImportError):
         parse("5 lbf", FORCE)

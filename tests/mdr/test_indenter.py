@@ -186,7 +186,7 @@ class TestRefusals:
             (lambda: indenter.ripples(math.inf, 1, 1), "amplitude"),
             (lambda: indenter.equivalent_roughness(0, rms=1, length=1), "hurst"),
             (lambda: indenter.equivalent_roughness(1, rms=1, length=1, prefactor=0), "prefactor"),
-            (lambda: indenter.of(lambda r: r**2, math.inf), "how far the body is known"),
+            (lambda: indenter.of(lambda r: r**2, math.inf), "the body is known to a radius above 0"),
             (lambda: indenter.of(lambda r: np.full_like(r, np.nan), 1.0), "finite at its apex"),
             (lambda: indenter.of(np.zeros_like, 1.0), "flat_punch"),
             (lambda: indenter.cone(1.0).cut(0.0), "cut"),

@@ -4,6 +4,7 @@ import io
 import json
 import shlex
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,12 +16,13 @@ from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
-from roughcontact.page.recipe import as_recipe
 from roughcontact.page.server.page_request import PageRequest
+from roughcontact.page.stopping import Stopped
 
-LOADS = {"control": "force", "start": "50 mN", "end": "2 N", "count": 7}
-BODIES = {"materials": ["steel", "aluminium"]}
-BESIDE = {"theories": ["persson", "cmy"], "conducting": True}
+LOADS = {"forces": "50 mN:2 N:7"}
+BODIES = {"materials": "steel,aluminium"}
+CONDUCTION = dict.fromkeys(("resistivity", "conductivity"), "steel,aluminium")
+THEORIES = {"theories": ["persson", "cmy"]}
 
 
 @pytest.fixture
@@ -39,11 +41,20 @@ def ask(file):
     """Do a job, and return its messages with their bytes."""
     cache = SessionCache()
 
-    def asked(job, load=None, loads=None, bodies=BODIES, **more):
-        recipe = {"source": {"kind": "file", "file": "key"}, "bodies": bodies, "load": load, "loads": loads}
-        said = []
-        request = PageRequest(as_recipe(recipe), {"key": file}, more)
-        job(request, cache, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
+    def plain(parts):
+        source = {"kind": "file", "file": "key"}
+        return {
+            "job": "press" if "load" in parts else "curve",
+            "source": source,
+            "preparation": {"level": "plane"},
+            "bodies": BODIES,
+            **parts,
+        }
+
+    def asked(do, more=None, beside=None, **parts):
+        said, more = [], {**(more or {}), "beside": None if beside is None else plain(beside)}
+        request = PageRequest.of(plain(parts), {"key": file}, more)
+        do(request, cache, lambda header, data=b"": said.append((json.loads(json.dumps(header)), data)))
         return said
 
     return asked
@@ -72,39 +83,47 @@ def test_the_points_of_a_curve_are_those_of_its_command(ask):
 
 
 def test_the_last_message_of_a_curve_tells_its_law(ask):
-    [end] = of(ask(curve, loads=LOADS), "curve")
+    said = ask(curve, loads=LOADS)
+    [end] = of(said, "curve")
     assert not end["stopped"]
     assert end["facts"][0][0] == "power law"
-    assert len(end["fit"]["force"]) == len(end["fit"]["stiffness"]) == end["resolved"]
+    assert (
+        len(end["fit"]["force"])
+        == len(end["fit"]["stiffness"])
+        == sum(point["resolved"] for point in of(said, "point"))
+    )
 
 
 def test_theories_that_do_not_apply_say_why_and_leave_the_command(ask):
     ask(curve, loads=LOADS)
-    said = ask(theories, loads=LOADS | BESIDE)
+    said = ask(theories, THEORIES, loads=LOADS, conduction=CONDUCTION)
     persson, cmy = sorted(of(said, "theory"), key=lambda each: "refused" in each)
     assert persson["name"] == "persson"
-    assert len(persson["predicted"]["contact_area"]) == LOADS["count"]
+    assert len(persson["predicted"]["contact_area"]) == 7
     assert cmy["name"] == "cmy"
     assert "hardness" in cmy["refused"]
     [stated] = of(said, "stated")
-    assert "--theory persson --resistivity steel,aluminium" in stated["command"]
+    assert (
+        "--resistivity steel,aluminium --conductivity steel,aluminium --theory persson" in stated["command"]
+    )
     record = json.loads(run(stated["command"] + " --json"))
     assert record["theories"]["persson"]["predicted"] == persson["predicted"]
     space = {}
     exec(stated["python"], space)
-    assert space["comparisons"][0].predicted["contact_area"].tolist() == persson["predicted"]["contact_area"]
+    comparison = space["curve"].compare(space["theories"][0])
+    assert comparison.predicted["contact_area"].tolist() == persson["predicted"]["contact_area"]
 
 
 def test_conductances_of_points_are_those_of_the_python_that_is_stated(ask):
-    points = of(ask(curve, loads=LOADS), "point")
+    points = of(ask(curve, loads=LOADS, conduction=CONDUCTION), "point")
     space = {}
-    exec(of(ask(theories, loads=LOADS | BESIDE), "stated")[0]["python"], space)
+    exec(of(ask(theories, THEORIES, loads=LOADS, conduction=CONDUCTION), "stated")[0]["python"], space)
     for name in ("thermal_conductance_per_area", "electrical_conductance_per_area"):
         assert [point[name] for point in points] == space["conductance"][name].tolist()
 
 
 def test_one_rigid_body_conducts_nothing(ask):
-    [loads] = of(ask(curve, loads=LOADS, bodies={"materials": ["steel", "rigid"]}), "loads")
+    [loads] = of(ask(curve, loads=LOADS, bodies={"materials": "steel,rigid"}), "loads")
     assert not any("conductance" in column["name"] for column in loads["columns"])
 
 
@@ -113,16 +132,21 @@ def rows(text):
 
 
 def test_the_table_of_a_curve_is_that_of_its_command(ask, tmp_path):
-    loads = LOADS | {"theories": ["persson"], "conducting": True}
-    [(header, data)] = [each for each in ask(export, loads=loads, kind="csv", of="curve") if each[1]]
-    assert header["name"] == "part-curve-force.csv"
-    run(of(ask(theories, loads=loads), "stated")[0]["command"] + " --out out")
+    beside = {"theories": {"theory": "persson"}, "conduction": CONDUCTION}
+    [(header, data)] = [each for each in ask(export, {"kind": "csv"}, loads=LOADS, **beside) if each[1]]
+    assert header["name"] == "part-curve.csv"
+    run(
+        of(ask(theories, {"theories": ["persson"]}, loads=LOADS, conduction=CONDUCTION), "stated")[0][
+            "command"
+        ]
+        + " --out out"
+    )
     assert rows(data.decode()) == rows((tmp_path / "out" / "curve.csv").read_text())
 
 
 def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
-    load = {"control": "pressure", "text": "3 MPa"}
-    [(header, data)] = [each for each in ask(export, load=load, loads=LOADS, kind="zip") if each[1]]
+    load = {"pressure": "3 MPa"}
+    [(header, data)] = [each for each in ask(export, {"kind": "zip"}, {"loads": LOADS}, load=load) if each[1]]
     assert header["name"] == "part-contact.zip"
     archive = zipfile.ZipFile(io.BytesIO(data))
     for command in archive.read("commands.sh").decode().splitlines():
@@ -138,29 +162,35 @@ def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
 
 
 def test_a_picture_of_the_load_is_named_by_it(ask):
-    load = {"control": "pressure", "text": "3 MPa"}
-    [(header, data)] = [each for each in ask(export, load=load, kind="svg", of="load") if each[1]]
+    load = {"pressure": "3 MPa"}
+    [(header, data)] = [each for each in ask(export, {"kind": "svg"}, load=load) if each[1]]
     assert header["name"] == "part-pressure-3MPa.svg"
     assert data.startswith(b"<?xml")
 
 
-def test_without_a_curve_there_is_nothing_to_export(ask):
+def test_without_a_load_there_is_nothing_to_export(file):
     with pytest.raises(ValueError, match="start the curve"):
-        ask(export, kind="csv", of="curve")
+        export(
+            PageRequest.of(
+                {"job": "surface", "source": {"kind": "file", "file": "key"}}, {"key": file}, {"kind": "csv"}
+            ),
+            SessionCache(),
+            lambda *_: None,
+        )
 
 
 def test_a_load_that_the_grid_does_not_resolve_has_a_remedy(ask):
-    light = ask(press, load={"control": "force", "text": "1 uN"})
+    light = ask(press, load={"force": "1 uN"})
     assert "larger load" in of(light, "state")[0]["warning"]
-    assert of(ask(press, load={"control": "force", "text": "0.3 N"}), "state")[0]["warning"] == ""
+    assert of(ask(press, load={"force": "0.3 N"}), "state")[0]["warning"] == ""
 
 
 def test_reduced_maps_keep_the_highest_pressure_and_the_lowest_gap(ask, file):
-    said = ask(press, load={"control": "force", "text": "0.3 N"}, pixels=16)
+    said = ask(press, {"pixels": 16}, load={"force": "0.3 N"})
     maps = {header["map"]: np.frombuffer(data, "<f4") for header, data in said if header["type"] == "map"}
     solution = rc.press(
         rc.read(file.path).levelled("plane"),
-        rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"])),
+        rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"].split(","))),
         force=0.3,
     )
     for name, extreme in (("pressure", np.max), ("gap", np.min)):
@@ -170,7 +200,7 @@ def test_reduced_maps_keep_the_highest_pressure_and_the_lowest_gap(ask, file):
 
 def test_sliders_go_from_a_light_load_to_a_heavy_one(ask, file):
     surface = rc.read(file.path).levelled("plane")
-    modulus = rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"]))
+    modulus = rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"].split(",")))
     [span] = of(ask(press), "span")
     # From a thousandth of the rms height to ten of them: the highest point of a surface stands no higher.
     np.testing.assert_allclose(span["depth"], np.array([1e-3, 10, 1]) * surface.rms, rtol=1e-12)
@@ -184,11 +214,11 @@ def test_sliders_go_from_a_light_load_to_a_heavy_one(ask, file):
 
 @pytest.mark.parametrize("axis", ["row", "column"])
 def test_a_cut_is_a_line_of_the_solution(ask, file, axis):
-    load = {"control": "force", "text": "0.3 N"}
-    [found] = of(ask(cut, load=load, axis=axis, place=8), "cut")
+    load = {"force": "0.3 N"}
+    [found] = of(ask(cut, {"axis": axis, "place": 8}, load=load), "cut")
     solution = rc.press(
         rc.read(file.path).levelled("plane"),
-        rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"])),
+        rc.reduced_modulus(*(rc.handbook(name).solid for name in BODIES["materials"].split(","))),
         force=0.3,
     )
     line = (7, slice(None)) if axis == "row" else (slice(None), 7)
@@ -196,3 +226,121 @@ def test_a_cut_is_a_line_of_the_solution(ask, file, axis):
     assert found["gap"] == solution.gap[line].tolist()
     assert found["before"] == (solution.depth - solution.problem.separation[line]).tolist()
     assert found["across"] == solution.problem.grid.coordinates[0][7]
+
+
+PLASTIC = {"hardness": "1.5 GPa", "loop": True}
+ADHESION = {"work": "10mJ/m^2", "range": "100nm"}
+SMALL = {"crop": "0:24,0:24", "level": "plane"}
+
+
+def test_the_branches_of_a_loop_are_those_of_the_library(ask):
+    said = ask(curve, loads={"forces": "50 mN:0.5 N:4"}, plastic=PLASTIC)
+    space = {}
+    exec(of(said, "stated")[0]["python"], space)
+    points, loop = of(said, "point"), space["loop"]
+    assert of(said, "loads")[0]["count"] == len(points) == 12
+    for name, branch in loop.curves.items():
+        mine = [point for point in points if point["branch"] == name]
+        for quantity in ("force", "depth", "stiffness", "contact_area"):
+            assert [point[quantity] for point in mine] == getattr(branch, quantity).tolist(), (name, quantity)
+    facts = dict(of(said, "curve")[0]["facts"])
+    assert {"residual depth", "volume of flow", "dissipated work"} <= facts.keys()
+    [(header, data)] = [(header, data) for header, data in said if header["type"] == "map"]
+    heights = loop.flattened.heights
+    assert header["map"] == "flattened"
+    np.testing.assert_array_equal(
+        np.frombuffer(data, "<f4").reshape(header["shape"]), (heights - heights.mean()).astype("<f4")
+    )
+
+
+def test_a_loop_of_surfaces_that_stick_is_that_of_the_library(ask):
+    job = {"job": "adhesion loop", "turn": {"depth": "50nm", "points": "5"}, "adhesion": ADHESION}
+    said = ask(curve, preparation=SMALL, bodies={"modulus": "1GPa"}, **job)
+    space = {}
+    exec(of(said, "stated")[0]["python"], space)
+    points, loop = of(said, "point"), space["curve"]
+    for quantity in ("depth", "force", "contact_fraction", "stiffness", "mean_gap"):
+        assert [point[quantity] for point in points] == getattr(loop, quantity).tolist(), quantity
+    assert [point["branch"] for point in points] == loop.branch.tolist()
+    lines = of(said, "curve")[0]["lines"]
+    assert {"approach", "retreat", "pull-off force"} <= {line["label"] for line in lines}
+    [level] = [line for line in lines if line["label"] == "pull-off force"]
+    assert level["y"] == [-loop.pull_off_force] * 2
+
+
+def test_a_jump_is_a_line_of_two_places(ask):
+    """Under a prescribed depth the force jumps; a chart has one value a place."""
+    job = {"job": "adhesion loop", "turn": {"depth": "20nm", "points": "4"}}
+    adhesion = {"work": "50mJ/m^2", "range": "5nm", "allow_unresolved": True}
+    said = ask(curve, preparation=SMALL, bodies={"modulus": "1GPa"}, adhesion=adhesion, **job)
+    lines = [line for line in of(said, "curve")[0]["lines"] if line["label"] == "jump"]
+    assert lines
+    for line in lines:
+        assert len({*line["x"]}) == 2
+        assert line["x"][1] == pytest.approx(line["x"][0], rel=1e-6)
+    assert any("Unresolved" in note for note in of(said, "curve")[0]["notes"])
+
+
+def test_surfaces_that_are_drawn_back_let_go_as_those_of_the_library(ask):
+    job = {"job": "adhesion detach", "load": {"force": "10mN"}, "adhesion": {"work": "10mJ/m^2"}}
+    said = ask(
+        curve, preparation=SMALL, bodies={"modulus": "1GPa"}, retreat={"depths": "100nm:-50nm:4"}, **job
+    )
+    space = {}
+    exec(of(said, "stated")[0]["python"], space)
+    assert [point["force"] for point in of(said, "point")] == space["curve"].force.tolist()
+    [line] = [line for line in of(said, "curve")[0]["lines"] if line["label"] == "retreat"]
+    assert min(line["y"]) == pytest.approx(-space["curve"].pull_off_force, rel=1e-9)
+    assert (np.diff(line["x"]) < 0).all()
+
+
+@pytest.mark.parametrize("kind", ["csv", "nc", "png"])
+def test_a_loop_is_exported(ask, kind):
+    [(header, data)] = [
+        each
+        for each in ask(export, {"kind": kind}, loads={"forces": "50 mN,0.5 N"}, plastic=PLASTIC)
+        if each[1]
+    ]
+    assert header["name"] == f"part-curve.{kind}"
+    if kind == "csv":
+        assert len(rows(data.decode())) == 7
+        assert "unloading" in data.decode()
+
+
+def test_a_curve_that_is_stopped_is_that_of_the_loads_that_it_reached(file, monkeypatch):
+    cache, said = SessionCache(), []
+    plain = {"job": "curve", "source": {"kind": "file", "file": "key"}, "bodies": BODIES, "loads": LOADS}
+
+    def send(header, data=b""):
+        said.append(header)
+        if sum(header["type"] == "point" for header in said) == 3 and header["type"] == "point":
+            stop.append(True)
+
+    stop = []
+    follow = SessionCache.followed
+
+    def followed(self, job):
+        path = follow(self, job)
+
+        def states():
+            for state in path.states:
+                if stop:
+                    raise Stopped
+                yield state
+
+        return replace(path, states=states())
+
+    monkeypatch.setattr(SessionCache, "followed", followed)
+    curve(PageRequest.of(plain, {"key": file}, {}), cache, send)
+    monkeypatch.undo()
+    [end] = of([(header, b"") for header in said], "curve")
+    assert end["stopped"]
+    again = PageRequest.of({**plain, **end["part"]}, {"key": file}, {})
+    found = cache.curve(again.job)
+    assert len(found) == 3
+    assert (
+        found.force.tolist()
+        == rc.loading_curve(
+            cache.surface(again.job), found.modulus, forces=np.geomspace(0.05, 2, 7)[:3]
+        ).force.tolist()
+    )

@@ -387,11 +387,14 @@ def test_the_address_keeps_no_key(tab):
     assert tab.page.evaluate("document.cookie") == ""
 
 
-def computed(tab, control, start, end, count):
-    """Compute a curve by loads of a range, and wait for its end."""
-    tab.page.select_option("#loads", control)
-    for name, text in (("from", start), ("to", end), ("count", str(count))):
-        tab.page.fill(f"#{name}", text)
+def computed(tab, loads="", text="", kind="curve", **given):
+    """Compute a curve by loads of a range or by what is given, and wait for its end."""
+    tab.page.select_option("#kind", kind)
+    if loads:
+        tab.page.select_option("#loads", loads)
+        given[f"loads.{loads}"] = text
+    for name, value in given.items():
+        tab.page.fill(f'[id="{name}"]', value)
     tab.page.locator("#start").click()
     tab.wait("() => document.getElementById('curve_facts').children.length > 0")
     tab.wait("() => !document.getElementById('start').disabled")
@@ -400,7 +403,7 @@ def computed(tab, control, start, end, count):
 def test_a_row_of_the_points_shows_its_contact(tab, part):
     assert tab.drop("part.npz", part)
     tab.settled()
-    computed(tab, "pressure", "1 MPa", "4 MPa", 3)
+    computed(tab, "pressures", "1 MPa:4 MPa:3")
     assert tab.page.evaluate(POINTS) == 3
     assert "--pressures '1 MPa:4 MPa:3'" in tab.text("curve_command")
     tab.page.locator("#points button").nth(1).press("Enter")
@@ -412,15 +415,69 @@ def test_a_row_of_the_points_shows_its_contact(tab, part):
 def test_a_theory_is_drawn_or_says_why_it_is_not(tab, part):
     assert tab.drop("part.npz", part)
     tab.settled()
-    computed(tab, "force", "1 mN", "0.1 N", 4)
+    computed(tab, "forces", "1 mN:0.1 N:4")
     persson, cmy = (tab.page.locator(f"#theories input[value={name}]") for name in ("persson", "cmy"))
     persson.check()
     tab.wait("() => document.querySelector('#curve .legend').textContent.includes('Persson')")
     assert "--theory persson" in tab.text("curve_command")
     cmy.click()
-    tab.wait("() => document.getElementById('theories').textContent.includes('give the hardness')")
+    tab.wait("() => document.getElementById('theories').textContent.includes('give hardness')")
     assert persson.is_checked()
     assert not cmy.is_checked()
+
+
+LEGEND = "() => [...document.querySelectorAll('#curve .legend li')].map((line) => line.textContent)"
+
+
+def test_a_loop_under_a_hardness_shows_its_branches_and_the_flattened_surface(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.get_by_role("heading", name="Plastic flow").click()
+    tab.page.fill('[id="plastic.hardness"]', "1.5 GPa")
+    tab.page.keyboard.press("Tab")
+    tab.settled()
+    assert not tab.page.locator("#flattened").is_visible()
+    tab.page.check('[id="plastic.loop"]')
+    computed(tab, "forces", "10 mN:0.2 N:4")
+    assert tab.page.evaluate(POINTS) == 12
+    assert {"loading", "unloading", "reloading"} <= {*tab.page.evaluate(LEGEND)}
+    assert tab.page.input_value("#quantity") == "depth"
+    tab.page.locator("#flattened").click()
+    assert tab.picture[0] > 5
+    assert "residual depth" in tab.text("curve_facts")
+    assert "--loop" in tab.text("curve_command")
+    assert len(table_of(exported(tab, "curve csv")[1].decode())) == 12
+    tab.page.fill('[id="plastic.hardness"]', "2 GPa")
+    tab.page.keyboard.press("Tab")
+    tab.until(lambda: not tab.page.locator("#flattened").is_visible())
+
+
+def test_surfaces_that_stick_show_force_against_depth_and_the_pull_off(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.get_by_text("More steps").click()
+    tab.page.fill('[id="preparation.crop"]', "0:24,0:24")
+    tab.page.keyboard.press("Tab")
+    tab.page.select_option('[id="bodies"]', "modulus")
+    tab.page.fill('[id="bodies.modulus"]', "1 GPa")
+    tab.page.keyboard.press("Tab")
+    tab.settled()
+    tab.page.select_option("#kind", "adhesion loop")
+    tab.page.locator("#start").click()
+    tab.wait("() => document.getElementById('curves').querySelectorAll('[aria-invalid=true]').length > 0")
+    law = {"adhesion.work": "10mJ/m^2", "adhesion.range": "100nm"}
+    computed(tab, kind="adhesion loop", **law, **{"turn.depth": "50nm", "turn.points": "5"})
+    assert {"approach", "retreat", "pull-off force"} <= {*tab.page.evaluate(LEGEND)}
+    assert "force against depth" in tab.page.get_attribute("#curve", "aria-label")
+    assert "pull-off force" in tab.text("curve_facts")
+    assert "roughcontact adhesion loop part.npz" in tab.text("curve_command")
+    name, content = exported(tab, "curve png")
+    assert name == "part-adhesion-loop.png"
+    assert content.startswith(b"\x89PNG")
+    tab.page.select_option("#kind", "adhesion detach")
+    assert not tab.page.locator("#of_curve").is_visible()  # a curve of another kind is gone
+    computed(tab, kind="adhesion detach", **{"adhesion.work": "10mJ/m^2"})
+    assert {"retreat", "pull-off force"} <= {*tab.page.evaluate(LEGEND)}
 
 
 def test_two_surfaces_stand_under_one_load(tab, part):

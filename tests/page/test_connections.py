@@ -12,7 +12,7 @@ pytest.importorskip("uvicorn", reason="the page needs the extra 'page'")
 from roughcontact.page.server.guard import Guard
 from roughcontact.page.server.page_app import PageServer, application
 from roughcontact.page.server.serve import _bound, _web
-from roughcontact.page.server.worker_pool import WorkerPool
+from roughcontact.page.server.workers import Sessions
 
 PATIENCE = 60.0  # seconds
 SILENT = 1.0  # seconds that a new connection is given here
@@ -21,13 +21,13 @@ SILENT = 1.0  # seconds that a new connection is given here
 @pytest.fixture
 def serving(tmp_path, monkeypatch):
     """Return a function that has a coroutine function speak to the page, which starts no workers."""
-    monkeypatch.setattr(WorkerPool, "prepare", lambda _: None)
+    monkeypatch.setattr(Sessions, "_start", lambda _: asyncio.Event().wait())
 
     async def served(speak):
         with _bound(0) as listening:
             port = listening.getsockname()[1]
             (tmp_path / "page").mkdir()
-            web = _web(application(PageServer.of(Guard(port, "key"), tmp_path / "page")), SILENT)
+            web = _web(application(PageServer(Guard(port, "key"), Sessions(tmp_path / "page"))), SILENT)
             running = asyncio.create_task(web.serve(sockets=[listening]))
             while not web.started:
                 await asyncio.sleep(0.01)

@@ -7,25 +7,29 @@ import roughcontact as rc
 from roughcontact.page.jobs.bodies_job import bodies
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.page.jobs.surface_jobs import look, study
-from roughcontact.page.recipe import FileSource, as_recipe
 from roughcontact.page.refusal import refusal
 from roughcontact.page.server.page_request import PageRequest
 
 WRONG = [
-    ("short_cutoff", {"preparation": {"short_cutoff": "10"}}),
-    ("short_cutoff", {"preparation": {"short_cutoff": "1 m"}}),
-    ("short_cutoff", {"preparation": {"short_cutoff": "1nm"}}),
-    ("long_cutoff", {"preparation": {"long_cutoff": "some"}}),
-    ("crop", {"preparation": {"crop": [20, 20, 0, 48]}}),
-    ("downsample", {"preparation": {"downsample": 40}}),
-    ("unit", {"source": {"unit": "second"}}),
-    ("width", {"source": {"width": "500"}}),
-    ("width", {"source": {"height": "500um"}}),
-    ("second", {"bodies": {"materials": ["rigid", "rigid"]}}),
-    ("modulus", {"bodies": {"modulus": "100"}}),
-    ("young", {"bodies": {"poisson": "0.3"}}),
-    ("poisson2", {"bodies": {"young": "1GPa", "poisson": "0.3", "young2": "1GPa", "poisson2": "0.7"}}),
-    ("hardness", {"bodies": {"modulus": "1GPa", "hardness": "-2GPa"}}),
+    ("preparation.short_cutoff", {"preparation": {"short_cutoff": "10kg"}}),
+    ("preparation.short_cutoff", {"preparation": {"short_cutoff": "1 m"}}),
+    ("preparation.short_cutoff", {"preparation": {"short_cutoff": "1nm"}}),
+    ("preparation.long_cutoff", {"preparation": {"long_cutoff": "some"}}),
+    ("preparation.long_cutoff", {"preparation": {"long_cutoff": "1nm"}}),
+    ("preparation.crop", {"preparation": {"crop": "20:20,0:48"}}),
+    ("preparation.downsample", {"preparation": {"downsample": "40"}}),
+    ("preparation.mask", {"preparation": {"mask": ["circle=3"]}}),
+    ("preparation.tip", {"preparation": {"tip": "1m"}}),
+    ("preparation.alias", {"preparation": {"alias": True}}),
+    ("preparation.share", {"preparation": {"window": "hann", "share": "0.2"}}),
+    ("source.unit", {"source": {"unit": "second"}}),
+    ("source.size", {"source": {"size": "500um x"}}),
+    ("bodies.materials", {"bodies": {"materials": "rigid,rigid"}}),
+    ("bodies.modulus", {"bodies": {"modulus": "100"}}),
+    ("bodies.poisson", {"bodies": {"poisson": "0.3"}}),
+    ("bodies.poisson2", {"bodies": {"young": "1GPa", "poisson": "0.3", "young2": "1GPa", "poisson2": "0.7"}}),
+    ("plastic.hardness", {"bodies": {"modulus": "1GPa"}, "plastic": {"hardness": "-2GPa"}}),
+    ("plastic.hardness", {"bodies": {"modulus": "1GPa"}, "plastic": {"loop": True}}),
 ]
 
 
@@ -40,8 +44,9 @@ def files(tmp_path):
 
 def ordered(job, files, recipe):
     """Return the messages that answer a request, by their type."""
+    name = "curve" if "bodies" in recipe else "surface"
     source = {"kind": "file", "file": "key"} | recipe.get("source", {})
-    request, heard = PageRequest(as_recipe({**recipe, "source": source}), files, {}), {}
+    request, heard = PageRequest.of({"job": name, **recipe, "source": source}, files, {}), {}
     job(request, SessionCache(), lambda header, _=b"": heard.update({header["type"]: header}))
     return heard
 
@@ -51,15 +56,15 @@ def test_what_is_wrong_belongs_to_a_field(field, recipe, files):
     with pytest.raises(ValueError) as error:
         ordered(bodies if "bodies" in recipe else look, files, recipe)
     end = refusal(error.value)
-    assert (end["how"], end["field"]) == ("refused", field)
+    assert (end["how"], end["places"][0]) == ("refused", field)
     assert end["message"].endswith(".")
-    assert "_" not in end["message"]
 
 
 def test_a_study_shows_the_numbers_of_the_library(files):
     heard = ordered(study, files, {"preparation": {"level": "plane", "despike": "filled"}})
-    raw, _ = SessionCache().read(FileSource("file", "key"), files)
-    surface = raw.despiked("filled").levelled("plane")
+    with pytest.warns(rc.SurfaceWarning):
+        surface = rc.read(files["key"].path)
+    surface = surface.despiked("filled").levelled("plane")
     histogram = rc.height_histogram(surface, bins=80)
     assert heard["heights"]["x"] == histogram.centres.tolist()
     assert heard["heights"]["y"] == histogram.density.tolist()
@@ -77,14 +82,41 @@ def test_warnings_are_those_of_the_file_and_name_the_step_that_mends_them(files)
 
 
 def test_the_file_is_described_before_its_preparation(files):
-    heard = ordered(look, files, {"preparation": {"crop": [0, 24, 0, 12]}})
+    heard = ordered(look, files, {"preparation": {"crop": "0:24,0:12"}})
     assert heard["surface"]["raw"]["shape"] == (48, 48)
-    assert heard["surface"]["raw"]["missing"] == 2
     assert heard["map"]["cells"] == (24, 12)
 
 
 def test_bodies_are_those_of_the_handbooks(files):
-    heard = ordered(bodies, files, {"bodies": {"materials": ["steel", "rigid"], "hardness": "steel"}})
+    heard = ordered(bodies, files, {"bodies": {"materials": "steel,rigid"}, "plastic": {"hardness": "steel"}})
     steel = rc.handbook("steel")
     assert heard["bodies"]["modulus"] == rc.reduced_modulus(steel.solid)
     assert heard["bodies"]["hardness"] == steel.hardness
+
+
+def test_bodies_by_name_are_told_in_numbers_too(files):
+    heard = ordered(bodies, files, {"bodies": {"materials": "steel,gold"}})["bodies"]
+    again = ordered(
+        bodies,
+        files,
+        {"bodies": {name: heard["same"][name] for name in ("young", "poisson", "young2", "poisson2")}},
+    )
+    assert again["bodies"]["modulus"] == heard["modulus"]
+    assert heard["lines"][0].startswith("Reduced modulus E*")
+
+
+def test_a_step_that_is_added_begins_with_the_surface_before_it(files, monkeypatch):
+    cache, spoken = SessionCache(), []
+    despiked = rc.Surface.despiked
+    monkeypatch.setattr(
+        rc.Surface, "despiked", lambda self, *given: spoken.append(1) or despiked(self, *given)
+    )
+    for steps in ({}, {"window": "hann"}, {"fill": True, "window": "hann"}):
+        plain = {"job": "surface", "source": {"kind": "file", "file": "key"}}
+        request = PageRequest.of({**plain, "preparation": {"despike": "filled", **steps}}, files, {})
+        surface = cache.surface(request.job)
+    assert len(spoken) == 1
+    with pytest.warns(rc.SurfaceWarning):
+        raw = rc.read(files["key"].path)
+    expected = despiked(raw, "filled").filled().tapered("hann")
+    np.testing.assert_array_equal(surface.heights, expected.heights)

@@ -14,7 +14,7 @@ from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server import uploads
 from roughcontact.page.server.guard import HEADERS, Guard
 from roughcontact.page.server.page_app import PageServer, application
-from roughcontact.page.server.sessions import MOST_SESSIONS
+from roughcontact.page.server.workers import MOST_SESSIONS, Sessions
 
 HOST = ("host", "127.0.0.1:8765")
 KNOWN = (HOST, ("cookie", "roughcontact-8765=key"))
@@ -23,7 +23,7 @@ STATIC = resources.files("roughcontact.page") / "static"
 
 @pytest.fixture
 def server(tmp_path):
-    return PageServer.of(Guard(8765, "key"), tmp_path)
+    return PageServer(Guard(8765, "key"), Sessions(tmp_path))
 
 
 def asked(server, *requests):
@@ -82,7 +82,7 @@ def test_the_token_leaves_the_address_and_lives_where_no_script_sees_it(server):
 
 
 def test_what_all_users_of_the_machine_can_read_opens_the_page_once(tmp_path):
-    server = PageServer.of(Guard(8765, "key", "once"), tmp_path)
+    server = PageServer(Guard(8765, "key", "once"), Sessions(tmp_path))
     first, second, cookie = asked(
         server,
         ("GET", "/", "token=once", (HOST,)),
@@ -243,7 +243,7 @@ def test_a_session_answers_to_its_key_alone(server, path):
 
 def test_a_session_holds_its_own_files_and_the_one_of_the_command_line(tmp_path):
     given = UploadedFile(tmp_path / "part.x3p", "part.x3p")
-    server = PageServer.of(Guard(8765, "key"), tmp_path, given)
+    server = PageServer(Guard(8765, "key"), Sessions(tmp_path, given))
     first, second = begun(server), begun(server)
     [found] = asked(server, put(first))
     known = server.sessions.known
@@ -270,21 +270,21 @@ def test_too_many_tabs_are_refused_until_one_has_long_been_silent(server):
     assert server.sessions.known.keys() == {*keys[:3], *keys[4:], found.json["session"]}
 
 
-def test_a_session_of_which_nothing_is_heard_ends_and_leaves_no_file(server, tmp_path):
+def test_a_session_of_which_nothing_is_heard_ends_and_leaves_no_file(server, tmp_path, monkeypatch):
     """The one that speaks, and the one for which something is computed, stay."""
     silent, spoken, busy = (begun(server) for _ in range(3))
     asked(server, put(silent))
     server.sessions.silent = 10.0
+    monkeypatch.setattr(Sessions, "_start", lambda _: asyncio.Event().wait())
 
     async def watched():
         await server.sessions.known[busy].back.turn.acquire()
         for each in server.sessions.known.values():
             each.heard = monotonic() - 11
         assert (await answer(application(server), *post("/alive", f"session={spoken}"))).status == 200
-        watching = asyncio.create_task(server.sessions.watch())
-        while silent in server.sessions.known or left_in(tmp_path):
-            await asyncio.sleep(0.01)
-        watching.cancel()
+        async with server.sessions.running():
+            while silent in server.sessions.known or left_in(tmp_path):
+                await asyncio.sleep(0.01)
 
     asyncio.run(watched())
     assert server.sessions.known.keys() == {spoken, busy}

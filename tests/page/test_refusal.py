@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.page.field_error import at_field
 from roughcontact.page.refusal import refusal
 
 
@@ -32,20 +31,12 @@ def test_an_error_of_a_foreign_library_is_a_mistake_of_ours(call):
     assert "not in your input" in found["message"]
 
 
-def test_a_foreign_error_at_a_field_stays_a_mistake_of_ours():
-    def failed():
-        with at_field("load"):
-            float("three")
-
-    assert caught(failed)["how"] == "mistake"
-
-
 def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):
     file = tmp_path / "heights.npy"
     np.save(file, np.random.default_rng(1).normal(size=(8, 8)))
     found = caught(lambda: rc.read(file))
     assert found["how"] == "refused"
-    assert "size" in found["lacking"]
+    assert "size" in found["places"]
     assert "the width of the map" in found["remedy"]
 
 

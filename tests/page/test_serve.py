@@ -17,9 +17,12 @@ pytest.importorskip("uvicorn", reason="the page needs the extra 'page'")
 import roughcontact as rc
 from served import PATIENCE, ended, started
 
-MADE = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": 32}
-LARGE = {"kind": "made", "hurst": "0.8", "rms": "1um", "size": "2mm", "points": 1024}
-LOAD = {"control": "pressure", "text": "1MPa"}
+MADE = {"kind": "self-affine", "hurst": "0.8", "rms": "0.1um", "size": "32um", "points": "32"}
+LARGE = {"kind": "self-affine", "hurst": "0.8", "rms": "1um", "size": "2mm", "points": "1024"}
+BODIES = {"modulus": "100GPa"}
+LOOK = {"job": "surface", "source": MADE}
+PRESS = {"job": "press", "source": MADE, "bodies": BODIES, "load": {"pressure": "1MPa"}}
+CURVE = {"job": "curve", "source": LARGE, "bodies": BODIES}
 
 
 @pytest.fixture(scope="module")
@@ -77,19 +80,21 @@ def test_files_that_mean_harm_are_refused_with_a_reason(served):
     session = served.begin()
     for number, (name, content) in enumerate(FILES.items()):
         file = served.put(session, name, content)
-        source = {"kind": "file", "file": file, "width": "1mm"}
-        end = last(served.request(session, "look", {"source": source}, key=str(number)))
+        source = {"kind": "file", "file": file, "size": "1mm"}
+        end = last(served.request(session, "look", {**LOOK, "source": source}, key=str(number)))
         assert end["how"] == "refused", (name, end)
         assert end["message"]
         assert str(served.folder) not in str(end)
-    assert last(served.request(session, "look", {"source": MADE}, key="last"))["how"] == "done"
+    assert last(served.request(session, "look", LOOK, key="last"))["how"] == "done"
     served.ask("POST", f"/end?session={session}")
 
 
 def test_a_map_larger_than_the_screen_is_reduced_and_keeps_its_highest_point(served):
     session = served.begin()
-    source = {**MADE, "size": "200um", "points": 200}
-    messages = served.request(session, "look", {"source": source}, more={"pixels": 64})
+    source = {**MADE, "size": "200um", "points": "200"}
+    messages = served.request(
+        session, "look", {**LOOK, "source": source, "preparation": {"level": "plane"}}, more={"pixels": 64}
+    )
     [found] = [each for each in messages if each["type"] == "map"]
     assert (found["shape"], found["cells"], found["factor"]) == ([50, 50], [200, 200], 4)
     grid = rc.Grid((200, 200), 1e-6)
@@ -103,9 +108,9 @@ def test_a_path_is_no_file_of_a_session_nor_is_the_file_of_another(served):
     mine, other = served.begin(), served.begin()
     theirs = served.put(other, "part.npy", FILES["wide.npy"])
     for name in (theirs, "/etc/passwd", f"../{other}/{theirs}/part.npy", "given", ""):
-        end = last(served.request(mine, "look", {"source": {"kind": "file", "file": name}}))
+        end = last(served.request(mine, "look", {**LOOK, "source": {"kind": "file", "file": name}}))
         assert end["how"] == "refused"
-        assert "no such file" in end["message"]
+        assert end["message"] in ("The server has no such file any more.", "The name is empty.")
     for session in (mine, other):
         served.ask("POST", f"/end?session={session}")
     assert served.left() == []
@@ -124,24 +129,24 @@ def test_another_host_another_origin_and_a_gigabyte_are_refused(served):
 
 def test_a_worker_that_is_killed_is_said_and_replaced(served):
     session = served.begin()
-    messages = served.request(session, "curve", {"source": LARGE})
-    assert next(messages)["type"] == "doing"
+    messages = served.request(session, "curve", CURVE)
+    assert next(messages)["type"] == "progress"
     for worker in served.workers:
         worker.kill()
     end = last(messages)
     assert end["how"] == "died"
     assert "A new one takes over" in end["message"]
-    assert last(served.request(session, "press", {"source": MADE, "load": LOAD}, key="2"))["how"] == "done"
+    assert last(served.request(session, "press", PRESS, key="2"))["how"] == "done"
     served.ask("POST", f"/end?session={session}")
 
 
 def test_an_order_is_stopped_and_the_next_one_answered(served):
     session = served.begin()
-    messages = served.request(session, "curve", {"source": LARGE}, key="long")
-    assert next(messages)["type"] == "doing"
+    messages = served.request(session, "curve", CURVE, key="long")
+    assert next(messages)["type"] == "progress"
     assert served.ask("POST", f"/stop?session={session}&queue=front&key=long")[0] == 200
     assert last(messages)["how"] == "stopped"
-    assert last(served.request(session, "press", {"source": MADE, "load": LOAD}, key="2"))["how"] == "done"
+    assert last(served.request(session, "press", PRESS, key="2"))["how"] == "done"
     served.ask("POST", f"/end?session={session}")
 
 
@@ -154,8 +159,8 @@ def test_a_server_that_ends_leaves_no_process_and_no_file(tmp_path, name):
     served = started(tmp_path)
     session = served.begin()
     served.put(session, "part.npy", b"heights")
-    messages = served.request(session, "curve", {"source": LARGE}, queue="back")
-    assert next(messages)["type"] == "doing"
+    messages = served.request(session, "curve", CURVE, queue="back")
+    assert next(messages)["type"] == "progress"
     assert len(served.left()) == 1
     workers = served.workers
     assert workers
@@ -173,7 +178,7 @@ def test_workers_end_with_a_server_that_is_killed_and_its_files_at_the_next_star
     served = started(tmp_path)
     session = served.begin()
     served.put(session, "part.npy", b"heights")
-    assert last(served.request(session, "look", {"source": MADE}))["how"] == "done"
+    assert last(served.request(session, "look", LOOK))["how"] == "done"
     workers = served.workers
     served.process.kill()
     served.process.wait()

@@ -9,10 +9,9 @@ import pytest
 
 from roughcontact.page.server.server_folder import SCRATCH, server_folder
 
-RUNNING = f"""
+RUNNING = """
 from roughcontact.page.server.server_folder import server_folder
 with server_folder() as folder:
-    (folder / {SCRATCH!r}).mkdir()
     (folder / "session").mkdir()
     (folder / "session" / "part.npy").write_bytes(b"heights")
     print(folder, flush=True)

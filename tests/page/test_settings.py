@@ -6,6 +6,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.recipe.bodies import Bodies
+from roughcontact.recipe.contact import Contact
+from roughcontact.recipe.plastic_flow import AfterLoad
+from roughcontact.recipe.preparation import Preparation
+from roughcontact.recipe.recipe_fields import specs
+from roughcontact.recipe.source import File
 from served import PATIENCE, ended, started
 
 WAITING = """() => ["view", "surface"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
@@ -59,12 +65,27 @@ class Person:
             assert time.monotonic() < before, self.page.locator("#said").inner_text()
             self.page.wait_for_timeout(20)
 
+    def field(self, name):
+        return self.page.locator(f'[id="{name}"]')
+
     def write(self, name, text):
-        self.page.fill(f"#{name}", text)
+        self.unfold(name)
+        self.field(name).fill(text)
         self.page.keyboard.press("Tab")
 
     def choose(self, name, value):
-        self.page.select_option(f"#{name}", value)
+        self.unfold(name)
+        self.field(name).select_option(value)
+
+    def unfold(self, name):
+        """Open what a field is folded in."""
+        self.page.evaluate(
+            """(id) => {
+              let folded = document.getElementById(id).closest("details");
+              for (; folded; folded = folded.parentElement.closest("details")) folded.open = true;
+            }""",
+            name,
+        )
 
     def open(self, file):
         content = {
@@ -75,13 +96,13 @@ class Person:
         self.page.set_input_files("#file", content)
 
     def text(self, name):
-        return self.page.locator(f"#{name}").text_content()
+        return self.field(name).text_content()
 
     def trouble(self, name, words):
         """Wait until this is said beside a field."""
-        line = self.page.locator(f"#{name}_trouble", has_text=words)
+        line = self.page.locator(f'[id="{name}_trouble"]', has_text=words)
         line.wait_for(timeout=1000 * PATIENCE)
-        assert self.page.get_attribute(f"#{name}", "aria-errormessage") == f"{name}_trouble"
+        assert self.field(name).get_attribute("aria-errormessage") == f"{name}_trouble"
 
     @property
     def command(self):
@@ -137,12 +158,12 @@ def part(heights, tmp_path):
 
 def test_what_a_file_leaves_open_is_asked_for(person, bare):
     person.open(bare)
-    person.trouble("unit", "unit of the heights")
-    person.trouble("width", "needed")
-    person.write("unit", "nm")
-    person.write("width", "64")
-    person.trouble("width", "has no unit")
-    person.write("width", "64 um")
+    person.trouble("source.unit", "unit of the heights")
+    person.trouble("source.size", "needed")
+    person.write("source.unit", "nm")
+    person.write("source.size", "64 apples")
+    person.trouble("source.size", "apples")
+    person.write("source.size", "64 um")
     assert "--unit nm --size '64 um'" in person.command
     assert person.page.locator(".trouble").count() == 0
 
@@ -168,31 +189,101 @@ def test_a_crop_is_dragged_typed_and_taken_back(person, part):
         person.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
         getattr(person.page.mouse, move)()
     assert "--crop 16:41,16:49" in person.command  # the cells under both ends belong to it
-    person.write("crop_bottom", "40")
+    person.write("preparation.crop", "16:40,16:49")
     assert "--crop 16:40,16:49" in person.command
-    person.write("crop_top", "40")
-    person.trouble("crop_top", "No row is left")
-    person.page.locator("#uncrop").click()
+    person.write("preparation.crop", "40:40,16:49")
+    person.trouble("preparation.crop", "Nothing is left")
+    person.write("preparation.crop", "")
     assert "--crop" not in person.command
+
+
+def test_a_crop_is_dragged_over_a_part_of_the_map_that_is_averaged(person, part):
+    person.open(part)
+    person.write("preparation.crop", "16:48,:32")
+    person.write("preparation.average", "4")
+    person.wait()
+    person.page.locator("#crop").click()
+    box = person.page.locator("#map").bounding_box()
+    for move, (x, y) in (("down", (0.05, 0.05)), ("up", (0.55, 0.8))):
+        person.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+        getattr(person.page.mouse, move)()
+    assert "--crop 16:44,0:20" in person.command  # seven cells of four down, five along
 
 
 def test_bodies_are_given_in_every_way(person, part):
     person.open(part)
     assert "--materials steel,aluminium" in person.command
-    person.choose("hard", "aluminium")
+    person.write("plastic.hardness", "aluminium")
     assert "--hardness aluminium" in person.command
-    person.choose("second", "gold")
-    assert "--materials steel,gold --hardness gold" in person.command
-    person.choose("given", "constants")
+    person.choose("bodies.materials.2", "gold")
+    person.wait()
+    assert "--materials steel,gold" in person.command
+    person.choose("bodies", "young")
     assert "--young '205 GPa' --poisson 0.29 --young2 '78 GPa' --poisson2 0.44" in person.command
-    person.write("poisson", "0.7")
-    person.trouble("poisson", "Poisson's ratio must lie")
-    person.write("poisson", "0.3")
-    person.choose("given", "modulus")
-    person.write("modulus", "100")
-    person.trouble("modulus", "has no unit")
-    person.write("modulus", "100 GPa")
+    person.write("bodies.poisson", "0.7")
+    person.trouble("bodies.poisson", "Poisson's ratio lies")
+    person.write("bodies.poisson", "0.3")
+    person.wait()
+    person.choose("bodies", "modulus")
+    assert "--modulus" in person.command  # the one of the bodies before
+    person.write("bodies.modulus", "100")
+    person.trouble("bodies.modulus", "without a unit")
+    person.write("bodies.modulus", "100 GPa")
     assert "--modulus '100 GPa'" in person.command
+
+
+def test_steps_of_the_preparation_are_stated(person, part):
+    person.open(part)
+    person.write("preparation.mask", "box=0:9,0:9\noutside-ellipse=0:64,0:64")
+    person.choose("preparation.window", "tukey")
+    person.write("preparation.share", "0.5")
+    person.write("preparation.tip", "2um")
+    command = person.command
+    for option in (
+        "--mask box=0:9,0:9",
+        "--mask outside-ellipse=0:64,0:64",
+        "--tip 2um",
+        "--window tukey --share 0.5",
+    ):
+        assert option in command
+    person.choose("preparation.window", "")
+    assert "--share" not in person.command  # a field goes with the one that it needs
+    assert person.field("preparation.share").is_hidden()
+
+
+def test_every_field_of_a_job_is_in_a_form(person, part):
+    """Of the steps of the preparation all; of other parts too, except those of files of the command."""
+    person.open(part)
+    person.wait()
+    for part_of_job in (Preparation, Bodies, AfterLoad, Contact, File):
+        form = part_of_job.__name__.replace("AfterLoad", "Plastic").replace("File", "Source").lower()
+        names = [
+            each.name
+            for each, spec in specs(part_of_job)
+            if spec.option and each.name not in ("file", "profile")
+        ]
+        assert len(names) > 2 or part_of_job is Contact
+        for name in names:
+            assert person.field(f"{form}.{name}").count() == 1, (form, name)
+
+
+def test_the_help_of_a_field_is_shown_where_it_has_the_focus(person, part):
+    person.open(part)
+    person.wait()
+    person.unfold("preparation.tip")
+    person.field("preparation.tip").focus()
+    assert "What a tip of this radius records" in person.text("help")
+
+
+def test_surfaces_that_come_without_a_file_are_prepared_alike(person):
+    ball = person.page.locator("#example option", has_text="Ball")
+    ball.wait_for(state="attached", timeout=1000 * PATIENCE)
+    person.choose("example", ball.get_attribute("value"))
+    person.wait()
+    person.write("source.points", "48")
+    assert person.command == "roughcontact run press-job.toml"
+    person.choose("source.shape", "cone")
+    person.trouble("source.radius", "a cone takes slope")
 
 
 def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_path):
@@ -201,7 +292,7 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
     assert "Sq" in person.text("roughness")
     rc.write(rc.Surface(np.zeros((16, 16)), rc.Grid((16, 16), 1e-6)), tmp_path / "flat.npz")
     person.open(tmp_path / "flat.npz")
-    said = person.page.locator("#said", has_text="flat")
+    said = person.page.locator("#said", has_text="The surface is flat")
     said.wait_for(timeout=1000 * PATIENCE)
     person.page.locator("#surface[aria-busy=false]").wait_for(timeout=1000 * PATIENCE)
     assert person.text("roughness") == ""
@@ -211,11 +302,15 @@ def test_a_flat_shows_no_roughness_of_the_surface_before_it(person, part, tmp_pa
 def test_what_is_being_typed_outlives_an_answer(person, part):
     person.open(part)
     person.wait()
-    person.page.locator("#short_cutoff").click()
+    person.unfold("preparation.short_cutoff")
+    person.field("preparation.short_cutoff").click()
     person.page.keyboard.type("8")
-    person.page.evaluate("document.getElementById('despike').value = 'filled'")
     person.page.evaluate(
-        "document.getElementById('despike').onchange({ target: document.getElementById('despike') })"
+        """() => {
+          const field = document.getElementById("preparation.despike");
+          field.value = "filled";
+          field.onchange();
+        }"""
     )
     person.wait()
     person.page.keyboard.type(" um")
@@ -226,8 +321,8 @@ def test_what_is_being_typed_outlives_an_answer(person, part):
 def test_every_field_has_a_name_and_every_text_is_readable(person, part):
     person.open(part)
     person.wait()
-    person.write("short_cutoff", "8")
-    person.trouble("short_cutoff", "has no unit")
+    person.write("preparation.short_cutoff", "8")
+    person.trouble("preparation.short_cutoff", "leaves nothing")
     person.page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
     assert person.page.evaluate(NAMELESS) == []
     assert person.page.evaluate(TWICE) == []

@@ -12,39 +12,47 @@ import roughcontact as rc
 from roughcontact.cli.app import app
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
-from roughcontact.page.recipe import as_recipe
-from roughcontact.page.statement import stated
+from roughcontact.page.server.page_request import PageRequest
 
 PREPARATIONS = [
     {},
+    {"level": "plane"},
     {"level": "none", "despike": "filled"},
-    {"crop": [2, 40, 4, 44], "level": "quadratic", "short_cutoff": "8um"},
-    {"form": "cylinder", "fill": True, "long_cutoff": "20 um", "downsample": 2},
+    {"crop": "2:40,4:44", "level": "quadratic", "short_cutoff": "8um"},
+    {"form": "cylinder", "fill": True, "long_cutoff": "20 um", "downsample": "2", "alias": True},
     {"form": "5", "despike": "missing"},
+    {"mask": ["box=0:9,0:9", "outside-ellipse=0:48,0:48"], "tip": "2um", "tip_shape": "paraboloid"},
+    {"average": "2", "window": "tukey", "share": "0.5"},
 ]
 BODIES = [
-    {"materials": ["rigid", "gold"], "hardness": "gold"},
-    {"materials": ["steel", "copper"], "hardness": "1.5 GPa"},
-    {"modulus": "57.5 GPa", "hardness": "2GPa"},
-    {"young": "210GPa", "poisson": "0.3"},
-    {"young": "210GPa", "poisson": "0.3", "young2": "70 GPa", "poisson2": "0.33"},
+    {"bodies": {"materials": "rigid,gold"}, "plastic": {"hardness": "gold"}},
+    {"bodies": {"materials": "steel,copper"}, "plastic": {"hardness": "1.5 GPa", "after": "2 mN"}},
+    {"bodies": {"modulus": "57.5 GPa"}, "plastic": {"hardness": "2GPa", "flow": "raised"}},
+    {"bodies": {"young": "210GPa", "poisson": "0.3"}},
+    {"bodies": {"young": "210GPa", "poisson": "0.3", "young2": "70 GPa", "poisson2": "0.33"}},
 ]
 READINGS = [
-    {"unit": "nm", "width": "96um"},
-    {"unit": "1e-9", "width": "96 um", "height": "48um", "periodic": True},
+    {"unit": "nm", "size": "96um"},
+    {"unit": "1e-9", "size": "48um x 96 um", "periodic": True},
 ]
+STEEL = {"bodies": {"materials": "steel,aluminium"}}
 
 
-def check(source, preparation, bodies, file="part.npz"):
+def check(source, preparation, parts, file="part.npz"):
     """Compare the numbers of the page with those of the commands and of the program that it states."""
-    load = {"control": "force", "text": "1.23 mN"}
-    recipe = as_recipe({"source": source, "preparation": preparation, "bodies": bodies, "load": load})
-    shown = SessionCache().solution(recipe, {"key": UploadedFile(Path(file).resolve(), file)})
-    statement = stated(recipe, file)
+    plain = {
+        "job": "press",
+        "source": source,
+        "preparation": preparation,
+        "load": {"force": "1.23 mN"},
+        **parts,
+    }
+    request = PageRequest.of(plain, {"key": UploadedFile(Path(file).resolve(), file)}, {})
+    shown = SessionCache().solution(request.job)
     space = {}
-    exec(statement.python, space)
+    exec(request.statement["python"], space)
     assert np.array_equal(space["solution"].pressure, shown.pressure)
-    for line in statement.command.splitlines():
+    for line in request.statement["command"].splitlines():
         result = CliRunner().invoke(app, [*shlex.split(line)[1:], "--json"])
         assert result.exit_code == 0, result.stderr
     record = json.loads(result.stdout)
@@ -69,19 +77,19 @@ def part(tmp_path, monkeypatch):
 def test_command_and_python_give_the_same_numbers(made, preparation, part):
     source = part
     if made:
-        source = {"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "48um", "points": 48}
-    check(source, preparation, {"materials": ["steel", "aluminium"]})
+        source = {"kind": "self-affine", "hurst": "0.8", "rms": "0.1um", "size": "48um", "points": "48"}
+    check(source, preparation, STEEL)
 
 
-@pytest.mark.parametrize("bodies", BODIES, ids=str)
-def test_bodies_are_stated(bodies, part):
-    check(part, {}, bodies)
+@pytest.mark.parametrize("parts", BODIES, ids=str)
+def test_bodies_are_stated(parts, part):
+    check(part, {}, parts)
 
 
 @pytest.mark.parametrize("reading", READINGS, ids=str)
 def test_what_a_file_leaves_open_is_stated(reading, part):
     np.save("heights.npy", 1e9 * rc.read("part.npz").heights)
-    check({**part, **reading}, {}, {"modulus": "100GPa"}, "heights.npy")
+    check({**part, **reading}, {}, {"bodies": {"modulus": "100GPa"}}, "heights.npy")
 
 
 @pytest.mark.parametrize("shape", [(4096, 4096), (1023, 517), (7, 1025), (64, 64)])

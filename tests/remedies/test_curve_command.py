@@ -14,7 +14,7 @@ SPRINGS = "curve profile.txt --unit m --modulus 1GPa --profile winkler --forces 
 
 LOADS = f"""
 $ {CURVE} --forces ''
-! no load given; write 1mN:1N:100 or a comma list
+! holds no load; write 1mN:1N:100 or a comma list
 > {CURVE} --forces 1mN:1N:100
 > {CURVE} --forces 1mN,2mN
 
@@ -24,7 +24,8 @@ $ {CURVE} --forces 1mN:2mN
 > {CURVE} --forces 1mN:1N:100
 
 $ {CURVE} --forces 2mN:1mN:3
-! a range is log-spaced and must rise from a positive load
+! rises from above zero in equal ratios, unlike '2mN:1mN:3'; write one such as 1mN:1N:100
+> {CURVE} --forces 1mN:1N:100
 > {CURVE} --forces 1mN:2mN:3
 
 $ {CURVE} --forces 1mN:2mN:1
@@ -32,11 +33,12 @@ $ {CURVE} --forces 1mN:2mN:1
 > {CURVE} --forces 1mN:2mN:2
 
 $ {CURVE} --forces 2mN,1mN
-! the loads must increase from one to the next
+! the loads must increase from one to the next, not as in '2mN,1mN'; sort them
 > {CURVE} --forces 1mN,2mN
 
 $ {CURVE} --forces 0N,1mN
-! every load must be positive, not 0 N
+! every load must be positive, not 0 N; leave it out
+> {CURVE} --forces 1mN
 > {CURVE} --forces 1uN,1mN
 
 $ {CURVE} --forces 1mN,2mN --depths 1nm,2nm
@@ -55,7 +57,7 @@ $ curve profile.txt --unit m --modulus 1GPa --depths 1nm
 > curve profile.txt --unit m --modulus 1GPa --depths 1nm --profile winkler
 
 $ {SPRINGS} --hardness 1GPa
-! leave it out, or take line
+! leave it out, or take --profile line
 > {SPRINGS}
 > {LINE} --hardness 1GPa
 """
@@ -66,14 +68,15 @@ $ {CURVE} --forces 1uN,2uN --work 1mJ/m^2 --range 100nm
 > {FAR} --forces 1uN,2uN
 
 $ {FAR}
-! give the loads (--depths or --forces or --pressures or --mean-gaps)
+! is given: give one, such as --depths -20nm:20nm:9,-20nm
+> {FAR} --depths -20nm:20nm:9,-20nm
 > {FAR} --depths 1nm,2nm
 > {FAR} --forces 1uN,2uN
 > {FAR} --pressures 1kPa,2kPa
 > {FAR} --mean-gaps 100nm,99nm --periodic
 
 $ {LOOP} --depth 20nm --points 1
-! Invalid value for '--points'
+! --points: the number of steps is a whole number from 2 to 10000, not '1'; give one such as 2
 > {LOOP} --depth 20nm --points 2
 
 $ {FAR} --depths 1nm:2nm
@@ -82,7 +85,7 @@ $ {FAR} --depths 1nm:2nm
 > {FAR} --depths -20nm:20nm:41
 
 $ {FAR} --forces -1nN,1nN
-! begin with 0 or more, and let the tension follow ('roughcontact adhesion curve')
+! begin with 0, and let the tension follow
 > {FAR} --forces 0N,-1nN
 
 $ {FAR} --mean-gaps 100nm
@@ -91,44 +94,45 @@ $ {FAR} --mean-gaps 100nm
 > {FAR} --forces 1uN
 
 $ {FAR} --mean-gaps=-1nm,1nm --periodic
-! give mean gaps above 0
+! -1 nm is full contact or beyond it; give mean gaps such as 100nm
 > {FAR} --mean-gaps=2nm,1nm --periodic
 """
 
 FLOW = f"""
 $ {TWO} --loop
-! --loop is about what flows: give a --hardness, or both bodies by --materials
+! --loop is about what flows under a hardness, which is not given: give --hardness, or both bodies as --materials
 > {TWO} --loop --hardness 1GPa
 > curve rough.npz --forces 1mN,2mN --loop --materials steel,aluminium
 
 $ {CURVE} --depths 1nm,2nm --loop --hardness 1GPa
-! --loop goes by forces or pressures: the depth is what is found
+! --loop goes by forces or pressures: the depth is what is found; give --forces
 > {TWO} --loop --hardness 1GPa
 > {CURVE} --pressures 1MPa,2MPa --loop --hardness 1GPa
 """
 
 BESIDE = f"""
 $ {TWO} --theory gravity
-! there is no 'gravity'; there are persson, finite-size, gw
+! there is no theory 'gravity'; choose of persson, finite-size, gw
 > {TWO} --theory persson
 > {TWO} --theory finite-size
 > {TWO} --theory gw
 
 $ {TWO} --theory gw,gw
-! name each theory once, such as persson,gw
-> {TWO} --theory persson,gw
+! name each theory once, such as persson,finite-size
+> {TWO} --theory persson,finite-size
+> {TWO} --theory gw
 
 $ {TWO} --theory hertz
-! give the radius of curvature by --radius, such as --radius 5mm
+! --theory hertz takes a radius, which no surface shows: give --radius, such as 5mm
 > {TWO} --theory hertz --radius 5mm
 
 $ {TWO} --theory ceb
-! give the hardness by --hardness, such as --hardness 2GPa or aluminium
+! --theory ceb takes a hardness, which no surface shows: give --hardness, such as 2GPa or aluminium
 > {TWO} --theory ceb --hardness 2GPa
 > {TWO} --theory ceb --hardness aluminium
 
 $ {TWO} --hurst 0.8
-! --hurst is for theories: name them, such as --theory persson,gw
+! --hurst belongs to --theory, which is not given: give --theory too
 > {TWO} --hurst 0.8 --theory persson,gw
 
 $ {TWO} --theory power-law --hurst 8
@@ -140,28 +144,29 @@ $ {TWO} --table abaqus
 > {TWO} --table abaqus --out new
 
 $ {TWO} --table ansys --out new
-! there is no 'ansys': choose of csv, abaqus, abaqus-mm, lammps
+! there is no table 'ansys'; choose of csv, abaqus, abaqus-mm, lammps
 > {TWO} --table csv --out new
 > {TWO} --table abaqus --out new
 > {TWO} --table abaqus-mm --out new
 > {TWO} --table lammps --out new
 
 $ {TWO} --table csv,csv --out new
-! name each table once, such as abaqus,csv
-> {TWO} --table abaqus,csv --out new
+! name each table once, such as csv,abaqus
+> {TWO} --table csv,abaqus --out new
 
 $ {TWO} --table csv --table-area 1mm^2 --out new
-! --table-area is for --table lammps: the other tables are per area
+! --table-area is for the table lammps: the others are per area; leave it out
+> {TWO} --table csv --out new
 > {TWO} --table lammps --table-area 1mm^2 --out new
 
 $ {TWO} --resistivity 1nohm*m,2nohm*m,3nohm*m
-! give one value for both bodies or two, such as 17nohm*m,17nohm*m, or names of materials, such as steel,aluminium
+! give one for both or two, such as 17nohm*m,17nohm*m, or names such as steel,aluminium
 > {TWO} --resistivity 1nohm*m
 > {TWO} --resistivity 17nohm*m,17nohm*m
 > {TWO} --resistivity steel,aluminium
 
 $ {TWO} --resistivity -1nohm*m
-! a resistivity must not be negative
+! the resistivity must not be negative, not '-1nohm*m'; give 0 or more
 > {TWO} --resistivity 1nohm*m
 
 $ {TWO} --unit-stiffness lbf --out new
@@ -169,7 +174,7 @@ $ {TWO} --unit-stiffness lbf --out new
 > {TWO} --unit-stiffness N/um/mm^2 --out new
 
 $ {LINE} --resistivity 17nohm*m
-! it depends on how far away the bodies end; leave them out
+! it depends on how far away the bodies end: leave out --resistivity and --conductivity
 > {LINE}
 
 $ {SPRINGS} --resistivity 17nohm*m
@@ -189,7 +194,7 @@ $ conductance new/curve.nc --resistivity 17nohm*m
 > {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
 
 $ conductance rough.npz --resistivity 17nohm*m
-! is not a curve.nc; write one with: roughcontact curve ... --out DIR
+! is not a curve.nc: write one with: roughcontact curve ... --out DIR
 > {TWO} --out new && conductance new/curve.nc --resistivity 17nohm*m
 
 $ conductance rough.npz

@@ -151,7 +151,7 @@ BODIES = [
     ),
     row(
         lambda: rc.line(PLANE, MODULUS),
-        "a line contact needs a grid of one axis: Grid(n, spacing)",
+        "a line contact needs a grid of one axis: use Grid(n, spacing)",
         lambda: rc.line(rc.Grid(16, 1e-6), MODULUS),
     ),
     row(
@@ -166,7 +166,7 @@ BODIES = [
     ),
     row(
         lambda: rc.singly_periodic(PLANE, MODULUS),
-        "periodic along one of them: Grid((ny, nx), spacing, periodic=(True, False))",
+        "periodic along one of them: use Grid((ny, nx), spacing, periodic=(True, False))",
         lambda: rc.singly_periodic(TWO_AXES, MODULUS),
     ),
     row(
@@ -255,7 +255,7 @@ CURVES = [
     ),
     row(
         lambda: curve(forces=[2e-4, 1e-4]),
-        "the forces must increase strictly, but 0.0001 follows 0.0002 at place 1; only under a hardness and in",
+        "the forces must increase strictly, but 0.0001 follows 0.0002 at place 1: only under a hardness and in",
         lambda: curve(forces=[1e-4, 2e-4]),
         lambda: curve(forces=[2e-4, 1e-4], hardness=1e9),
         lambda: rc.adhesive_path(ROUGH, MODULUS, rc.Adhesion(1e-3, 7e-8), forces=[2e-4, 1e-4]),
@@ -292,7 +292,7 @@ CURVES = [
     ),
     row(
         lambda: loop(forces=RISING[::-1]),
-        "but 0.000398107 follows 0.001 at place 1; a loop goes down them and up again by itself",
+        "but 0.000398107 follows 0.001 at place 1: a loop goes down them and up again by itself",
         lambda: loop(forces=RISING),
     ),
     row(lambda: loop(forces=[]), "must hold at least one number in one row", lambda: loop(forces=RISING)),
@@ -312,7 +312,7 @@ CURVES = [
     ),
     row(
         lambda: rc.loading_laws(PROFILE, MODULUS, ["gw"]),
-        "these theories are about surfaces; give a grid of two axes",
+        "these theories are about surfaces: give a grid of two axes",
         lambda: rc.loading_laws(ROUGH, MODULUS, ["gw"]),
     ),
     row(

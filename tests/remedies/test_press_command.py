@@ -15,7 +15,8 @@ FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
 LOADS = f"""
 $ {PRESS}
-! give one load (--force or --pressure or --depth)
+! none of --force, --pressure, --depth is given: give one, such as --force 10N
+> {PRESS} --force 10N
 > {PRESS} --force 1mN
 > {PRESS} --pressure 1MPa
 > {PRESS} --depth 10nm
@@ -30,28 +31,28 @@ $ {PRESS} --force 0N
 > {PRESS} --force 1uN
 
 $ {PRESS} --force 0,5N
-! write the decimal point as '.'; expected a force such as 10N
+! write the decimal point as '.'; write a force such as 10N
 > {PRESS} --force 0.5N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1kg
-! '1kg' is not a force; expected a force such as 10N
+! '1kg' is not a force; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force much
-! 'much' does not start with a number; expected a force such as 10N
+! 'much' does not start with a number; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1newt
-! unknown unit 'newt' in '1newt'; expected a force such as 10N
+! unknown unit 'newt' in '1newt'; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --force 1e300N
-! check its exponent and unit; expected a force such as 10N
+! check its exponent and unit; write a force such as 10N
 > {PRESS} --force 10N
 
 $ {PRESS} --depth -1um
-! the depth counts from first touch: give 0 or more
+! the depth counts from first touch, and '-1um' is below it; give 0 or more
 > {PRESS} --depth 0um
 
 $ {PRESS} --periodic --depth 1um
@@ -60,7 +61,8 @@ $ {PRESS} --periodic --depth 1um
 > {PRESS} --periodic --force 1mN
 
 $ {PRESS} --force 1mN --tolerance 1
-! the tolerance must lie between 1e-14 and 1e-2
+! the tolerance lies between 1e-14 and 0.01, not at '1'; give a number such as 1e-8
+> {PRESS} --force 1mN --tolerance 1e-8
 > {PRESS} --force 1mN --tolerance 1e-3
 
 $ {PRESS} --force 1mN --hardness 1kPa
@@ -71,7 +73,7 @@ $ {PRESS} --force 1mN --hardness 1kPa
 
 BODIES = f"""
 $ {FORCE}
-! such as --modulus 110GPa or --materials steel,aluminium (--modulus or --materials or --young)
+! none of --modulus, --materials, --young is given: give one, such as --modulus 110GPa
 > {FORCE} --modulus 110GPa
 > {FORCE} --materials steel,aluminium
 > {FORCE} --young 210GPa --poisson 0.3
@@ -86,11 +88,12 @@ $ {FORCE} --modulus 110
 > {FORCE} --modulus 110Pa
 
 $ {FORCE} --modulus 1N
-! '1N' is not a pressure; expected a pressure such as 1MPa
+! '1N' is not a pressure; write a pressure such as 1MPa
 > {FORCE} --modulus 1MPa
 
 $ {FORCE} --modulus 1GPa --poisson 0.3
-! --modulus is about the pair: leave out --poisson, --young2, --poisson2
+! --poisson belongs to --young, which is not given: give --young too
+> {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --modulus 1GPa
 
 $ {FORCE} --modulus 1GPa --young 1GPa
@@ -99,38 +102,39 @@ $ {FORCE} --modulus 1GPa --young 1GPa
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa
-! --young and --poisson belong together: --poisson is missing
+! --young is given without --poisson: give --poisson, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
-! belong together: --poisson2 is missing
+! --young2 is given without --poisson2: give --poisson2, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
-! lies above -1 and at most at 0.5
+! lies between -0.99 and 0.5, not at '0.7'; give a number such as 0.3
+> {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --young 1GPa --poisson 0.5
 
 $ {FORCE} --young 1GPa --poisson third
-! 'third' is not a number; expected a number such as 0.3
+! 'third' is not a number; write a number such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --materials steel
-! such as steel,aluminium or steel,steel or steel,rigid
+! name both, such as steel,aluminium or steel,steel or steel,rigid
 > {FORCE} --materials steel,aluminium
 > {FORCE} --materials steel,steel
 > {FORCE} --materials steel,rigid
 
 $ {FORCE} --materials rigid,rigid
-! one of the two bodies must be elastic, such as steel,rigid
+! one of the two bodies must be elastic; name a material, such as steel,rigid
 > {FORCE} --materials steel,rigid
 
 $ {FORCE} --materials steel,oak
-! tungsten: for another give its numbers
+! tungsten; for another give its numbers
 > {FORCE} --materials steel,tungsten
 > {FORCE} --young 205GPa --poisson 0.29 --young2 11GPa --poisson2 0.4
 
 $ {FORCE} --materials steel,210GPa
-! for a number of yours take --young or --modulus
+! give a number of yours as --young or --modulus
 > {FORCE} --young 210GPa --poisson 0.3
 > {FORCE} --modulus 210GPa
 
@@ -187,10 +191,11 @@ $ {PRESS} --force 1mN --channel colour
 > {PRESS} --force 1mN --channel heights
 
 $ {PRESS} --force 1mN --level plan
-! 'plan' is not one of 'plane', 'mean', 'none'
+! there is no 'plan' here; did you mean 'plane'? choose of none, mean, plane, quadratic
 > {PRESS} --force 1mN --level plane
 > {PRESS} --force 1mN --level mean
 > {PRESS} --force 1mN --level none
+> {PRESS} --force 1mN --level quadratic
 
 $ press profile.txt --unit m --modulus 1GPa --depth 10nm
 ! --profile line, as a line contact, or --profile winkler, on the springs
@@ -198,7 +203,7 @@ $ press profile.txt --unit m --modulus 1GPa --depth 10nm
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
 
 $ press profile.txt --unit m --modulus 1GPa --force 1N --profile line
-! expected a force per length such as 10N/mm
+! write a force per length such as 10N/mm
 > press profile.txt --unit m --modulus 1GPa --force 10N/mm --profile line
 
 $ {PRESS} --force 1N/m --profile line
@@ -206,7 +211,7 @@ $ {PRESS} --force 1N/m --profile line
 > {PRESS} --force 1N
 
 $ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --hardness 1GPa
-! leave it out, or take line
+! leave it out, or take --profile line
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile line --hardness 1GPa
 
@@ -221,7 +226,7 @@ $ {PRESS} --force 1uN --work 1mJ/m^2 --range 100nm
 > {FAR} --force 1uN
 
 $ {FAR}
-! give one load (--force or --pressure or --depth or --mean-gap)
+! none of --force, --pressure, --depth, --mean-gap is given: give one, such as --force 10mN
 > {FAR} --force 1uN
 > {FAR} --pressure 1kPa
 > {FAR} --depth 1nm
@@ -235,11 +240,11 @@ $ {NEAR} --force 1uN --range 2nm
 > {NEAR} --force 1uN --range 2nm --allow-unresolved
 
 $ {FAR} --force -1nN
-! give 'adhesion curve --forces 0,-1nN'
+! compute an adhesion curve with --forces 0,-1nN
 > adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --forces 0,-1nN
 
 $ {FAR} --pressure -1Pa
-! give 'adhesion curve --pressures 0,-1Pa'
+! compute an adhesion curve with --pressures 0,-1Pa
 > adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --pressures 0,-1Pa
 
 $ {FAR} --mean-gap 100nm
@@ -264,7 +269,7 @@ $ {DETACH} --depth 10nm --depths 20nm
 > {DETACH} --depth 10nm --depths 1e-08
 
 $ {DETACH} --depth 10nm --depths=-5nm,5nm
-! leave it out, or use 'roughcontact adhesion curve', with which surfaces come together again
+! leave it out, or compute an adhesion curve
 > {DETACH} --depth 10nm --depths=-5nm
 > adhesion curve rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm --depths=-5nm,5nm
 
@@ -276,7 +281,7 @@ $ {DETACH} --depth 10nm --depths 5nm --forces 0N
 
 FLOW = f"""
 $ {PRESS} --force 1mN --after 2mN
-! --after is about what flows: give a --hardness, or both bodies by --materials
+! which is not given: give --hardness, or both bodies as --materials
 > {FLOWS} --after 2mN
 > {FORCE} --materials steel,aluminium --after 2mN
 
@@ -286,16 +291,18 @@ $ {FLOWS} --after 0.5mN
 > {PRESS} --force 0.5mN --hardness 1GPa --after 1mN
 
 $ {FLOWS} --after 2mN --errors
-! leave it out with --after
+! --after is given: leave out one of them
 > {FLOWS} --after 2mN
+> {FLOWS} --errors
 
 $ {PRESS} --force 1mN --flow raised
-! --flow is about what flows: give a --hardness
+! which is not given: give --hardness, or both bodies as --materials
 > {FLOWS} --flow raised
 
 $ {FLOWS} --flow raised --errors
-! leave it out with --flow raised
+! --flow is given: leave out one of them
 > {FLOWS} --flow raised
+> {FLOWS} --errors
 
 $ {PRESS} --flow raised --depth 10nm --hardness 1GPa
 ! where the surface rises as it flows: give forces or pressures
@@ -324,10 +331,9 @@ $ {PRESS} --force 1mN --out taken/inside
 ! taken is a file; choose another name
 > {PRESS} --force 1mN --out other/inside
 
-$ {PRESS} --force 1mN --short-cutoff 10um
-! belongs to --errors; to filter a map take 'surface prepare'
-> {PRESS} --force 1mN --short-cutoff 10um --errors
-> surface prepare rough.npz smooth.npz --short-cutoff 10um
+$ {PRESS} --force 1mN --shortest-wave 10um
+! --shortest-wave belongs to --errors, which is not given: give --errors too
+> {PRESS} --force 1mN --shortest-wave 10um --errors
 """
 
 

@@ -326,7 +326,7 @@ WRITTEN = [
     ),
     row(
         lambda: rc.write(rc.press(RINGS, MODULUS, force=1e-6), "a.vti"),
-        "not rings; write another format",
+        "not rings: write another format",
         lambda: rc.write(rc.press(RINGS, MODULUS, force=1e-6), "a.nc"),
     ),
 ]

@@ -60,11 +60,11 @@ FILES = [
     row(
         study(size=None, sise='"1 mm"'), "has no parameter 'sise': did you mean 'size'?", study(size='"1 mm"')
     ),
-    row(study(size='"1 N"'), "'1 N' is not a length; expected a length such as 5um", study(size='"5um"')),
+    row(study(size='"1 N"'), "'1 N' is not a length; write a length such as 5um", study(size='"5um"')),
     row(study(hurst="[5.0]"), "hurst: 5.0 should be less than or equal to 3", study(hurst="[3.0]")),
     row(
         study(**CURVE | {"modulus": None}),
-        "does not take these parameters: 'modulus' is missing",
+        "parameters.modulus: 'modulus' is missing; give modulus",
         study(**CURVE),
     ),
     row(
@@ -75,17 +75,17 @@ FILES = [
     ),
     row(
         study(**CURVE | {"case": '"loop"'}),
-        "give hardness or relative_hardness: without one nothing flows",
+        "without a hardness nothing flows; give hardness or relative_hardness",
         study(**CURVE | {"case": '"loop"'}, hardness='"1GPa"'),
         study(**CURVE | {"case": '"loop"'}, relative_hardness="0.1"),
     ),
     row(
         study(tail="[[rows]]\nhurst = 0.1"),
-        "'hurst' is given both in table and in rows: take it out of one of them",
+        "'hurst' is given both in table and in rows; take it out of one of them",
         study(),
         study(hurst=None, tail="[[rows]]\nhurst = 0.1"),
     ),
-    row(study(hurst="[]"), "the list is empty: give one value or more", study(hurst="[0.1]")),
+    row(study(hurst="[]"), "the list is empty; give one value or more", study(hurst="[0.1]")),
     row(
         study(hurst="0.1"),
         "a single value is given under parameters, a range as { start = 0.1, stop = 0.9, count = 9 }",
@@ -95,7 +95,7 @@ FILES = [
     row(study(hurst="[0.1, 0.1]"), "take one of them out of the table or the rows", study(hurst="[0.1]")),
     row(
         ranged("start = 0.1, stop = 0.9"),
-        "a range has either a count or a step: give one of them",
+        "a range has either a count or a step; give one of them",
         ranged("start = 0.1, stop = 0.9, count = 3"),
         ranged("start = 0.1, stop = 0.9, step = 0.2"),
     ),
@@ -106,7 +106,7 @@ FILES = [
     ),
     row(
         ranged("start = 0.1, stop = 0.1, count = 3"),
-        "it starts and stops at 0.1: give the one value under parameters",
+        "it starts and stops at 0.1; give the one value under parameters",
         study(hurst=None, tail="[[rows]]\nhurst = 0.1"),
     ),
     row(
@@ -117,7 +117,7 @@ FILES = [
     ),
     row(
         ranged("start = 0.1, stop = 0.9, step = -0.1"),
-        "steps of -0.1 do not lead from 0.1 to 0.9: give a step towards the stop",
+        "steps of -0.1 do not lead from 0.1 to 0.9; give a step towards the stop",
         ranged("start = 0.1, stop = 0.9, step = 0.1"),
     ),
     row(
@@ -127,12 +127,12 @@ FILES = [
     ),
     row(
         study(tail='end = { start = "well", stop = "error", count = 2 }'),
-        "'well' is not a number, and only numbers have ranges: write a list",
+        "'well' is not a number, and only numbers have ranges; write a list",
         study(tail='end = ["well", "error"]'),
     ),
     row(
         study("samples = 10000000"),
-        "a study has 10,000,000 at most: take fewer samples or values",
+        "a study has 10,000,000 at most; take fewer samples or values",
         study("samples = 5000000"),
         study("samples = 10000000", hurst="[0.1]"),
     ),
@@ -149,7 +149,7 @@ $ study run tried.toml --scheduler tcp://127.0.0.1:1
 > {SERIAL}
 
 $ {SERIAL} --workers 2
-! computes one case at a time: choose processes
+! computes one case at a time; choose processes
 > study run tried.toml --executor processes --workers 2
 
 $ study status nowhere
@@ -162,7 +162,7 @@ $ study export done --out all.xlsx
 > study export done --out all.csv
 
 $ study add done --samples 2
-! the study has 2 already: give more, not 2
+! the study has 2 already; give more, not 2
 > study add done --samples 3
 
 $ study run done --out other
@@ -183,7 +183,7 @@ $ study average done --out all.nc --window 1e-3
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study average done --out all.nc --window 0.07:1e-3
-! --window goes from a force to a larger one
+! a window goes from a force to a larger one, unlike '0.07:1e-3'; exchange the two
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study plot done --out all.png --quantity weight

@@ -10,7 +10,7 @@ PREPARE = "surface prepare rough.npz new.npz"
 
 MADE = f"""
 $ {BARE} --hurst 8 --points 32
-! hurst must lie between -1 and 3, not 8.0
+! the Hurst exponent lies between -1 and 3, not at '8'; give a number such as 0.8
 > {BARE} --hurst 0.8 --points 32
 
 $ {BARE} --hurst 0.8 --points 6.4
@@ -19,15 +19,15 @@ $ {BARE} --hurst 0.8 --points 6.4
 > {BARE} --hurst 0.8 --points 512x256
 
 $ {MAKE} --seed x
-! 'x' is no seed; write a whole number such as 1
-> {MAKE} --seed 1
+! the seed is a whole number from 0 up, not 'x'; give one such as 2
+> {MAKE} --seed 2
 
 $ {MAKE} --rms-band 1mm
-! write the longest and the shortest wave, 1mm:10um
+! write the longest and the shortest wave, such as 1mm:10um
 > {MAKE.replace("32", "512")} --rms-band 1mm:10um
 
 $ {MAKE} --rms-band 100um:1mm
-! must begin with the longest
+! exchange them: 1mm:100um
 > {MAKE} --rms-band 1mm:100um
 
 $ surface make new.docx --hurst 0.8 --rms 1um --size 1mm --points 32
@@ -46,7 +46,7 @@ $ surface prepare rough.npz rough.npz --level plane
 > surface prepare rough.npz new.npz --level plane
 
 $ {PREPARE} --crop 0:5
-! write rows,columns such as 0:512,100:612
+! --crop: a crop needs one slice an axis, 2 in all, not 1; give rows and columns
 > {PREPARE} --crop 0:5,0:8
 
 $ {PREPARE} --crop a:b
@@ -73,15 +73,16 @@ $ {PREPARE} --tip 2
 > {PREPARE} --tip 2um
 
 $ {PREPARE} --tip-shape sphere
-! --tip-shape belongs to --tip: give its radius as well
+! --tip-shape belongs to --tip, which is not given: give --tip too
 > {PREPARE} --tip-shape sphere --tip 2um
 
 $ {PREPARE} --short-cutoff 10
-! leaves nothing of a map of 48 µm; give its unit, such as 10um
+! leaves nothing of a map of 48 um; give a shorter one, such as 1e-5 m
+> {PREPARE} --short-cutoff '1e-5 m'
 > {PREPARE} --short-cutoff 10um
 
 $ {PREPARE} --short-cutoff 1nm
-! too short for cells of 2 um: give at least 8 um
+! too short for cells of 2 um; give at least 8 um
 > {PREPARE} --short-cutoff 8um
 
 $ {PREPARE} --short-cutoff 20um --long-cutoff 10um
@@ -89,23 +90,25 @@ $ {PREPARE} --short-cutoff 20um --long-cutoff 10um
 > {PREPARE} --short-cutoff 10um --long-cutoff 20um
 
 $ {PREPARE} --average 0
-! K must be a whole number from 1 up
+! --average: the number of cells is a whole number from 1 up, not '0'; give one such as 2
+> {PREPARE} --average 2
 > {PREPARE} --average 1
 
 $ {PREPARE} --downsample 20
-! a factor of 20 leaves less than two of 24 cells: give at most 12
+! a factor of 20 leaves less than two of 24 cells; give at most 12
 > {PREPARE} --downsample 12
 
 $ {PREPARE} --alias
-! --alias belongs to --downsample: give its K as well
+! --alias belongs to --downsample, which is not given: give --downsample too
 > {PREPARE} --alias --downsample 2
 
 $ {PREPARE} --share 0.5
-! --share belongs to --window tukey
+! --share belongs to --window, which is not given: give --window too
 > {PREPARE} --share 0.5 --window tukey
 
 $ {PREPARE} --window tukey --share 2
-! lies between 0 and 1, not at 2
+! lies between 0 and 1, not at '2'; give a number such as 0.25
+> {PREPARE} --window tukey --share 0.25
 > {PREPARE} --window tukey --share 1
 """
 
@@ -128,7 +131,7 @@ $ surface spectrum holed.npz
 > surface prepare holed.npz new.npz --crop 4:16,0:16 && surface spectrum new.npz
 
 $ surface spectrum rough.npz --shortest 1mm --longest 1um
-! --longest 1um must be longer than --shortest 1mm
+! the longest wave, 1um, must be longer than the shortest, 1mm; exchange the two
 > surface spectrum rough.npz --shortest 1um --longest 1mm
 
 $ surface spectrum rough.npz --shortest 1nm --longest 2nm

@@ -79,7 +79,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Surface(INFINITE, PLANE),
-        "heights are infinite; mark points without a measurement by NaN",
+        "heights are infinite: mark points without a measurement by NaN",
         lambda: rc.Surface(np.where(np.isinf(INFINITE), np.nan, INFINITE), PLANE),
     ),
     row(
@@ -131,8 +131,8 @@ HEIGHTS = [
 PREPARED = [
     row(
         lambda: ROUGH.levelled("cubic"),
-        "levelling must be 'mean', 'plane' or 'quadratic'",
-        *each(ROUGH.levelled, "mean", "plane", "quadratic"),
+        "levelling must be 'mean', 'plane', 'quadratic' or 'auto'",
+        *each(ROUGH.levelled, "mean", "plane", "quadratic", "auto"),
     ),
     row(
         lambda: ROUGH.without_form("cone"),
@@ -220,7 +220,7 @@ PREPARED = [
     ),
     row(
         lambda: PROFILE.rotated(),
-        "only a surface of two axes can be turned; flip a line",
+        "only a surface of two axes can be turned: flip a line",
         lambda: ROUGH.rotated(),
         lambda: PROFILE.flipped("x"),
     ),

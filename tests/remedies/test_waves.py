@@ -195,7 +195,7 @@ MEASURED = [
     ),
     row(
         lambda: rc.merge_spectra([rc.power_spectrum(ROUGH), rc.power_spectrum(PROFILE)]),
-        "of surfaces (C2D) and of profiles (C1D) cannot be merged; see surface_spectrum",
+        "of surfaces (C2D) and of profiles (C1D) cannot be merged: see surface_spectrum",
         lambda: rc.merge_spectra(
             [rc.power_spectrum(ROUGH), rc.surface_spectrum(rc.power_spectrum(PROFILE), hurst=0.8)]
         ),

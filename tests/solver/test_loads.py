@@ -41,7 +41,7 @@ def test_bodies_approach_as_their_mean_gap_falls():
 def test_rising_loads_rise_strictly():
     rising = Loads("mean gap", [1.0, 2.0])
     assert rising.rising("begin anew") is rising
-    with pytest.raises(ValueError, match=r"the mean gaps .*, but 2 follows 2 at place 2; begin anew"):
+    with pytest.raises(ValueError, match=r"the mean gaps .*, but 2 follows 2 at place 2: begin anew"):
         Loads("mean gap", [1.0, 2.0, 2.0]).rising("begin anew")
 
 

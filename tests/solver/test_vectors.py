@@ -209,6 +209,35 @@ def test_what_is_shared_is_remembered_while_nothing_is():
     assert fields.constraint_direction() == 0.25 * Seeing.part * 400 * 399
 
 
+def test_without_machine_code_it_is_remembered_until_many_cells_are_lost():
+    asked = []
+
+    class Counting(Seeing):
+        @classmethod
+        def approximate_inverse(cls, displacement):
+            asked.append(displacement.sum())
+            return super().approximate_inverse(displacement)
+
+    def after_losing(count):
+        """Lose so many cells; return the sum that is shared on the rest, over that of one cell."""
+        fields.s[...] = 0.0
+        fields.s.ravel()[np.flatnonzero(fields.free)[:count]] = -2.0
+        fields.project(1.0, 0.0, 1.0)
+        return fields.constraint_direction() / (0.25 * Seeing.part)
+
+    fields = generic(Counting, np.ones((20, 20), bool), np.zeros((20, 20)), np.ones((20, 20)))
+    fields.restart()
+    fields.constraint_direction()
+    fields.residual_max()
+    fields.precondition()
+    assert asked.pop(0) == 400
+    asked.clear()
+    assert after_losing(12) == 400 * 388  # three of a hundred are few enough
+    assert asked == []
+    assert after_losing(1) == 387 * 387
+    assert asked == [387]
+
+
 def test_what_has_no_machine_code():
     """Cells of many sizes, a hardness, and other libraries."""
     ring, ones = FullGrid(rc.ring(rc.RadialGrid.uniform(33, 3.0), 2.0)), np.ones(33)

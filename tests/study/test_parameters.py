@@ -40,7 +40,7 @@ def test_text_with_a_unit_is_a_number_in_si(name, text, number):
 @pytest.mark.parametrize(
     ("name", "value", "complaint"),
     [
-        ("size", "1 N", "'1 N' is not a length; expected a length such as 5um"),
+        ("size", "1 N", "'1 N' is not a length: write a length such as 5um"),
         ("size", "1 mmm", "unknown unit 'mmm'"),
         ("size", "-1 mm", "greater than 0"),
         ("size", True, "True is not a length"),
@@ -61,10 +61,10 @@ def test_none_stays_where_it_is_allowed():
     ("make", "says"),
     [
         (lambda: Range(start=0, stop=1), "a range has either a count or a step: give one of them"),
-        (lambda: Square(size="1 N"), "size: '1 N' is not a length; expected a length such as 5um"),
+        (lambda: Square(size="1 N"), "size: '1 N' is not a length; write a length such as 5um"),
         (
             lambda: Square(sise=1),
-            "'size' is missing; there is no 'sise': did you mean 'size'? It may be size",
+            "size: 'size' is missing; give size; sise: there is no 'sise': did you mean 'size'? It may be size",
         ),
     ],
 )

@@ -3,6 +3,7 @@ from unittest.mock import ANY
 import pytest
 import xarray
 
+from roughcontact.progress import listening
 from roughcontact.study.executors.serial import Serial
 from roughcontact.study.run import run
 from roughcontact.study.run_task import run_task
@@ -105,29 +106,26 @@ def test_a_retry_that_is_cut_off_loses_no_failure(tmp_path):
 
 
 def test_those_who_ask_hear_of_every_result_after_it_was_stored(tmp_path):
-    results, states = [], []
+    results, told = [], []
 
     def on_result(result):
         results.append(result.key)
         with Store.open(tmp_path) as store:
             assert result.key in store.done_keys() | store.failed_keys()
 
-    given = study(table={"hurst": [0.1], "end": ["well", "error"]})
-    run(given, tmp_path, on_result=on_result, on_progress=states.append)
-    assert results == [task.key for task in given.tasks()]
-    assert [(s.done, s.failed, s.left) for s in states] == [
-        (0, 0, 4),
-        (1, 0, 3),
-        (1, 1, 2),
-        (2, 1, 1),
-        (2, 2, 0),
-    ]
-    states.clear()
-    run(given, tmp_path, on_progress=states.append)
-    assert [(s.done, s.failed, s.left) for s in states] == [(2, 2, 0)]
-    states.clear()
-    run(given, tmp_path, on_progress=states.append, retry=True)
-    assert [(s.done, s.failed, s.left) for s in states] == [(2, 0, 2), (2, 1, 1), (2, 2, 0)]
+    def heard(**given):
+        told.clear()
+        with listening(told.append):
+            run(given_study, tmp_path, **given)
+        return [
+            (event.done, event.note) for event in told if event.unit == "cases" and event.state != "finished"
+        ]
+
+    given_study = study(table={"hurst": [0.1], "end": ["well", "error"]})
+    assert heard(on_result=on_result) == [(0, ""), (1, ""), (2, "1 failed"), (3, "1 failed"), (4, "2 failed")]
+    assert results == [task.key for task in given_study.tasks()]
+    assert heard() == [(4, "")]
+    assert heard(retry=True) == [(2, ""), (3, "1 failed"), (4, "2 failed")]
 
 
 def test_an_interrupt_stops_the_workers_and_leaves_what_was_done(tmp_path):

@@ -33,7 +33,7 @@ def test_a_task_gives_what_its_case_returns():
         (CASE, "exit", "SystemExit: 3 (trial.py, line "),
         (CASE, "dictionary", "TypeError: a case returns an xarray.Dataset, not dict"),
         (CASE, "object", "TypeError: 'force' has the type object"),
-        (WITH_FIELDS, "no field", "ValueError: the record lacks 'pressure'"),
+        (WITH_FIELDS, "no field", "InputError: the record lacks 'pressure'"),
     ],
 )
 def test_whatever_happens_is_an_result(case, end, message):

@@ -9,7 +9,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.study.ranges import Range
 from roughcontact.study.study import Study
-from roughcontact.study.study_errors import StudyError
+from roughcontact.study.study_errors import MOST_MISTAKES, StudyError
 from study.trial import CASE, NAME
 
 TEXT = """
@@ -122,15 +122,15 @@ def test_the_room_opens_at_its_public_names():
     [
         (
             {"sample": 3},
-            "there is no 'sample': did you mean 'samples'? It may be case, name, parameters, rows",
+            "there is no 'sample': did you mean 'samples'? It may be case, files, folder, name",
         ),
         ({"samples": 0}, "samples: 0 should be greater than or equal to 1"),
         ({"samples": 2.5}, "samples: 2.5 should be a valid integer"),
-        ({"samples": 10**12}, "make 1,000,000,000,000 cases, and a study has 10,000,000 at most: take fewer"),
+        ({"samples": 10**12}, "make 1,000,000,000,000 cases, and a study has 10,000,000 at most; take fewer"),
         ({"samples": True}, "samples: True should be a valid integer"),
         ({"seed": -1}, "seed: -1 should be greater than or equal to 0"),
         ({"seed": "1"}, "seed: '1' should be a valid integer"),
-        ({"name": "a/b"}, "name: 'a/b' is no name for a study: use letters"),
+        ({"name": "a/b"}, "name: 'a/b' is no name for a study; use letters"),
         ({"name": ""}, "name: '' is no name"),
         ({"case": "curv"}, "there is no case 'curv': did you mean 'curve'? It may be"),
         ({"case": "curv"}, "a case of your own is named as module:attribute"),
@@ -142,22 +142,25 @@ def test_the_room_opens_at_its_public_names():
         ({"case": "study.trial:CAS"}, "study.trial has no Case named 'CAS'"),
         ({"case": "study.trial:NO_CASE"}, "study.trial has no Case named 'NO_CASE'"),
         ({"case": "study.trial.CASE"}, "there is no case 'study.trial.CASE'"),
-        ({"case": CASE}, "name the case 'trial' by its module"),
+        ({"case": CASE}, "other processes cannot import the case 'trial'; name it by its module"),
         ({"parameters": {}}, "'hurst' is missing"),
-        ({"parameters": {"hurts": 1}}, "parameters: the case 'study.trial:CASE' has no parameter 'hurts'"),
+        (
+            {"parameters": {"hurts": 1}},
+            "parameters.hurts: the case 'study.trial:CASE' has no parameter 'hurts'",
+        ),
         ({"parameters": {"hurts": 1}}, "did you mean 'hurst'? It may be end, hurst, label, points"),
         ({"parameters": {"hurst": 4}}, "hurst: 4 should be less than or equal to 3"),
         ({"parameters": {"hurst": float("nan")}}, "hurst: nan should be a finite number"),
         ({"parameters": {"hurst": "rough"}}, "hurst: 'rough' should be a valid number"),
         (
             {"parameters": {"hurst": 1, "size": "1 N"}},
-            "size: '1 N' is not a length; expected a length such as 5um",
+            "parameters.size: '1 N' is not a length; write a length such as 5um",
         ),
         ({"parameters": {"hurst": 1, "label": None}}, "None has no place in a study file"),
         ({"parameters": 5}, "parameters: 5 should be a valid dictionary"),
-        ({"table": {"hurst": [1]}}, "'hurst' is given both in parameters and in table: take it out of one"),
-        ({"table": {"hirst": [1]}}, "table: the case 'study.trial:CASE' has no parameter 'hirst'"),
-        ({"table": {"points": []}}, "table.points: the list is empty: give one value or more"),
+        ({"table": {"hurst": [1]}}, "'hurst' is given both in parameters and in table; take it out of one"),
+        ({"table": {"hirst": [1]}}, "table.hirst: the case 'study.trial:CASE' has no parameter 'hirst'"),
+        ({"table": {"points": []}}, "table.points: the list is empty; give one value or more"),
         ({"table": {"points": 4}}, "table.points: 4 is neither a list nor a range"),
         (
             {"table": {"points": [4, 4.0]}},
@@ -167,12 +170,12 @@ def test_the_room_opens_at_its_public_names():
         ({"table": {"size": [0]}}, "size: 0 should be greater than 0"),
         ({"table": {"size": {"start": 1, "stop": 2}}}, "table.size: a range has either a count or a step"),
         ({"table": {"size": {"start": 1, "end": 2, "count": 3}}}, "there is no 'end'"),
-        ({"table": {"size": {"start": "1 N", "stop": 2, "count": 3}}}, "table: size: '1 N' is not a length"),
-        ({"table": {"size": {"start": 1, "stop": 2, "step": -1}}}, "table: size: steps of -1 do not lead"),
+        ({"table": {"size": {"start": "1 N", "stop": 2, "count": 3}}}, "table.size: '1 N' is not a length"),
+        ({"table": {"size": {"start": 1, "stop": 2, "step": -1}}}, "table.size: steps of -1 do not lead"),
         ({"table": {"points": {"start": 1, "stop": 2, "count": 3}}}, "points: 1.5 should be a valid integer"),
         ({"table": {"end": {"start": "error", "stop": "well", "count": 3}}}, "only numbers have ranges"),
         ({"rows": [{"hurst": 1}]}, "'hurst' is given both in parameters and in rows"),
-        ({"rows": [{"pints": 1}]}, "rows: the case 'study.trial:CASE' has no parameter 'pints'"),
+        ({"rows": [{"pints": 1}]}, "rows.pints: the case 'study.trial:CASE' has no parameter 'pints'"),
         ({"rows": [{"points": 1}, {"points": 1}]}, "a case comes twice"),
         ({"rows": {"points": 1}}, "rows: {'points': 1} should be a valid tuple"),
     ],
@@ -183,6 +186,25 @@ def test_what_makes_no_sense_is_refused_in_plain_words(more, complaint):
     assert complaint in str(caught.value)
     assert "pydantic" not in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_all_mistakes_come_in_one_message_each_with_its_place_and_once():
+    table = {"hurst": [4, 5, 0.5], "points": [], "size": {"start": "1 N", "stop": 2, "count": 3}}
+    with pytest.raises(StudyError) as caught:
+        Study(name="a/b", case=NAME, samples=0, parameters={"hurts": 1, "end": "ill"}, table=table)
+    assert [each.place for each in caught.value.parts] == [
+        *("name", "samples", "table.points", "parameters.hurts", "table.size"),
+        *("table.hurst", "parameters.end", "table.hurst"),
+    ]
+    assert "table.hurst: 4 should be less than or equal to 3" in str(caught.value)
+    assert caught.value.place.startswith("name, samples, table.points")
+
+
+def test_of_many_mistakes_the_first_are_shown():
+    with pytest.raises(StudyError) as caught:
+        Study(name="a", case=NAME, table={"hurst": list(range(4, 1000))})
+    assert str(caught.value).count("should be less") == MOST_MISTAKES
+    assert str(caught.value).endswith("more mistakes like these follow: correct these first")
 
 
 def test_what_is_missing_is_named():
@@ -221,7 +243,7 @@ def test_a_file_that_is_not_there_or_not_text_is_named(tmp_path):
     ("text", "complaint"),
     [
         ("1 / 0", "cannot be imported: ZeroDivisionError: division by zero"),
-        ("import no_such_library", "needs the module no_such_library: install it"),
+        ("import no_such_library", "needs the module no_such_library; install it"),
     ],
 )
 def test_a_module_that_fails_is_not_mistaken_for_one_that_is_missing(tmp_path, monkeypatch, text, complaint):

@@ -1,5 +1,6 @@
 """Heights of other libraries in everything that looks at a surface: an answer as of NumPy's, or an error in words."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -9,6 +10,7 @@ from libraries import LIBRARIES, Strict, without_torch
 GRID = rc.Grid((72, 80), 1e-6, periodic=True)
 LINE = rc.Grid(256, 1e-6)
 PLANE = rc.self_affine(GRID, 0.8, 1e-7, rng=1, rolloff=3e-5)
+STICKY = rc.Adhesion(work=0.05, range=2e-8)
 PROFILE = rc.self_affine(LINE, 0.8, 1e-7, rng=2)
 
 ANALYSES = {
@@ -32,6 +34,10 @@ ANALYSES = {
     "box_counting_dimension": lambda plane, line: rc.box_counting_dimension(plane),
     "loading_laws": lambda plane, line: rc.loading_laws(plane, 1e9, "gw")[0].predict("stiffness", 1e-3),
     "scan_spectrum": lambda plane, line: rc.mdr.line_scan.scan_spectrum(line)(np.array([1e5, 1e6])),
+    "adhesive_state": lambda plane, line: rc.adhesive_state(plane, 1e9, STICKY, depth=1e-8).force,
+    "adhesive_curve": lambda plane, line: rc.adhesive_curve(plane, 1e9, STICKY, depths=[1e-8]).force,
+    "to_dataset": lambda plane, line: plane.to_dataset()["heights"].to_numpy(),
+    "plot": lambda plane, line: (plane.plot().get_xlabel(), line.plot().get_ylabel()),
     "height_map": lambda plane, line: rc.plot.height_map(plane).get_xlabel(),
     "height_distribution": lambda plane, line: rc.plot.height_distribution(plane).get_xlabel(),
     "surface_view": lambda plane, line: rc.plot.surface_view(plane).get_zlabel(),
@@ -43,6 +49,12 @@ BOTH_LIVE_THERE = {
     "resampled": lambda plane: rc.resampled(plane, rc.Grid((36, 40), 2e-6, periodic=True)),
     "levelled": lambda plane: plane.levelled("plane"),
 }
+
+
+@pytest.fixture(autouse=True)
+def _figures_are_closed():
+    yield
+    plt.close("all")
 
 
 def there(surface, library, dtype="float64"):

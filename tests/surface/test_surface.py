@@ -71,3 +71,10 @@ def test_other_heights_keep_the_history_and_take_another_grid():
     assert surface.with_heights(surface.heights[::3, ::3], "thinned", small).grid == small
     with pytest.raises(ValueError, match="do not fit"):
         surface.with_heights(surface.heights[::3, ::3], "thinned")
+
+
+def test_a_surface_shows_where_it_lies_and_what_was_done_not_its_heights():
+    profile = rc.Surface(np.arange(900.0), rc.Grid(900, 1e-6))
+    assert repr(profile) == f"Surface({profile.grid}, heights as given)"
+    done = profile.levelled("mean").with_heights(np.ones(900), "made even")
+    assert repr(done) == f"Surface({profile.grid}, mean height removed; made even)"

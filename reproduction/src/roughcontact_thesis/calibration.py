@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.mdr.lines.lattice_sums import lambda_rms
 from roughcontact.validation import Array, moderate, number, positive_scalar, scalar
 
@@ -58,8 +59,8 @@ def calibrated_lambda(
     """
     scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= 0):
-        raise ValueError(
-            f"hurst must be finite and at least 0, where stiffness is a power of force, not {hurst}"
+        raise about(
+            "hurst", f"must be finite and at least 0, where stiffness is a power of force, not {hurst}"
         )
     for name, value in (("line_prefactor", line_prefactor), ("surface_prefactor", surface_prefactor)):
         moderate(positive_scalar(value, name), name)
@@ -149,7 +150,7 @@ def force_ratio(
     """
     low, high = window
     if not (0 < low < high < math.inf):
-        raise ValueError(f"window must be a lower and a higher stiffness k/(E* L), not {low} and {high}")
+        raise about("window", f"must be a lower and a higher stiffness k/(E* L), not {low} and {high}")
     below, above = _inside(line, window, "line"), _inside(surface, window, "surface")
     # Both are straight between all their points together, so that the trapezoidal rule is exact.
     x = np.unique(np.concatenate([np.log(window), below[0], above[0]]))
@@ -162,7 +163,7 @@ def _inside(curve: tuple[Array, Array], window: tuple[float, float], name: str) 
     """Return ln k and ln F of the points of a curve in a window and of those next to it."""
     force, stiffness = (np.asarray(number(values, name)) for values in curve)
     if force.ndim != 1 or force.shape != stiffness.shape:
-        raise ValueError(
+        raise InputError(
             f"the {name} must have a stiffness for each force, in a row, not {stiffness.shape} for {force.shape}"
         )
     under = np.flatnonzero(stiffness <= window[0] * (1 + ROUNDING))
@@ -170,14 +171,15 @@ def _inside(curve: tuple[Array, Array], window: tuple[float, float], name: str) 
     over = np.flatnonzero(stiffness >= window[1] * (1 - ROUNDING))
     over = over[over > first]
     if first < 0 or not over.size:
-        raise ValueError(
+        raise InputError(
             f"the {name} goes from k/(E* L) = {stiffness.min():.3g} to {stiffness.max():.3g}, and not all over the "
-            f"window from {window[0]:.3g} to {window[1]:.3g}: more forces, or a narrower window"
+            f"window from {window[0]:.3g} to {window[1]:.3g}",
+            "more forces, or a narrower window",
         )
     part = slice(first, over[0] + 1)
     force, stiffness = force[part], stiffness[part]
     if not ((force > 0).all() and (np.diff(force) > 0).all()):
-        raise ValueError(f"the forces of the {name} must be positive and rise")
+        raise InputError(f"the forces of the {name} must be positive and rise")
     # The first force that takes a stiffness: a mean over few samples may rest, or fall a little.
     rises = np.concatenate([[True], stiffness[1:] > np.maximum.accumulate(stiffness)[:-1]])
     return np.log(stiffness[rises]), np.log(force[rises])

@@ -17,6 +17,7 @@ import matplotlib
 import xarray
 from matplotlib.figure import Figure
 
+from roughcontact.errors import InputError
 from roughcontact.study.study import Study
 from roughcontact_thesis.drawing import STYLE, TICK
 from roughcontact_thesis.verdict import Verdict
@@ -160,7 +161,7 @@ def module(name: str) -> SimpleFigure | EnsembleFigure:
     'stiffness of the stepped indenter against load, schematic and computed'
     """
     if name not in FIGURES:
-        raise ValueError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}")
+        raise InputError(f"there is no figure {name!r}", f"choose one of {', '.join(FIGURES)}")
     return cast("SimpleFigure | EnsembleFigure", import_module(FIGURES[name]))
 
 
@@ -274,8 +275,10 @@ def figure(name: str, seed: int | None = None) -> Figure:
     """
     found = module(name)
     if is_ensemble(found):
-        raise ValueError(
-            f"{name} stands on an ensemble: compute it with averages_of, or 'roughcontact thesis {name}'"
+        raise InputError(
+            f"{name} stands on an ensemble",
+            f"compute it with averages_of, or 'roughcontact thesis {name}'",
+            place=name,
         )
     simple = cast("SimpleFigure", found)
     return drawn(simple, simple.case(simple.SEED if seed is None else seed))

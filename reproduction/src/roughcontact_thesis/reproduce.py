@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import xarray
 
+from roughcontact.errors import InputError
 from roughcontact.study.export import export
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
@@ -58,12 +59,7 @@ def store_of(folder: str | os.PathLike[str], study: Study) -> Path:
     return Path(folder) / STUDIES / study.name
 
 
-def run_study(
-    study: Study,
-    folder: str | os.PathLike[str],
-    executor: Executor,
-    on_progress: Callable[[Summary], None] | None = None,
-) -> Summary:
+def run_study(study: Study, folder: str | os.PathLike[str], executor: Executor) -> Summary:
     """Run a study in its store under `folder`; what is done already is not done again.
 
     Parameters
@@ -74,8 +70,6 @@ def run_study(
         Its folder ``studies`` holds a store a study.
     executor : Executor
         Such as `roughcontact.study.Processes`.
-    on_progress : callable, optional
-        Is told after every case how many are done.
 
     Returns
     -------
@@ -90,7 +84,7 @@ def run_study(
     >>> roughcontact_thesis.run_study(study, "figures", rc.study.Serial()).done
     2
     """
-    return run(study, store_of(folder, study), executor, on_progress=on_progress)
+    return run(study, store_of(folder, study), executor)
 
 
 def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLike[str]) -> xarray.Dataset:
@@ -137,7 +131,7 @@ def averages_of(found: EnsembleFigure, studies: Studies, folder: str | os.PathLi
 def _exports(studies: Studies, folder: str | os.PathLike[str]) -> Iterator[xarray.Dataset]:
     for study in studies:
         if not (store_of(folder, study) / "study.toml").is_file():
-            raise ValueError(f"the study {study.name!r} was not run in {folder}: run it first")
+            raise InputError(f"the study {study.name!r} was not run in {folder}", "run it first")
         with Store.open(store_of(folder, study)) as store:
             yield export(store, seconds=True)
 

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any, cast
 
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.options import PictureFormat, picture_ending
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.picture_options import PictureFormat, picture_ending
-from roughcontact.cli.report import doing, print_facts
+from roughcontact.cli.report import print_facts
 from roughcontact.cli.resumable import resumable
-from roughcontact.cli.unit_options import parse_seed
+from roughcontact.errors import placed
+from roughcontact.progress.events import task
+from roughcontact.recipe.texts import whole
 
 if TYPE_CHECKING:
     import xarray
@@ -68,10 +70,15 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
             print_facts([(each, module(each).TITLE) for each in FIGURES])
             return
         if name != "all" and name not in FIGURES:
-            raise UsageError(f"there is no figure {name!r}: choose one of {', '.join(FIGURES)}, all or list")
+            raise UsageError(
+                f"there is no figure {name!r}", f"choose one of {', '.join(FIGURES)}, all or list"
+            )
         if wanted.scale not in _SCALES:
-            raise UsageError(f"--scale: {wanted.scale!r} is no scale; write {' or '.join(_SCALES)}")
-        chosen = None if wanted.seed is None else parse_seed(wanted.seed, "--seed")
+            raise UsageError(
+                f"--scale: {wanted.scale!r} is no scale", f"write {' or '.join(_SCALES)}", place="--scale"
+            )
+        with placed("seed"):
+            chosen = None if wanted.seed is None else whole(0, "the seed")(wanted.seed)
         workers = None if wanted.as_is else wanted.workers or 0
         with output(wanted.out):
             for each in FIGURES if name == "all" else (name,):
@@ -88,7 +95,7 @@ def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -
     else:
         simple = cast("SimpleFigure", found)
         first = simple.SEED if seed is None else seed
-        with doing(f"Computing {name}"):
+        with task(f"Computing {name}"):
             data = simple.case(first)
         more = [("seed", str(first))]
     picture = f"{name}.{wanted.ending}"
@@ -105,7 +112,7 @@ def _draw(picture: str, found: FigureModule, data: Any, folder: Path) -> None:
     from roughcontact.plot.canvas import save
     from roughcontact_thesis.figures import drawn
 
-    with doing(f"Drawing {picture}"), all_or_none(folder) as aside:
+    with task(f"Drawing {picture}"), all_or_none(folder) as aside:
         save(drawn(found, data), aside / picture)
 
 
@@ -120,7 +127,7 @@ def _ensemble(
     scale, seed, workers = options
     studies = planned(found, scale, seed)
     if workers is not None:
-        _run(name, studies, folder, workers)
+        _run(studies, folder, workers)
     data = averages_of(found, studies, folder)
     write_netcdf(data, folder / f"{name}.nc", provenance(command=command_line()))
     lines = [("averages", str(folder / f"{name}.nc"))]
@@ -132,16 +139,15 @@ def _ensemble(
     return data, lines
 
 
-def _run(name: str, studies: tuple[Study, ...], folder: Path, workers: int) -> None:
-    """Run studies and show how far they are."""
-    from roughcontact.cli.study.study_progress import progress
+def _run(studies: tuple[Study, ...], folder: Path, workers: int) -> None:
+    """Run studies."""
     from roughcontact.study import Processes, Serial
     from roughcontact_thesis.reproduce import run_study, store_of
 
     executor = Serial() if workers == 1 else Processes(workers or None)
     for study in studies:
-        with resumable(command_line()), progress(f"{name}, {study.name}") as show:
-            summary = run_study(study, folder, executor, show)
+        with resumable(command_line()):
+            summary = run_study(study, folder, executor)
         if summary.failed:
             cases = f"{summary.failed} case{'s' if summary.failed > 1 else ''}"
             command = shlex.join(

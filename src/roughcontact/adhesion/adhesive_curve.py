@@ -23,7 +23,7 @@ from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, Mask
 
-__all__ = ["AdhesiveCurve", "collect_states"]
+__all__ = ["AdhesiveCurve", "approaches", "collect_states"]
 
 _POINTS = (
     *("depth", "force", "contact_area", "energy", "residual"),
@@ -204,7 +204,7 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
     grid, surface = problem.operator.grid, problem.surface
     return AdhesiveCurve(
         **dict(zip(_POINTS, points, strict=True)),
-        approach=_approaches(loads.approach)[: len(rows)],
+        approach=approaches(loads.approach)[: len(rows)],
         jumps=tuple(jumps),
         jumped=tuple(jumped),
         unresolved=state.unresolved,
@@ -222,7 +222,7 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
     )
 
 
-def _approaches(loads: Array) -> Mask:
+def approaches(loads: Array) -> Mask:
     """Return where loads grow: of equal ones the later goes the way of the earlier, and the first is an approach."""
     steps = np.sign(np.diff(loads, prepend=-np.inf))
     latest = np.maximum.accumulate(np.where(steps != 0, np.arange(steps.size), 0))

@@ -15,11 +15,13 @@ from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
+from roughcontact.progress.events import task, tracked
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.loads import Loads
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.validation import Array, numeric
 
-__all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "states_under"]
+__all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "followed", "states_under"]
 
 
 @numeric(modulus="Pa", depth="m", force=force_unit, pressure="Pa", mean_gap="m")
@@ -77,7 +79,8 @@ def adhesive_state(
     '8.5 nm deep without a force, converged'
     """
     loads = Loads.of(depth=depth, force=force, pressure=pressure, mean_gap=mean_gap)
-    state = next(states_under(surface, modulus, adhesion, loads, operator, tolerance))
+    with task("Pressing", shape=surface.grid.shape):
+        state = next(states_under(surface, modulus, adhesion, loads, operator, tolerance))
     if not state.status.converged:
         raise ConvergenceError(state)
     return state
@@ -139,7 +142,7 @@ def adhesive_path(
     '1.03 uN, -0.44 uN, converged'
     """
     loads = Loads.of(depths=depths, forces=forces, pressures=pressures, mean_gaps=mean_gaps)
-    return states_under(surface, modulus, adhesion, loads, operator, tolerance)
+    return followed(states_under(surface, modulus, adhesion, loads, operator, tolerance), loads)
 
 
 @numeric(modulus="Pa", depths="m", forces=force_unit, pressures="Pa", mean_gaps="m")
@@ -195,9 +198,16 @@ def adhesive_curve(
     ([True, True, False, False], '511 nN')
     """
     loads = Loads.of(depths=depths, forces=forces, pressures=pressures, mean_gaps=mean_gaps)
-    return collect_states(states_under(surface, modulus, adhesion, loads, operator, tolerance), loads)
+    states = states_under(surface, modulus, adhesion, loads, operator, tolerance)
+    return collect_states(followed(states, loads), loads)
 
 
+def followed(states: Iterator[AdhesiveState], loads: Loads) -> Iterator[AdhesiveState]:
+    """Yield the states under some loads, and report how many there are."""
+    return tracked(states, "Approach and retreat", "loads", len(loads.values))
+
+
+@analysed_on_host
 def states_under(
     surface: Body,
     modulus: float | Solid | tuple[Solid, Solid],

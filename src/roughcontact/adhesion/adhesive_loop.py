@@ -14,6 +14,7 @@ from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
+from roughcontact.progress.events import task
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require, whole
 
@@ -92,7 +93,10 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
     """
     count, begin = whole(int(points), "points"), -BEGIN * adhesion.range
     require(
-        depth > begin, f"the depth must be above {begin:.3g} m, ten ranges of the attraction apart", depth
+        depth > begin,
+        f"the depth must be above {begin:.3g} m, ten ranges of the attraction apart",
+        value=depth,
+        place="depth",
     )
     step = (depth - begin) / count
     there = [-REACH * adhesion.range, *(begin + step * k for k in range(count)), depth]
@@ -101,9 +105,12 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
 
 def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveState]:
     """Yield the states of a loop along `loop_depths` but the first, until its body is off on the retreat."""
-    for k, state in enumerate(islice(path, 1, None)):
-        yield state
-        reach = state.problem.adhesion.range
-        off = not state.contact.any() and float(state.gap.min()) > BEGIN * reach
-        if k > points and (off or state.depth < -50 * REACH * reach):
-            break
+    with task("Approach and retreat", unit="states") as loop:
+        for k, state in enumerate(islice(path, 1, None)):
+            if loop is not None:
+                loop.advance()
+            yield state
+            reach = state.problem.adhesion.range
+            off = not state.contact.any() and float(state.gap.min()) > BEGIN * reach
+            if k > points and (off or state.depth < -50 * REACH * reach):
+                break

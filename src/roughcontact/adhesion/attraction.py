@@ -10,6 +10,7 @@ import numpy as np
 
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
 from roughcontact.adhesion.exponential_law import ExponentialLaw
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
@@ -71,12 +72,12 @@ class Adhesion:
         require_numbers(self, work="J/m^2", range="m")
         work = positive(self.work, "work of adhesion [J/m^2]", zero=True)
         if not np.any(work > 0):
-            raise ValueError("the work of adhesion is zero everywhere: leave the adhesion out")
+            raise about("the work", "of adhesion is zero everywhere", "leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
         object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
         if self.law not in tuple(LAWS):  # it may be anything, what has no hash too
             names = ", ".join(map(repr, LAWS))
-            raise ValueError(f"the law of adhesion must be one of {names}, not {shown(self.law)}")
+            raise about("the law", f"of adhesion must be one of {names}, not {shown(self.law)}")
 
     @property
     def strength(self) -> float:
@@ -186,7 +187,7 @@ def require_areas(body: Operator) -> None:
         If the body is one.
     """
     if geometry_of(body) is Geometry.FOUNDATION:
-        raise ValueError(
-            "springs bear forces per length, and no work of adhesion per area: press a half-space, a line or rings; "
-            "for bodies of revolution see mdr.adhesion"
+        raise InputError(
+            "springs bear forces per length, and no work of adhesion per area",
+            "press a half-space, a line or rings; for bodies of revolution see mdr.adhesion",
         )

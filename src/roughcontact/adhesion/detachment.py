@@ -24,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.halfspace.operators.operator import Operator, exact_of
 from roughcontact.validation import Array, Mask
@@ -111,9 +112,10 @@ class StuckContact:
     ) -> None:
         self.cells = np.flatnonzero(contact)
         if len(self.cells) > LARGEST:
-            raise ValueError(
+            raise InputError(
                 f"detachment needs the matrix of the cells in contact, and {len(self.cells)} are too many (at most "
-                f"{LARGEST}): press by less, or average cells (surface.averaged)"
+                f"{LARGEST})",
+                "press by less, or average cells (surface.averaged)",
             )
         weights = np.broadcast_to(np.asarray(operator.weights, float), separation.shape)
         self.areas, self.work = weights.ravel()[self.cells], np.ravel(work)[self.cells]

@@ -13,8 +13,10 @@ from roughcontact.adhesion.detachment import Detachment, StuckContact, mean_comp
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
+from roughcontact.progress.events import task, tracked
 from roughcontact.solver.loads import Loads
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, numeric, positive, require
@@ -94,24 +96,32 @@ def states_drawn_back(
     problem = preload.problem
     require_areas(problem.operator)
     if preload.plastic.any():
-        raise ValueError(
+        raise InputError(
             f"{int(np.count_nonzero(preload.plastic))} cells of this solution are at the hardness, and detachment is "
-            "elastic: give solution.flattened, the elastic contact after flow, or press without a hardness"
+            "elastic",
+            "give solution.flattened, the elastic contact after flow, or press without a hardness",
         )
     require(
         preload.contact.any(),
-        "nothing is in contact in this solution: press to a force or a depth above zero",
+        "nothing is in contact in this solution",
+        "press to a force or a depth above zero",
     )
     energy = positive(work, "work of adhesion [J/m^2]", zero=True)
-    require(np.any(energy > 0), "the work of adhesion is zero everywhere: give a number above zero")
+    require(
+        np.any(energy > 0),
+        "the work of adhesion is zero everywhere",
+        "give a number above zero",
+        place="work",
+    )
     require(
         energy.shape in ((), problem.grid.shape),
-        f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}: give one number, or one "
-        "for each cell",
+        f"the work of adhesion has shape {energy.shape}, and the grid {problem.grid.shape}",
+        "give one number, or one for each cell",
+        place="work",
     )
     if loads is not None:
         loads = _falling(loads.as_forces(problem.grid), preload)
-    with one_blas_thread():
+    with one_blas_thread(), task("Inverting the influence matrix of", shape=(int(preload.contact.sum()),)):
         stuck = StuckContact(
             problem.operator,
             problem.separation,
@@ -119,7 +129,8 @@ def states_drawn_back(
             np.broadcast_to(energy, problem.grid.shape),
             mean_compliance(problem.grid, problem.modulus),
         )
-    return _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
+    states = _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
+    return tracked(states, "Drawing back", "loads", 1 if loads is None else len(loads.values))
 
 
 def _falling(loads: Loads, preload: Solution) -> Loads:
@@ -128,15 +139,15 @@ def _falling(loads: Loads, preload: Solution) -> Loads:
     here = preload.force if name == "force" else preload.depth
     # The force of a solution is good to its tolerance.
     if values[0] > here + preload.problem.tolerance * abs(here) * (name == "force"):
-        raise ValueError(
-            f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it: "
-            f"press to that {name}, or begin with {here:.6g} or less"
+        raise InputError(
+            f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it",
+            f"press to that {name}, or begin with {here:.6g} or less",
         )
     if (np.diff(values) > 0).any():
         at = int(np.argmax(np.diff(values) > 0))
-        raise ValueError(
-            f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}: "
-            "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again"
+        raise InputError(
+            f"the {name}s of a detachment must fall, but {values[at + 1]:g} follows {values[at]:g} at place {at + 1}",
+            "leave it out, or give adhesive_path an Adhesion with a range, with which surfaces come together again",
         )
     return loads
 
@@ -152,7 +163,7 @@ def _drawn_back(
         with one_blas_thread():
             events: list[Detachment] = []
             before = stuck.area
-            for event in stuck.drawn_back(here, goal, by_force):
+            for event in tracked(stuck.drawn_back(here, goal, by_force), "Letting cells go", "events"):
                 if event.force_before < lowest:
                     lowest, area = event.force_before, before
                 events.append(event)

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.influence.tables import Love
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
@@ -119,9 +120,9 @@ def _free(plane: InfluenceOperator) -> ElasticForm:
     table = plane.influence.influence.table((lengths[0] // 2 + 1, lengths[1] // 2 + 1))
     symbol = even_multiplier(table, lengths)
     if not symbol.min() > 0:
-        raise ValueError(
-            f"the influence function on cells of {grid.spacing} m has no inverse by waves: take cells whose sides "
-            "are less unlike"
+        raise InputError(
+            f"the influence function on cells of {grid.spacing} m has no inverse by waves",
+            "take cells whose sides are less unlike",
         )
     forward, back = Convolution(1 / symbol, lengths), Convolution(symbol, lengths)
     return ElasticForm(
@@ -132,9 +133,9 @@ def _free(plane: InfluenceOperator) -> ElasticForm:
 def _dense(body: Operator) -> ElasticForm:
     grid = body.grid
     if grid.size > LARGEST_MATRIX:
-        raise ValueError(
-            f"adhesion on this body needs its matrix, and {grid.size} cells are too many (at most {LARGEST_MATRIX}): "
-            "take a half-space on a plane, periodic or free, or fewer cells"
+        raise InputError(
+            f"adhesion on this body needs its matrix, and {grid.size} cells are too many (at most {LARGEST_MATRIX})",
+            "take a half-space on a plane, periodic or free, or fewer cells",
         )
     matrix = body.as_matrix()
     weights = np.broadcast_to(np.asarray(body.weights, float), grid.shape)
@@ -143,9 +144,9 @@ def _dense(body: Operator) -> ElasticForm:
     try:
         factor = scipy.linalg.cho_factor((symmetric + symmetric.T) / 2)
     except np.linalg.LinAlgError as error:
-        raise ValueError(
-            "adhesion needs a body whose influence matrix is positive definite, which this one's is not: on a free "
-            "line give a longer reference_length"
+        raise InputError(
+            "adhesion needs a body whose influence matrix is positive definite, which this one's is not",
+            "on a free line give a longer reference_length",
         ) from error
     inverse = scipy.linalg.cho_solve(factor, np.diag(weights.ravel()))
     return ElasticForm(

@@ -17,7 +17,9 @@ from roughcontact.adhesion.gradient_flow import detached
 from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator, capabilities
+from roughcontact.progress.events import task
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -52,11 +54,12 @@ def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> 
         # Rounded to where it is allowed: who takes the number as it stands is not refused again.
         finest = _three_digits(zone / CELLS, math.floor)
         longest = _three_digits(adhesion.range * math.sqrt(CELLS * cell / zone), math.ceil)
-        raise ValueError(
+        raise InputError(
             f"the attraction varies over {_three_digits(zone / cell, math.floor):g} cells beside a contact (Irwin's "
-            f"length E* w/(pi s^2)), and below {CELLS:g} the lattice would trap every state: take cells of at most "
+            f"length E* w/(pi s^2)), and below {CELLS:g} the lattice would trap every state",
+            f"take cells of at most "
             f"{finest:g} m or a range of at least {longest:g} m, use detachment_path, which needs no range, or give "
-            "the adhesion allow_unresolved=True"
+            "the adhesion allow_unresolved=True",
         )
 
 
@@ -103,12 +106,12 @@ def states_along(
     if not adhesion.allow_unresolved:
         require_resolved(adhesion, operator, modulus)
     if np.shape(adhesion.work) not in ((), separation.shape):
-        raise ValueError(
-            f"the work of adhesion has shape {np.shape(adhesion.work)}, and the grid {separation.shape}: "
-            "give one number, or one for each cell"
+        raise InputError(
+            f"the work of adhesion has shape {np.shape(adhesion.work)}, and the grid {separation.shape}",
+            "give one number, or one for each cell",
         )
     if capabilities(operator).listed:
-        raise ValueError("adhesion needs a body on a whole grid, not on a list of cells")
+        raise InputError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
     control: DepthControl | ForceControl
     control = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
@@ -132,28 +135,31 @@ def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[
     if loads.kind == "mean gap":
         if not whole:
             why = "some cells are missing" if form.mean_free else "the body is not periodic"
-            raise ValueError(
+            raise InputError(
                 "a mean gap is prescribed on a whole periodic grid, where it is the mean separation less the depth; "
-                f"here {why}: give depths or forces"
+                f"here {why}",
+                "give depths or forces",
             )
         if not values.min() > 0:
-            raise ValueError(
-                f"a mean gap of {values.min():.6g} m is full contact or beyond it: give mean gaps above 0"
+            raise InputError(
+                f"a mean gap of {values.min():.6g} m is full contact or beyond it", "give mean gaps above 0"
             )
         values = full - values
     if values.max() >= full:
-        raise ValueError(
+        raise InputError(
             f"a depth of {values.max():.6g} m is not below the mean separation {full:.6g} m: there a periodic surface "
-            "is in full contact; give a smaller depth"
+            "is in full contact",
+            "give a smaller depth",
         )
     return [float(depth) for depth in values]
 
 
 def _checked_forces(forces: Array) -> list[float]:
     if forces[0] < 0:
-        raise ValueError(
+        raise InputError(
             "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
-            f"{forces[0]:g}: begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)"
+            f"{forces[0]:g}",
+            "begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)",
         )
     return [float(force) for force in forces]
 
@@ -191,7 +197,8 @@ def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Ite
                 # From afar. Where nothing pulls any more, the bodies draw near again.
                 reached = path.start(goal, _initial_displacement(problem.control, goal, path.counter))
             else:
-                reached = path.continue_to(reached, goal)
+                with task("Following the branch", 100, "%") as path.task:
+                    reached = path.continue_to(reached, goal)
             if isinstance(problem.control, ForceControl):
                 reached = _polished(path, reached)
             state = state_of(problem, reached, path.counter.products - before)

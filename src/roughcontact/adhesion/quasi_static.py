@@ -20,6 +20,7 @@ from roughcontact.adhesion.gradient_flow import detached, flow
 from roughcontact.adhesion.lowest_force import LowestForce
 from roughcontact.adhesion.reduced_hessian import smallest_ratio
 from roughcontact.adhesion.truncated_newton import TOLERANCE, Counter, Equilibrium, minimise
+from roughcontact.progress.events import RunningTask
 from roughcontact.validation import Array
 
 __all__ = ["Jump", "PathPoint", "QuasiStatic"]
@@ -137,6 +138,7 @@ class QuasiStatic:
     control: DepthControl | ForceControl
     bracket: float
     counter: Counter = field(default_factory=Counter)
+    task: RunningTask | None = None  # where the part of the way to the next value is reported [%]
     _vectors: tuple[Array, ...] = ()
 
     def start(self, value: float, displacement: Array) -> PathPoint:
@@ -172,6 +174,8 @@ class QuasiStatic:
             if end is not None:
                 slope = (end.point.displacement - moved.displacement) / length
                 here = PathPoint(value, end.point, end.residual, True)
+                if self.task is not None:
+                    self.task.reached(100 * abs(value - start.value) / abs(target - start.value))
                 if retreats:
                     lowest.extend(value, here.point)
                 steps.accept(length)  # E28

@@ -17,6 +17,7 @@ import numpy as np
 
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
+from roughcontact.progress.events import decades, solving
 from roughcontact.validation import Array, Mask
 
 __all__ = ["Counter", "Equilibrium", "conjugate_gradients", "line_search", "minimise"]
@@ -88,33 +89,36 @@ def minimise(
     point = energy.at(energy.feasible(start))  # E1, E2
     shift, lost = 0.0, 0.0
     residual = math.inf
-    for _ in range(iterations):
-        residual = energy.residual(point) / energy.scale(point)  # E3
-        if residual <= tolerance:
-            return Equilibrium(point, residual, True, lost)
-        free = point.free  # E4
-        curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
-        most = float(np.max(curvature))
-        # E5: the last system need not be solved beyond the tolerance.
-        forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
-        step, negative = conjugate_gradients(  # E6
-            energy.form, free, curvature - shift, -point.reaction, forcing, counter
-        )
-        if negative:  # E7
-            if convex_only:
-                break
-            shift = max(2 * shift, SHIFT * most)
-            continue
-        found = line_search(energy, point, step, counter)  # E8
-        if found is None:
-            # Not even a step that the shift makes short lowers the energy: rounding.
-            if shift > STIFFEST * most:
-                break
-            shift = max(4 * shift, SHIFT * most)
-            continue
-        point, gained = found  # E9
-        lost -= gained
-        shift = 0.0 if shift < 1e-3 * most else 0.25 * shift
+    with solving(tolerance, start.shape) as task:
+        for _ in range(iterations):
+            residual = energy.residual(point) / energy.scale(point)  # E3
+            if task is not None:
+                task.reached(decades(residual))
+            if residual <= tolerance:
+                return Equilibrium(point, residual, True, lost)
+            free = point.free  # E4
+            curvature = np.where(free, energy.attraction.curvature(point.gap), 0.0)
+            most = float(np.max(curvature))
+            # E5: the last system need not be solved beyond the tolerance.
+            forcing = min(FORCING, max(math.sqrt(residual), ENOUGH * tolerance / residual))
+            step, negative = conjugate_gradients(  # E6
+                energy.form, free, curvature - shift, -point.reaction, forcing, counter
+            )
+            if negative:  # E7
+                if convex_only:
+                    break
+                shift = max(2 * shift, SHIFT * most)
+                continue
+            found = line_search(energy, point, step, counter)  # E8
+            if found is None:
+                # Not even a step that the shift makes short lowers the energy: rounding.
+                if shift > STIFFEST * most:
+                    break
+                shift = max(4 * shift, SHIFT * most)
+                continue
+            point, gained = found  # E9
+            lost -= gained
+            shift = 0.0 if shift < 1e-3 * most else 0.25 * shift
     return Equilibrium(point, residual, False, lost)
 
 

@@ -28,6 +28,6 @@ def refuse_missing(command: str) -> None:
     install = f"{sys.executable} -m pip install"
     with reported(as_json="--json" in sys.argv[1:]):
         raise UsageError(
-            f"the package {package}, which adds the command {command!r}, is not installed; run: {install} {package}, "
-            f"or in a checkout: {install} {folder}"
+            f"the package {package}, which adds the command {command!r}, is not installed",
+            f"run: {install} {package}, or in a checkout: {install} {folder}",
         )

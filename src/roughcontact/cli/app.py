@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from roughcontact.cli.added_commands import added_commands, refuse_missing
+from roughcontact.cli.commands import ADHESION, ALONE, STUDY, SURFACE
 from roughcontact.cli.late_group import late_group
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
-    from roughcontact.cli import serve_command as serve_command
+    from roughcontact.cli import (
+        doctor_command as doctor_command,
+        run_command as run_command,
+        serve_command as serve_command,
+    )
     from roughcontact.cli.adhesion import (
         adhesive_curve_command as adhesive_curve_command,
         adhesive_press_command as adhesive_press_command,
@@ -22,7 +27,11 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         curve_command as curve_command,
         press_command as press_command,
     )
-    from roughcontact.cli.study import averages_command as averages_command, study_command as study_command
+    from roughcontact.cli.study import (
+        averages_command as averages_command,
+        study_command as study_command,
+        study_from_command as study_from_command,
+    )
     from roughcontact.cli.surface import (
         prepare_command as prepare_command,
         spectrum_command as spectrum_command,
@@ -31,47 +40,21 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
 
 __all__ = ["app"]
 
-
-_ALONE = {name: f"contact.{name}_command" for name in ("press", "curve", "conductance")}
-_ALONE["serve"] = "serve_command"
-_ADHESION = {
-    "press": "adhesion.adhesive_press_command",
-    "curve": "adhesion.adhesive_curve_command",
-    "loop": "adhesion.adhesive_curve_command",
-    "detach": "adhesion.detachment_command",
-}
-_SURFACE = {
-    "info": "surface.surface_command",
-    "make": "surface.surface_command",
-    "prepare": "surface.prepare_command",
-    "spectrum": "surface.spectrum_command",
-}
-_STUDY = {
-    "run": "study.study_command",
-    "status": "study.study_command",
-    "export": "study.study_command",
-    "add": "study.study_command",
-    "average": "study.averages_command",
-    "plot": "study.averages_command",
-    "table": "study.averages_command",
-}
-
 app = typer.Typer(
     name="roughcontact",
-    cls=late_group(_ALONE, added_commands, refuse_missing),
+    cls=late_group(ALONE, added_commands, refuse_missing),
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
     epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
     "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
     "130 interrupted, 143 terminated.",
     no_args_is_help=True,
-    add_completion=False,
     # A mistake of ours shows itself as Python shows it.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
 app.add_typer(
     typer.Typer(
-        cls=late_group(_ADHESION),
+        cls=late_group(ADHESION),
         help="Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
         no_args_is_help=True,
     ),
@@ -79,7 +62,7 @@ app.add_typer(
 )
 app.add_typer(
     typer.Typer(
-        cls=late_group(_SURFACE),
+        cls=late_group(SURFACE),
         help="Look at a surface file, make one, prepare or analyse it.",
         no_args_is_help=True,
     ),
@@ -87,7 +70,7 @@ app.add_typer(
 )
 app.add_typer(
     typer.Typer(
-        cls=late_group(_STUDY),
+        cls=late_group(STUDY),
         help="Run ensembles that can be stopped, continued and enlarged; average, draw and export them.",
         no_args_is_help=True,
     ),

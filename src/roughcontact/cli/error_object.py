@@ -7,13 +7,12 @@ and tells answer and error apart by the key ``error`` or by the exit status. Sta
 from __future__ import annotations
 
 import json
-import re
 import sys
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-__all__ = ["emit_error", "kind_of", "remedy_in"]
+__all__ = ["emit_error", "kind_of"]
 
 # By class, the nearest first; the names are those that a program can rely on.
 _KINDS = {
@@ -22,31 +21,11 @@ _KINDS = {
     "WriteError": "write",
     "StoreError": "store",
     "StudyError": "study",
+    "WorkersError": "workers",
     "OSError": "file",
     "MemoryError": "memory",
     "ValueError": "value",
 }
-# Messages name the remedy last, in the imperative: "...: give one of them", "...; choose another folder".
-_VERBS = (
-    *(
-        "add",
-        "bring",
-        "check",
-        "choose",
-        "compute",
-        "convert",
-        "create",
-        "crop",
-        "cut",
-        "draw",
-        "fill",
-        "give",
-    ),
-    *("install", "join", "leave", "let", "make", "mark", "name", "pass", "press", "put", "raise", "read"),
-    *("refine", "remove", "replace", "run", "say", "select", "set", "sort", "take", "turn", "use", "wait"),
-    *("widen", "write"),
-)
-_REMEDY = re.compile(rf"(?:^|[:;] )((?:{'|'.join(_VERBS)})\b.*)", re.DOTALL)
 
 
 def emit_error(
@@ -54,6 +33,7 @@ def emit_error(
     message: str,
     status: int,
     remedy: str | None = None,
+    place: str | None = None,
     beside: Mapping[str, Any] = MappingProxyType({}),
 ) -> None:
     """Print an error as one JSON object on standard output.
@@ -63,18 +43,21 @@ def emit_error(
     kind : str
         What kind of error it is, in one word.
     message : str
-        The line that people read, remedy included.
+        What is wrong.
     status : int
         With which the program ends.
     remedy : str, optional
-        What to do about it; by default what the message says of it, if it does.
+        What to do about it.
+    place : str, optional
+        Which option, argument or file it concerns.
     beside : mapping
         What is known all the same.
     """
     record = {
         "kind": kind,
         "message": message,
-        "remedy": remedy or remedy_in(message),
+        "remedy": remedy,
+        "place": place,
         "exit_status": status,
     }
     sys.stdout.write(json.dumps({"error": record, **beside}, ensure_ascii=True) + "\n")
@@ -83,9 +66,3 @@ def emit_error(
 def kind_of(error: BaseException) -> str:
     """Return the kind of an error in one word."""
     return next(_KINDS[each.__name__] for each in type(error).__mro__ if each.__name__ in _KINDS)
-
-
-def remedy_in(message: str) -> str | None:
-    """Return the end of a message that says what to do; None where none does."""
-    found = _REMEDY.search(message)
-    return found[1] if found else None

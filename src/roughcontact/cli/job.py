@@ -16,6 +16,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.exits import MISSED
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.slabs.communicator import Communicator
@@ -43,16 +44,16 @@ def launched() -> tuple[int, int]:
     return 0, 1
 
 
-def refusal(arguments: Sequence[str]) -> str | None:
+def refusal(arguments: Sequence[str]) -> InputError | None:
     """Return why several processes do not run a command together; None if they do, or this one is alone."""
     words = [word for word in arguments if not word.startswith("-")]
     known = any(words[: len(command)] == command for command in _TOGETHER)
     if launched()[1] == 1 or not words or known or "--help" in arguments:
         return None
     name = " ".join(words[: 2 if words[0] in ("adhesion", "study", "surface") else 1])
-    return (
-        f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them: run "
-        f"{name!r} without a launcher such as mpiexec"
+    return InputError(
+        f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them",
+        f"run {name!r} without a launcher such as mpiexec",
     )
 
 
@@ -76,12 +77,14 @@ def slabs_of_job() -> Slabs | None:
     except (ImportError, RuntimeError) as error:
         raise UsageError(
             f"{size} processes were started together, and mpi4py, by which they work as one, cannot be imported "
-            f"({error}): install roughcontact[mpi], or start one process"
+            f"({error})",
+            "install roughcontact[mpi], or start one process",
         ) from error
     if size != MPI.COMM_WORLD.size:
         raise UsageError(
             f"{size} processes were started together, and mpi4py sees {MPI.COMM_WORLD.size}: the launcher belongs to "
-            f"another MPI than that of mpi4py ({MPI.Get_library_version().split(',')[0]}): use that one's mpiexec"
+            f"another MPI than that of mpi4py ({MPI.Get_library_version().split(',')[0]})",
+            "use that one's mpiexec",
         )
     _meeting()
     return Slabs(MPI.COMM_WORLD)
@@ -108,8 +111,9 @@ def require_one_process(given: Mapping[str, Any]) -> None:
     for name, value in given.items():
         if launched()[1] > 1 and value is not None and value is not False:
             raise UsageError(
-                f"{name} needs the whole surface, of which each of {launched()[1]} processes holds some rows: leave it "
-                "out, or start one process"
+                f"{name} needs the whole surface, of which each of {launched()[1]} processes holds some rows",
+                "leave it out, or start one process",
+                place=name,
             )
 
 

@@ -7,12 +7,14 @@ from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
+from keyword import iskeyword
 from typing import Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from roughcontact.cli.option_groups import grouped
+from roughcontact.cli.option_groups import HELP_ALL, grouped
+from roughcontact.cli.short_help import write_short_help
 
 __all__ = ["late_group"]
 
@@ -41,7 +43,7 @@ def late_group(
             module = added().get(cmd_name) if known is None else modules.get(cmd_name)
             if module is not None:
                 return _imported(module, cmd_name)
-            if known is None:
+            if known is None and not ctx.resilient_parsing:  # as completion parses
                 refuse(cmd_name)
             return known
 
@@ -49,23 +51,38 @@ def late_group(
             return list(dict.fromkeys([*super().list_commands(ctx), *added()]))
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
-            # The same group of commands that have but a summary.
+            self._summarised().format_help(ctx, formatter)
+
+        def shell_complete(self, ctx: Any, incomplete: str) -> Any:
+            ctx.command = self._summarised()  # typer asks the command of the context for names and summaries
+            return ctx.command.shell_complete(ctx, incomplete)
+
+        def _summarised(self) -> TyperGroup:
+            """Return the same group of commands that have but a summary."""
             every = {**added(), **modules}
             summaries = {name: TyperCommand(name, help=_summary(every[name], name)) for name in every}
-            TyperGroup(
+            return TyperGroup(
                 name=self.name,
                 commands={**self.commands, **summaries},
                 params=self.params,
                 help=self.help,
                 epilog=self.epilog,
                 rich_markup_mode=self.rich_markup_mode,
-            ).format_help(ctx, formatter)
+            )
 
     return LateGroup
 
 
 class _Command(TyperCommand):
-    """A command that names those that have an option which it lacks, and shows how an option that is missing looks."""
+    """A command whose help fits a screen, and that says of a wrong or missing option which are meant."""
+
+    more: frozenset[str] = frozenset()  # parameters that the short help only names
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        if self.more and HELP_ALL not in ctx.meta:
+            write_short_help(self, ctx, formatter, self.more)
+        else:
+            super().format_help(ctx, formatter)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         try:
@@ -109,8 +126,11 @@ def _imported(module: str, name: str) -> Any:
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    alone.command(name, cls=_Command, epilog=epilog)(grouped(members[name]))
-    return typer.main.get_command(alone)
+    command: Any = grouped(members[_function(name)])
+    alone.command(name, cls=_Command, epilog=epilog)(command)
+    found: Any = typer.main.get_command(alone)
+    found.more = command.more
+    return found
 
 
 def _summary(module: str, name: str) -> str:
@@ -120,6 +140,13 @@ def _summary(module: str, name: str) -> str:
     if source is None:  # a bundle of the program holds no text
         return _imported(module, name).help or ""
     function = next(
-        node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef) and node.name == name
+        node
+        for node in ast.parse(source).body
+        if isinstance(node, ast.FunctionDef) and node.name == _function(name)
     )
     return cleandoc(ast.get_docstring(function) or "").partition("\n\n")[0]
+
+
+def _function(name: str) -> str:
+    """Return the name of the function that is a command: a word of Python's own has a line behind it."""
+    return f"{name}_" if iskeyword(name) else name

@@ -39,7 +39,7 @@ def _run() -> None:
         if (problem := refusal(sys.argv[1:])) is not None:
             sys.stderr.write(f"Error: {problem}\n")
             if _as_json():
-                emit_error("usage", problem, BAD_INPUT)
+                emit_error("usage", problem.message, BAD_INPUT, problem.remedy)
             sys.exit(BAD_INPUT)
         if _as_json():
             # Errors of the options come here as exceptions; otherwise they are printed where they are found.
@@ -63,7 +63,7 @@ def _run() -> None:
         if (broken := broken_package(error)) is not None:
             sys.stderr.write(f"Error: {broken}\n")
             if _as_json():
-                emit_error("installation", broken, BAD_INPUT)
+                emit_error("installation", broken.message, BAD_INPUT, broken.remedy)
             sys.exit(BAD_INPUT)
         traceback.print_exc()
         sys.stderr.write("This is a mistake in roughcontact, not in your input: please report these lines.\n")

@@ -7,9 +7,10 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from decimal import Decimal
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,34 +18,41 @@ import typer
 
 from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.errors import InputError, correctable, joined
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
-from roughcontact.files.own_errors import is_ours
 from roughcontact.memory import MemoryWarning
+from roughcontact.recipe.recipe_fields import option_of
 
 __all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
-# The readers' remedies name keywords: "pass size= with the width, such as size='5 um' or size=(4e-4, 5e-4)".
+# What the library says by keywords and calls of Python, and no place of an error tells.
 _OPTIONS = (
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
     (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
-    (re.compile(r"\b(despike)d\(\)"), r"'surface prepare --\1'"),
-    (re.compile(r"\b(mask)ed\(\)"), r"'surface prepare --\1'"),
-    (re.compile(r"Grid\(\.\.\., periodic=True\)"), "give --periodic"),
+    (re.compile(r"\b(despike|mask)e?d\(\)"), r"'surface prepare --\1'"),
+    (re.compile(r"make the grid with periodic=True"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"\buse detachment_path\b"), "use 'roughcontact adhesion detach'"),
     (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
     (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),
 )
-
+_FIELD = re.compile(r"`(\w+)`")  # of a job
 _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
-class UsageError(ValueError):
-    """An option that makes no sense; the message says what to write instead."""
+class UsageError(InputError):
+    """An option or a field that makes no sense; its place stands in front where the text does not name it."""
+
+    def __str__(self) -> str:
+        place, text = self.place or "", super().__str__()
+        is_shown = place.startswith("--") or "." in place  # and no parameter of a function
+        if not is_shown or all(part in text for part in place.split(", ")):
+            return text
+        return joined(f"{place}: {self.message}", self.remedy)
 
 
 def note(text: str) -> None:
@@ -74,16 +82,13 @@ def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, A
             ended("terminated", "Terminated: no file was left half-written.", TERMINATED, as_json=as_json)
         raise
     except MemoryError as error:
-        message = "the memory does not suffice: use fewer points, or another machine"
-        _refused(error, message, beside if as_json else None)
+        full = InputError("the memory does not suffice", "use fewer points, or another machine")
+        _refused(kind_of(error), full, beside if as_json else None)
         raise typer.Exit(BAD_INPUT) from None
     except (ValueError, OSError) as error:
-        if not is_ours(error):
+        if (found := correctable(error)) is None:
             raise
-        message = _message(error)
-        for path in paths:
-            message = message if path is None else message.replace(os.path.realpath(path), str(path))
-        _refused(error, _line(message), beside if as_json else None)
+        _refused(kind_of(error), found, beside if as_json else None, paths)
         raise typer.Exit(BAD_INPUT) from None
 
 
@@ -94,12 +99,33 @@ def ended(kind: str, line: str, status: int, *, as_json: bool, remedy: str | Non
         emit_error(kind, line, status, remedy)
 
 
-def _refused(error: BaseException, message: str, beside: dict[str, Any] | None) -> None:
+def _refused(
+    kind: str, error: InputError, beside: dict[str, Any] | None, paths: Iterable[Path | None] = ()
+) -> None:
     """Say what was refused, with `beside` as one JSON object too."""
-    typer.echo(f"Error: {message}", err=True)
+
+    def typed(text: str | None) -> str | None:
+        for path in paths:
+            if text is not None and path is not None:
+                text = text.replace(os.path.realpath(path), str(path))
+        return None if text is None else _line(text)
+
+    told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
+    typer.echo(f"Error: {told}", err=True)
     if beside is not None:
-        remedy = getattr(error, "remedy", None)  # of errors that keep it apart
-        emit_error(kind_of(error), message, BAD_INPUT, None if remedy is None else _line(remedy), beside)
+        emit_error(kind, told.message, BAD_INPUT, told.remedy, told.place, beside)
+
+
+def _as_options(place: str | None) -> str | None:
+    """Return a place of the library as the options of the command that runs, as far as it has such."""
+    if place is None:
+        return None
+    # typers bring click with them, or import it
+    home = typer.Context.__mro__[1].__module__.rpartition(".")[0]
+    context = import_module(f"{home}.globals").get_current_context(silent=True)
+    known = set() if context is None else {name for each in context.command.params for name in each.opts}
+    options = {part: option_of(part.rpartition(".")[2]) for part in place.split(", ")}
+    return ", ".join(option if option in known else part for part, option in options.items())
 
 
 @contextmanager
@@ -116,7 +142,7 @@ def as_typed(file: Path) -> Iterator[None]:
             warnings.simplefilter("always", SurfaceWarning)
             yield
     except ReadError as error:
-        raise ReadError(plain(str(file)), error.problem, error.remedy) from error
+        raise ReadError(plain(str(file)), error.problem, error.remedy, error.place) from error
     finally:
         logging.disable(threshold)
 
@@ -126,14 +152,9 @@ def plain(text: str) -> str:
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
-def _message(error: ValueError | OSError) -> str:
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"{os.fsdecode(error.filename)}: {error.strerror or error}"
-    return str(error)
-
-
 def _line(text: str) -> str:
     """Return `text` in one line, with the library's keywords turned into the options of the same name."""
+    text = _FIELD.sub(lambda name: option_of(name[1]), text)
     for keyword, option in _OPTIONS:
         text = keyword.sub(option, text)
     return " ".join(_METRES.sub(_with_prefix, text).split())

@@ -1,20 +1,32 @@
-"""Options of commands, each declared once: as a field of a group that commands share, or as a default value."""
+"""Options of commands, each declared once: as a field of a recipe, as a field of a group, or as a default value."""
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, field, fields, is_dataclass
-from typing import Any, get_type_hints
+from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass, replace
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
 
 import typer
 
-from roughcontact.cli.job import require_one_process
-from roughcontact.cli.messages import reported
+from roughcontact.cli.progress_view import ProgressForm, progress_shown
+from roughcontact.errors import InputError, within
+from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
+from roughcontact.recipe.source import File
 
-__all__ = ["argument", "flag", "grouped", "option"]
+__all__ = ["HELP_ALL", "argument", "grouped", "listed", "option"]
 
-_Declared = tuple[str, Any, Any, str | None]  # name, type, declaration and panel of an option
+HELP_ALL = "--help-all"
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    """An option or argument as typer takes it, and what a command does with it."""
+
+    parameter: inspect.Parameter
+    everyday: bool
+    spec: Spec | None = None
 
 
 def option(
@@ -22,15 +34,15 @@ def option(
     example: str | None = None,
     *names: str,
     default: Any = None,
-    needs_whole: bool = False,
+    everyday: bool = True,
     **more: Any,
 ) -> Any:
     """Return an option: its help, what its value looks like, and its default; ``...`` where it must be given.
 
-    A group's options stand in the help under its ``PANEL``. Where it `needs_whole` surfaces, several processes that
-    hold some rows each refuse it. `more` goes to `typer.Option`, as do `names` where the name of the field will not do.
+    A group's options stand in the help under its ``PANEL``, those that are `everyday` in the short one too. `more` goes
+    to `typer.Option`, as do `names` where the name of the field will not do.
     """
-    given = {"names": names, "metavar": example, "help": text, "needs_whole": needs_whole, **more}
+    given = {"names": names, "metavar": example, "help": text, "everyday": everyday, **more}
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
@@ -40,56 +52,147 @@ def argument(text: str, metavar: str, default: Any = ...) -> Any:
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
-def flag(name: str) -> str:
-    """Return the option that the field of this name becomes."""
-    return f"--{name.replace('_', '-')}"
+def listed(*names: str) -> Callable[[str], list[str]]:
+    """Return what completes the last name of a comma list, for the `autocompletion` of an option."""
+
+    def complete(incomplete: str) -> list[str]:
+        done, comma, begun = incomplete.rpartition(",")
+        return [f"{done}{comma}{name}" for name in names if name.startswith(begun)]
+
+    return complete
+
+
+_PROGRESS = option(
+    "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+    "[auto|json|none]",
+    default=ProgressForm.AUTO,
+    rich_help_panel="Answer",
+)
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command as typer takes it: groups of options, which are dataclasses, become options side by side."""
+    """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
+
+    What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
+    leaves out are ``more`` of what is returned. A command that has ``--json`` gets ``--progress`` too.
+    """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
-    declared = [each for one in parameters for each in _declared(one.name, hints[one.name], one.default)]
-    flat = [_parameter(*each) for each in declared]
-    whole = [name for name, _, option, _ in declared if option.metadata.get("needs_whole")]
+    declared = [
+        each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
+    ]
+    if any(each.parameter.name == "json" for each in declared):
+        shown = _of_command("progress", ProgressForm, _PROGRESS, None)
+        declared.append(replace(shown, everyday=not any(each.spec for each in declared)))
+    more = frozenset(each.parameter.name for each in declared if not each.everyday)
+    flat = [*(each.parameter for each in declared), *([_HELP_ALL] if more else [])]
 
     def run(**given: Any) -> None:
-        with reported(as_json=given.get("json", False)):
-            require_one_process({flag(name): given[name] for name in whole})
-        command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+        with progress_shown(given.pop("progress", ProgressForm.AUTO)):
+            done(given)
+
+    def done(given: Mapping[str, Any]) -> None:
+        if not any(each.spec for each in declared):
+            command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
+            return
+        # Late: a command without a recipe reports by itself, also where what is imported here is broken.
+        from roughcontact.cli.job import require_one_process
+        from roughcontact.cli.messages import UsageError, reported
+
+        paths = [Path(given["file"])] if isinstance(given.get("file"), str) else []
+        paths += [value for value in given.values() if isinstance(value, Path)]
+        with reported(*paths, as_json=given.get("json", False)):
+            whole = [each.parameter.name for each in declared if each.spec and each.spec.needs_whole]
+            require_one_process({option_of(name): given[name] for name in whole})
+            try:
+                built = {one.name: _built(hints[one.name], one.name, given) for one in parameters}
+            except InputError as error:
+                raise UsageError(error.message, error.remedy, error.place) from error
+            command(**built)
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in flat}
     run.__name__, run.__doc__ = command.__name__, command.__doc__
+    run.more = more  # type: ignore[attr-defined]
     return run
 
 
-def _declared(name: str, kind: Any, declared: Any, panel: str | None = None) -> Iterator[_Declared]:
+def _declared(name: str, kind: Any, declared: Any, panel: str | None) -> Iterator[_Declared]:
     """Yield the options of a parameter: one, or those of its group and of the groups in it."""
-    if is_dataclass(kind):
-        hints, panel = get_type_hints(kind), getattr(kind, "PANEL", None)
+    if is_dataclass(kind := _commanded(kind)):
+        hints, panel = get_type_hints(kind), getattr(kind, "TITLE", getattr(kind, "PANEL", None))
         for each in fields(kind):
-            yield from _declared(each.name, hints[each.name], each, panel)
-    else:
-        yield name, kind, declared, panel
+            if each.metadata or is_dataclass(_commanded(hints[each.name])):
+                yield from _declared(each.name, hints[each.name], each, panel)
+    elif (spec := declared.metadata.get("spec")) is None:
+        yield _of_command(name, kind, declared, panel)
+    elif spec.option:
+        yield _of_recipe(name, kind, declared, spec, panel)
 
 
-def _parameter(name: str, kind: Any, declared: Any, panel: str | None) -> inspect.Parameter:
-    """Return an option as typer takes it."""
+def _commanded(kind: Any) -> Any:
+    """Return the type of a parameter or field; of a source, the one that a command takes: a file."""
+    return File if File in get_args(kind) else kind
+
+
+def _of_command(name: str, kind: Any, declared: Any, panel: str | None) -> _Declared:
+    """Return an option that is no field of a recipe."""
     given = {"rich_help_panel": panel, **declared.metadata}
     default = ... if declared.default is MISSING else declared.default
     if given.pop("argument", False):
         info = typer.Argument(default, metavar=given["metavar"], help=given["help"])
-    else:
-        names = given.pop("names") or ([flag(name)] if declared.default is False else [])
-        del given["needs_whole"]
-        info = typer.Option(default, *names, **given)
+        return _Declared(_parameter(name, kind, info), everyday=True)
+    names = given.pop("names") or ([option_of(name)] if declared.default is False else [])
+    everyday = given.pop("everyday")
+    return _Declared(_parameter(name, kind, typer.Option(default, *names, **given)), everyday)
+
+
+def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: str | None) -> _Declared:
+    """Return the option of a field of a recipe, or the argument that names a file."""
+    default = ... if declared.default is MISSING else declared.default
+    metavar = f"[{'|'.join(spec.choices)}]" if spec.choices else spec.example
+    if spec.positional:
+        info = typer.Argument(default, metavar=metavar, help=spec.help)
+        return _Declared(_parameter(name, kind, info), True, spec)
+    several = kind == tuple[str, ...]
+    names, proposed = words_of(name, spec), spec.choices or spec.names
+    info = typer.Option(
+        None if several else default,
+        "/".join(names),
+        metavar=metavar,
+        help=spec.help,
+        rich_help_panel=panel,
+        autocompletion=listed(*proposed) if proposed else None,
+    )
+    parameter = _parameter(name, list[str] | None if several else kind, info)
+    return _Declared(parameter, spec.everyday or default is ..., spec)
+
+
+def _parameter(name: str, kind: Any, info: Any) -> inspect.Parameter:
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
+
+
+def _print_help(context: typer.Context, wanted: bool) -> None:
+    if wanted and not context.resilient_parsing:
+        context.meta[HELP_ALL] = True
+        typer.echo(context.get_help())
+        raise typer.Exit
+
+
+_HELP_ALL = _parameter(
+    "help_all",
+    bool,
+    typer.Option(False, HELP_ALL, is_eager=True, callback=_print_help, help="Show all options, and exit."),
+)
 
 
 def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:
     """Return the value of one parameter: what was given, or a group made of what was."""
-    if not is_dataclass(kind):
-        return given[name]
-    hints = get_type_hints(kind)
-    return kind(**{each.name: _built(hints[each.name], each.name, given) for each in fields(kind)})  # type: ignore[operator]
+    if not is_dataclass(kind := _commanded(kind)):
+        return tuple(given[name] or ()) if kind == tuple[str, ...] else given[name]
+    hints, parts = get_type_hints(kind), {}
+    for each in fields(kind):
+        if each.name in given or is_dataclass(_commanded(hints[each.name])):
+            with within(each.name):
+                parts[each.name] = _built(hints[each.name], each.name, given)
+    return kind(**parts)  # type: ignore[operator]

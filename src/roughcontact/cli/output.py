@@ -64,4 +64,4 @@ def command_line() -> str:
 def _check_free(target: Path) -> None:
     if target.is_dir() or (target.exists() and not os.access(target, os.W_OK)):
         what = "it is a folder" if target.is_dir() else "the file is write-protected"
-        raise UsageError(f"cannot write {target}: {what}; choose another --out")
+        raise UsageError(f"cannot write {target}: {what}", "choose another --out")

@@ -1,4 +1,4 @@
-"""Paths of adhesive states: followed with progress on a terminal, then printed, and written into a folder."""
+"""Paths of adhesive states: followed as far as they go, then printed, and written into a folder."""
 
 from __future__ import annotations
 
@@ -8,29 +8,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from roughcontact.cached import cached_property
+from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import (
-    doing,
     emit,
     load_table,
-    note_files,
     print_facts,
     print_table,
-    screen,
     size_of,
 )
+from roughcontact.progress.events import task
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.cli.options import Answer
+    from roughcontact.recipe.jobs import Job
     from roughcontact.surface.surface import Surface
 
 __all__ = ["PathAnswer", "collected"]
@@ -40,7 +41,7 @@ Collected = TypeVar("Collected")
 
 
 def collected(
-    states: Iterable[State], collect: Callable[[Iterator[State]], Collected], words: str, total: int | None
+    states: Iterable[State], collect: Callable[[Iterator[State]], Collected]
 ) -> tuple[Collected, bool]:
     """Return what is collected of the states of a path, and whether it is whole.
 
@@ -50,22 +51,17 @@ def collected(
     stopped: list[bool] = []
 
     def watched() -> Iterator[State]:
-        done = 0
+        some = False
         try:
             for state in states:
-                done += 1
-                progress.advance(task)
+                some = True
                 yield state
         except KeyboardInterrupt:
-            if not done:
+            if not some:
                 raise
             stopped.append(True)
 
-    columns = (TextColumn(words), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("", total=total)
-        found = collect(watched())
-    return found, not stopped
+    return collect(watched()), not stopped
 
 
 @dataclass(frozen=True)
@@ -74,9 +70,7 @@ class PathAnswer:
 
     Parameters
     ----------
-    command : str
-    file : Path
-        Where the surface comes from.
+    job : Job
     surface : Surface
     found : AdhesiveCurve or DetachmentCurve
     whole : bool
@@ -85,44 +79,49 @@ class PathAnswer:
         How its files are called: ``adhesive_loop``, and the table of its jumps ``adhesive_loop_jumps``.
     converged : bool
         Whether the tolerance was met.
+    answer : Answer
+        Where it goes.
     """
 
-    command: str
-    file: Path
+    job: Job
     surface: Surface
     found: AdhesiveCurve | DetachmentCurve
     whole: bool
     stem: str
     events: str
     converged: bool
+    answer: Answer
 
     def record(self) -> dict[str, Any]:
         """Return the answer as plain values."""
         return {
-            "command": f"adhesion {self.command}",
-            "file": plain(str(self.file)),
+            "command": self.job.NAME,
+            "file": name_of(self.job.source),
             "surface": list(self.surface.provenance),
             "kind": self._pressed.kind.value,
             **self.found.to_record(),
             "converged": self.converged,
             "whole": self.whole,
+            "recipe": self._recipe,
         }
 
-    def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure], ending: str) -> None:
+    def write(self, folder: Path, control: str, drawn: Callable[[Any], Figure]) -> None:
         """Write NetCDF, tables, picture and summary into a folder: all of them or none."""
         from roughcontact.files.provenance import provenance
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
 
         scales = {"modulus": self.found.modulus, "tolerance": self.found.tolerance}
-        source = provenance(self.surface, control=control, command=command_line(), **scales)
+        source = provenance(
+            self.surface, control=control, command=command_line(), recipe=self._recipe, **scales
+        )
         dataset = self.found.to_dataset()
-        with doing("Writing files"), all_or_none(folder) as aside:
+        with task("Writing files"), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
             write_csv(dataset, aside / f"{self.stem}.csv", source)
             event = self.events.rpartition("_")[2].removesuffix("s")
             write_csv(dataset, aside / f"{self.events}.csv", source, dimension=event)
-            save(drawn(self.found), aside / f"{self.stem}.{ending}")
+            save(drawn(self.found), aside / f"{self.stem}.{self.answer.ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 
     def show(
@@ -130,12 +129,10 @@ class PathAnswer:
         columns: Sequence[str],
         before: Sequence[tuple[str, str]],
         after: Sequence[tuple[str, str]],
-        *,
-        json: bool,
     ) -> None:
         """Print the loads between facts, or one JSON object; note how many loads missed the tolerance."""
         found = self.found
-        if json:
+        if self.answer.json:
             emit(self.record())
         else:
             print_facts([("surface", size_of(self.surface.grid)), *self._pressed.facts(), *before])
@@ -144,10 +141,10 @@ class PathAnswer:
         if missed := sum(not status.converged for status in found.status):
             note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
 
-    def end(self, folder: Path | None, ending: str, total: int | None) -> None:
+    def end(self, folder: Path | None, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
         names = (f"{self.stem}.csv", f"{self.events}.csv", f"{self.stem}.json", f"{self.stem}.nc")
-        note_files(folder, (*names, f"{self.stem}.{ending}"))
+        self.answer.note_files(folder, (*names, f"{self.stem}.{self.answer.ending}"))
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
             note(
@@ -157,6 +154,10 @@ class PathAnswer:
             raise typer.Exit(INTERRUPTED)
         if not self.converged:
             raise typer.Exit(MISSED)
+
+    @cached_property
+    def _recipe(self) -> dict[str, Any]:
+        return carried(self.job, self.answer.out)
 
     @cached_property
     def _pressed(self) -> Pressed:

@@ -1,22 +1,20 @@
-"""What is pressed: the kind of the map, whether its asperities stay elastic, and one state of it."""
+"""What is pressed: the kind of the map, whether its asperities stay elastic."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.arrays import is_numpy
 from roughcontact.cli.messages import note
-from roughcontact.cli.report import doing, quantity
-from roughcontact.files.own_errors import is_ours
+from roughcontact.cli.report import quantity
+from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.loads.load_search import SurfaceKind
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.plastic_asperities.plasticity import PlasticityIndex
 
-__all__ = ["Pressed", "best_state"]
+__all__ = ["Pressed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +41,7 @@ class Pressed:
     @classmethod
     def of(cls, surface: Surface, modulus: float, softer: tuple[float, str] | None) -> Pressed:
         """Return what a surface is; say on standard error why a known hardness gives no index."""
+        from roughcontact.arrays import is_numpy
         from roughcontact.contact.loads.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)
@@ -82,18 +81,6 @@ class Pressed:
         }
 
 
-def best_state(solve: Callable[..., Any], surface: Surface, *given: Any, **named: Any) -> Any:
-    """Return the state of a surface, the best that was reached where the tolerance was missed."""
-    from roughcontact.contact.convergence import ConvergenceError
-
-    cells = " x ".join(str(n) for n in surface.grid.shape)
-    with doing(f"Pressing {cells} cells"):
-        try:
-            return solve(surface, *given, **named)
-        except ConvergenceError as error:
-            return error.solution
-
-
 def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:
     """Return the index of the summits of a map; None, and why, where there is none."""
     import roughcontact as rc
@@ -102,8 +89,6 @@ def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex
         flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
         summits = rc.find_summits(flat)
         return rc.theory.plasticity.summit_index(summits.height, summits.mean_curvature, modulus, hardness)
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         note(f"no plasticity index: {error}")
         return None

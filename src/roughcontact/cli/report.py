@@ -3,77 +3,55 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli.messages import note
-from roughcontact.plot.adhesive_facts import (
-    ADHESIVE_COLUMNS,
-    adhesive_curve_facts,
-    adhesive_facts,
-    law_facts,
-)
-from roughcontact.plot.facts import (
-    AREAL_COLUMNS,
-    CURVE_COLUMNS,
-    bend_words,
-    curve_facts,
-    load_table,
-    loop_facts,
-    quantity,
-    size_of,
-    solution_facts,
-    surface_facts,
-    surface_record,
-)
+from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from rich.console import Console
+    from roughcontact.plot.adhesive_facts import adhesive_curve_facts, adhesive_facts, law_facts
+    from roughcontact.plot.facts import (
+        bend_words,
+        curve_facts,
+        load_table,
+        loop_facts,
+        quantity,
+        size_of,
+        solution_facts,
+        surface_facts,
+        surface_record,
+    )
+else:  # late: the help and the completion of options do not wait for NumPy
+    _HOMES = {
+        "adhesive_facts": "adhesive_curve_facts adhesive_facts law_facts",
+        "facts": (
+            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts surface_facts "
+            "surface_record"
+        ),
+    }
+    for _home, _names in _HOMES.items():
+        globals().update({name: LateMethod(f"roughcontact.plot.{_home}", name) for name in _names.split()})
 
 __all__ = [
-    "ADHESIVE_COLUMNS",
-    "AREAL_COLUMNS",
-    "CURVE_COLUMNS",
     "adhesive_curve_facts",
     "adhesive_facts",
     "bend_words",
     "curve_facts",
-    "doing",
     "emit",
     "law_facts",
     "load_table",
     "loop_facts",
-    "note_files",
     "print_facts",
     "print_table",
     "quantity",
-    "screen",
     "size_of",
     "solution_facts",
     "surface_facts",
     "surface_record",
     "tell",
 ]
-
-
-def screen() -> Console:
-    """Return standard error as a console, for progress."""
-    from rich.console import Console
-
-    return Console(stderr=True)
-
-
-def doing(words: str) -> AbstractContextManager[object]:
-    """Say on a terminal what is being done, as long as it takes."""
-    if not sys.stderr.isatty():
-        return nullcontext()
-    return screen().status(f"{words} ...")
 
 
 def emit(record: Mapping[str, Any]) -> None:
@@ -94,12 +72,6 @@ def print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     for line in lines:
         typer.echo("  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip())
-
-
-def note_files(folder: Path | None, names: Sequence[str]) -> None:
-    """Say on standard error which files a folder holds now, if there is one."""
-    if folder is not None:
-        note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 
 
 def tell(record: Mapping[str, Any], facts: Sequence[tuple[str, str]], *, as_json: bool) -> None:

@@ -26,10 +26,6 @@ def require_memory(need: int, shape: tuple[int, ...]) -> None:
         If the run needs more than the machine has free.
     """
     what = f"a grid of {' x '.join(str(n) for n in shape)} cells"
-    require_free(need, what, "use fewer points", _refusal)
+    require_free(need, what, "use fewer points", UsageError)
     if need > _WORTH_SAYING:
         note(f"{what} needs about {gigabytes(need)} of memory; {gigabytes(free_memory())} are free")
-
-
-def _refusal(problem: str, remedy: str) -> UsageError:
-    return UsageError(f"{problem}: {remedy}")

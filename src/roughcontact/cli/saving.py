@@ -26,7 +26,7 @@ def require_output(out: Path, source: Path | None = None, *, in_slabs: bool = Fa
 
     require_surface_file(out, in_slabs=in_slabs)
     if source is not None and out.exists() and source.exists() and out.samefile(source):
-        raise UsageError(f"{out} is the measured file itself: name another file to write")
+        raise UsageError(f"{out} is the measured file itself", "name another file to write")
 
 
 def save_surface(surface: Surface, out: Path) -> None:

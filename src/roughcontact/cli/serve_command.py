@@ -37,14 +37,14 @@ def serve(
             if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):
                 raise
             raise UsageError(
-                "the page needs Starlette and uvicorn: pip install 'roughcontact[page]'"
+                "the page needs Starlette and uvicorn", "pip install 'roughcontact[page]'"
             ) from error
         if file is not None and not file.is_file():
             raise UsageError(f"{file}: there is no such file")
         if file is not None:
             channels(file)  # what cannot be read is refused before the page opens
         if not 0 <= port < 2**16:
-            raise UsageError(f"--port: ports go from 1 to 65535, not {port}")
+            raise UsageError(f"ports go from 1 to 65535, not {port}", place="--port")
 
         def opened(address: str, once: str) -> None:
             typer.echo(address)
@@ -58,4 +58,6 @@ def serve(
         except KeyboardInterrupt:
             note("the page has ended; nothing is left of it")
         except OSError as error:
-            raise UsageError(f"--port: port {port} cannot be had ({error.strerror}): leave it out") from error
+            raise UsageError(
+                f"port {port} cannot be had ({error.strerror})", "leave it out", place="--port"
+            ) from error

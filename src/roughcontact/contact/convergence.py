@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol
 
+from roughcontact.errors import joined
+
 if TYPE_CHECKING:
     from roughcontact.solver.control import Status
 
@@ -34,13 +36,28 @@ class ConvergenceError(RuntimeError):
     ...     rc.press(ball, 1e9, force=1e-3, solver=rc.PolonskyKeer(max_steps=3))
     ... except rc.ConvergenceError as error:
     ...     print(error.solution.status.message)
-    The solver ran out of steps above the tolerance; allow it more steps.
+    The solver ran out of steps above the tolerance: allow it more steps.
     """
 
     def __init__(self, solution: Certified) -> None:
         super().__init__(solution)  # in `args`, so that the error can be pickled
         self.solution: Any = solution  # the caller has asked for its type
 
-    def __str__(self) -> str:
+    @property
+    def message(self) -> str:
+        """What is wrong, as errors about input have it."""
         solution, tolerance = self.solution, self.solution.problem.tolerance
-        return f"residual {solution.residual:.1e}, tolerance {tolerance:.1e}: {solution.status.message}"
+        return f"residual {solution.residual:.1e}, tolerance {tolerance:.1e}: {solution.status.outcome}"
+
+    @property
+    def remedy(self) -> str | None:
+        """What to do about it."""
+        remedy: str | None = self.solution.status.remedy
+        return remedy
+
+    @property
+    def place(self) -> None:
+        """No argument is wrong."""
+
+    def __str__(self) -> str:
+        return joined(self.message, self.remedy)

@@ -17,6 +17,7 @@ from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
@@ -211,20 +212,19 @@ class Curve:
         else:
             ends = np.asarray(number(window, "window [N]"))
             if ends.shape != (2,) or not 0 <= ends[0] < ends[1]:
-                raise ValueError(f"a window goes from a force to a larger one, not {window}")
+                raise InputError(f"a window goes from a force to a larger one, not {window}", place="window")
             low, high = ends * (1 - ROUNDING, 1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
-        if inside.sum() < 3:
-            raise ValueError(
-                "a power law needs at least 3 resolved points in the range of forces that is fitted, not "
-                f"{int(inside.sum())}: {REMEDY}"
-            )
+        if (points := int(inside.sum())) < 3:
+            few = f"a power law needs at least 3 resolved points in the range of forces that is fitted, not {points}"
+            raise InputError(few, REMEDY)
         span = self.force[inside].max() / self.force[inside].min()
         if window is None and span < DECADE:
-            raise ValueError(
-                f"a power law needs a decade of force, and the resolved points span a factor of {span:.2g}: {REMEDY}"
+            short = (
+                f"a power law needs a decade of force, and the resolved points span a factor of {span:.2g}"
             )
+            raise InputError(short, REMEDY)
         return fit_power_law(
             self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
         )
@@ -249,7 +249,7 @@ class Curve:
             If the curve has no such quantity.
         """
         if quantity not in (*CURVE_POINTS, "spots"):
-            raise ValueError(f"a curve has no {quantity!r}; it has {', '.join(CURVE_POINTS)}")
+            raise InputError(f"a curve has no {quantity!r}; it has {', '.join(CURVE_POINTS)}")
         values = np.asarray(getattr(self, quantity), dtype=np.float64)
         shown = self.resolved & np.isfinite(values) & (values > 0)
         return local_exponents(self.force[shown], values[shown])
@@ -289,12 +289,13 @@ class Curve:
         array([1.042, 1.015, 1.006])
         """
         if not hasattr(theory, "quantities"):
-            raise ValueError(
+            raise InputError(
                 "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own, "
-                f"not {theory!r}"
+                f"not {theory!r}",
+                place="theory",
             )
         if self.geometry is Geometry.LINE:
-            raise ValueError("a line contact has forces per unit length; the laws of theory are about forces")
+            raise InputError("a line contact has forces per unit length; the laws of theory are about forces")
         scope = getattr(theory, "made_for", None)  # laws of the user's own need not say
         if scope is not None and not other_surface:
             self._require_alike(theory.name, scope)
@@ -303,7 +304,7 @@ class Curve:
             hidden = self.hardness < math.inf and getattr(theory, "plastic", False)
             names = [name for name in names if hasattr(self, name) and not (hidden and "stiffness" in name)]
         if lacks := [name for name in names if not hasattr(self, name)]:
-            raise ValueError(f"a curve has no {lacks[0]!r}; {theory.name} gives {sorted(theory.quantities)}")
+            raise InputError(f"a curve has no {lacks[0]!r}; {theory.name} gives {sorted(theory.quantities)}")
         return Comparison(
             theory.name,
             theory.source,
@@ -330,11 +331,9 @@ class Curve:
         }
         for what, (theirs, ours, unit) in pairs.items():
             if not math.isclose(theirs, ours, rel_tol=ROUNDING):
-                raise ValueError(
-                    f"the law of {name} was made for another contact: its {what} is {theirs:.6g} {unit}, that of the "
-                    f"curve {ours:.6g} {unit}; make it by loading_laws from the surface that was pressed, or "
-                    "compare with other_surface=True"
-                )
+                differ = f"its {what} is {theirs:.6g} {unit}, that of the curve {ours:.6g} {unit}"
+                remedy = "make it by loading_laws from the surface that was pressed, or compare with other_surface=True"
+                raise InputError(f"the law of {name} was made for another contact: {differ}", remedy)
 
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""
@@ -371,7 +370,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         status.append(solution.status)
         del solution  # with its maps, before the next load is solved
     if problem is None:
-        raise ValueError("a curve needs at least one load")
+        raise InputError("a curve needs at least one load")
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(

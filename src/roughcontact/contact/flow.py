@@ -16,6 +16,7 @@ from typing import Literal, TypeAlias, TypeVar
 import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace, on_host
+from roughcontact.errors import InputError, about
 from roughcontact.solver.inner_product import Measure
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -94,9 +95,10 @@ class Flow:
         ('paraboloid, radius 0.0001 m', 'flattened by up to 7.801e-08 m')
         """
         if tuple(surface.heights.shape) != tuple(self.depth.shape):
-            raise ValueError(
+            raise InputError(
                 f"what flowed on cells of shape {tuple(self.depth.shape)} is not of a surface of shape "
-                f"{tuple(surface.heights.shape)}: bring it onto the grid that was pressed by resampled()"
+                f"{tuple(surface.heights.shape)}",
+                "bring it onto the grid that was pressed by resampled()",
             )
         xp = namespace(surface.heights)
         heights = xp.astype(surface.heights, xp.float64) - self.depth + self.rise
@@ -164,5 +166,5 @@ def lifting_work(loads: Sequence[tuple[float, float]]) -> tuple[float, float]:
 def flow_reading(flow: str) -> bool:
     """Return whether a reading of flow raises the surface; refuse what is none."""
     if flow not in ("removed", "raised"):
-        raise ValueError(f"flow must be 'removed' or 'raised', not {flow!r}")
+        raise about("flow", f"must be 'removed' or 'raised', not {flow!r}")
     return flow == "raised"

@@ -6,6 +6,7 @@ import numpy as np
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.validation import Array, Mask, numeric_method
 
 __all__ = ["gap_histogram", "pressure_histogram"]
@@ -84,7 +85,7 @@ def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
 def _density(solution: Solution, field: Array, mask: Mask, bins: int) -> tuple[Array, Array]:
     """Return the density of a field over the area of the cells of a mask, and its edges, on the host."""
     if bins < 1:
-        raise ValueError(f"a histogram needs at least one bin, not {bins}")
+        raise InputError(f"a histogram needs at least one bin, not {bins}")
     chosen = on_host(mask).astype(bool)
     values, areas = on_host(field)[chosen], solution.problem.measure.on(np.flatnonzero(chosen))
     values = np.maximum(values, 0.0)  # a gap that is but rounding may be below

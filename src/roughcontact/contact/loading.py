@@ -13,9 +13,11 @@ from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid
+from roughcontact.progress.events import tracked
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
@@ -169,8 +171,8 @@ def solutions_along(
     """
     raises, keeps = flow_reading(flow), hardness is not None
     if raises and loads is not None and loads.kind == "depth":
-        raise ValueError(
-            "depths cannot be named where the surface rises as it flows: give forces or pressures"
+        raise InputError(
+            "depths cannot be named where the surface rises as it flows", "give forces or pressures"
         )
     loads = loads or suitable(surface, modulus, operator, hardness)
     if not keeps:
@@ -181,9 +183,11 @@ def solutions_along(
     )
     for control in controls[1:]:
         problem.under(control)  # what cannot be asked for is refused before the first load is solved
+    method = solver or ActiveSet()
+    path = follow(problem, controls, method)
     if keeps:
-        return follow_history(problem, controls, solver or ActiveSet(), raises=raises)
-    return follow(problem, controls, solver or ActiveSet())
+        path = follow_history(problem, controls, method, raises=raises)
+    return tracked(path, "Pressing", "loads", len(controls))
 
 
 def suitable(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import platform
 from typing import Any
 
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.problem import Body
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, capabilities
@@ -16,7 +18,7 @@ from roughcontact.slabs.agreement import by_each
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.validation import shown
 
-__all__ = ["memory_needed", "require_memory_for"]
+__all__ = ["largest_maps", "memory_needed", "require_memory_for"]
 
 # Bytes per cell beside the heights: of a load on few cells and of the heaviest, and of a curve likewise. They depend on
 # the geometry, and on whether a constant pressure moves nothing: then all cells are solved for, however light the load.
@@ -74,7 +76,7 @@ def memory_needed(
     """
     grid = getattr(surface, "grid", surface)
     if not isinstance(grid, Grid | RadialGrid):
-        raise ValueError(f"a surface or its grid is wanted, not {shown(surface)}")
+        raise InputError(f"a surface or its grid is wanted, not {shown(surface)}", place="surface")
     heights: Any = getattr(surface, "heights", None)
     stated = capabilities(operator)
     geometry = stated.geometry or Geometry.of(grid)
@@ -85,6 +87,15 @@ def memory_needed(
         cells *= cells
     light, full = (cells * each for each in (row[2:] if curve else row[:2]))
     return light, full + min(full, MOST)
+
+
+def largest_maps(memory: float) -> tuple[int, int]:
+    """Return the cells a side of free square maps that fit a memory [bytes]: for light loads, and in full contact."""
+    light, full, *_ = BYTES[Geometry.SURFACE, False]
+    heights = 8  # bytes of a cell
+    return math.isqrt(int(memory / (light + heights))), math.isqrt(
+        int(max(0, memory - MOST) / (full + heights))
+    )
 
 
 def require_memory_for(surface: Body, operator: Operator | None = None, *, curve: bool = False) -> None:

@@ -11,11 +11,13 @@ from roughcontact.contact.problem import Body, ContactProblem, separation_of
 from roughcontact.contact.size_law import Hardness, as_hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spot_hardness import settle, without_spots
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.material import Solid, as_modulus
+from roughcontact.progress.events import task
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Depth, Solver, Start, State, Status
 from roughcontact.solver.loads import control_of
@@ -92,10 +94,11 @@ def press(
     'converged'
     """
     control = control_of(*exactly_one(force=force, depth=depth, pressure=pressure), grid_of(surface))
-    solution = solve(
-        make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
-        solver=solver,
-    )
+    with task("Pressing", shape=surface.grid.shape):
+        solution = solve(
+            make_problem(surface, modulus, control, operator, tolerance=tolerance, hardness=hardness),
+            solver=solver,
+        )
     if not solution.status.converged:
         raise ConvergenceError(solution)
     return solution
@@ -104,7 +107,9 @@ def press(
 def grid_of(surface: Body) -> AnyGrid:
     """Return the grid of a surface; refuse what is not a surface."""
     if not isinstance(surface, Surface | RadialProfile):
-        raise ValueError(f"a Surface is wanted (heights and a grid), not {type(surface).__name__}")
+        raise InputError(
+            f"a Surface is wanted (heights and a grid), not {type(surface).__name__}", place="surface"
+        )
     return surface.grid
 
 
@@ -162,7 +167,9 @@ def solve_state(
 ) -> tuple[ContactProblem, State, Subdomain]:
     """Return the problem, with the hardness of its spots, the last state on its window, and where that lies."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
-        raise ValueError(f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}")
+        raise InputError(
+            f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}", place="solver"
+        )
     if isinstance(problem.control, Depth) and problem.control.value <= max(0.0, problem.first_touch):
         if problem.size_law is not None:
             problem = without_spots(problem, problem.size_law)

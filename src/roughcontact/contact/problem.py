@@ -12,6 +12,7 @@ import numpy as np
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.contact.flow import Flow
 from roughcontact.contact.size_law import SizeLaw
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
@@ -105,24 +106,28 @@ class ContactProblem:
             if type(value := getattr(self, name)) not in PLAIN:
                 object.__setattr__(self, name, in_si(value, unit, name))
         if tuple(self.separation.shape) != self.grid.shape:
-            raise ValueError(
-                f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}"
+            raise InputError(
+                f"a separation of shape {self.separation.shape} does not fit the operator's grid {self.grid.shape}",
+                place="separation",
             )
         checked_tolerance(self.tolerance)
         if isinstance(self.hardness, int | float):
             if not scalar(self.hardness, "hardness") > 0:
-                raise ValueError(f"the hardness must be positive [Pa], not {self.hardness}")
+                raise about("the hardness", f"must be positive [Pa], not {self.hardness}")
         elif tuple(self.hardness.shape) != self.grid.shape:
-            raise ValueError(
+            raise InputError(
                 f"a hardness is one number [Pa], or one for each cell of the grid {self.grid.shape}, not an array of "
-                f"shape {tuple(self.hardness.shape)}"
+                f"shape {tuple(self.hardness.shape)}",
+                place="hardness",
             )
         if isinstance(self.control, Force) and self.plastic:
             strongest = bearing_force(self.measure, self.measured, self.spec)
             if self.control.value >= strongest:
-                raise ValueError(
+                raise InputError(
                     f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
-                    f"gives {strongest:.6g}; press by less, or give a greater hardness"
+                    f"gives {strongest:.6g}",
+                    "press by less, or give a greater hardness",
+                    "force",
                 )
         if not (isinstance(self.control, Depth) and self.semidefinite) or self.missing:
             return  # missing cells never touch and may bulge: contact is never full
@@ -132,9 +137,11 @@ class ContactProblem:
         # What flowed is known to the tolerance of the load that made it flow.
         allowed = ROUNDING if self.flow is None else max(ROUNDING, self.tolerance)
         if self.control.value > mean * (1 + allowed):
-            raise ValueError(
+            raise InputError(
                 f"a depth of {self.control.value:.6g} m exceeds the mean separation {mean:.6g} m: there a periodic "
-                "surface is in full contact and its stiffness infinite; give a smaller depth, or a force"
+                "surface is in full contact and its stiffness infinite",
+                "give a smaller depth, or a force",
+                "depth",
             )
 
     @property

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from roughcontact.arrays import as_like, is_array, is_numpy, namespace
+from roughcontact.errors import about
 from roughcontact.units import in_si
 from roughcontact.validation import Array, number, positive_scalar, require_numbers, scalar
 
@@ -84,7 +85,8 @@ def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | N
     values = hardness if elsewhere else as_like(number(hardness, "hardness"), field)
     xp = namespace(values)
     if not bool(xp.all((values > 0) & (values < math.inf))):
-        raise ValueError(
-            "the hardness of every cell must be positive and finite [Pa]: one that never flows takes a large number"
+        raise about(
+            "the hardness",
+            "of every cell must be positive and finite [Pa]: one that never flows takes a large number",
         )
     return values, None

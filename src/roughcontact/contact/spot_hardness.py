@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.contact.spots import find_spots
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.solver.control import Solver, Start, State, Status
 from roughcontact.solver.polonsky_keer import PolonskyKeer
@@ -63,7 +64,7 @@ def without_spots(problem: ContactProblem, law: SizeLaw) -> ContactProblem:
 def _hardness_of(contact: Mask, problem: ContactProblem, law: SizeLaw) -> Array:
     """Return the hardness of each cell by the spot that it belongs to; outside of contact that of a cell alone [Pa]."""
     if not problem.measure.on_host:
-        raise ValueError(
+        raise InputError(
             "spots are labelled on the host: a hardness by their size takes heights in NumPy's memory"
         )
     measure, shape = problem.measure, problem.grid.shape
@@ -73,7 +74,7 @@ def _hardness_of(contact: Mask, problem: ContactProblem, law: SizeLaw) -> Array:
     line = problem.geometry is Geometry.LINE
     hardness = number(law(sizes / 2 if line else np.sqrt(sizes / np.pi)), "the hardness of the spots")
     if hardness.shape != shape or not bool((np.isfinite(hardness) & (hardness > 0)).all()):
-        raise ValueError(
+        raise InputError(
             "a hardness by the size of spots must be positive and finite [Pa] for each of the radii [m]"
         )
     return hardness

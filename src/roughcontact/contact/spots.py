@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.arrays import namespace
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.slabs.slabs import Slabs
@@ -85,7 +86,7 @@ def find_spots(contact: Any, pressure: Any, grid: AnyGrid, measure: Measure) -> 
     import scipy.ndimage
 
     if not are_labelled(contact):
-        raise ValueError("spots are labelled on the host: take them of solution.on_host()")
+        raise InputError("spots are labelled on the host", "take them of solution.on_host()")
     alone = isinstance(contact, np.ndarray)
     whole = SlabArray(contact, (0, len(contact)), Slabs().functions) if alone else contact
     functions, mine = whole.functions, whole.local

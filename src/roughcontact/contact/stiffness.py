@@ -13,6 +13,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
 from roughcontact.material import Solid
+from roughcontact.progress.events import task
 from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import checked_region, prescribe
@@ -71,7 +72,8 @@ def frozen_contact(
             Measure(operator.weights, xp).total(tangent.pressure), tangent.error, tangent.pressure
         )
     initial = None if tangent is None else tangent.pressure
-    answer = prescribe(operator, region, 1.0, tolerance, initial=initial)
+    with task("Stiffness of", shape=region.shape):
+        answer = prescribe(operator, region, 1.0, tolerance, initial=initial)
     return FrozenContact(answer.work, answer.residual, answer.pressure)  # work per square of displacement
 
 

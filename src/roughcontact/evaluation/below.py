@@ -10,12 +10,14 @@ from scipy.optimize import minimize_scalar
 
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.subsurface import fields_below as subsurface
 from roughcontact.halfspace.subsurface.fields_below import Displacement, Stress
 from roughcontact.material import Solid
+from roughcontact.progress.events import tracked
 from roughcontact.solver.subdomain import bounding_box
 from roughcontact.validation import Array, numeric, require, scalar
 
@@ -100,6 +102,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     >>> f"{stress.von_mises.max() / 1e6:.1f} MPa"
     '16.5 MPa'
     """
+    solution = solution.on_host()
     return subsurface.stress(solution.pressure, half_space_grid(solution), depth, ratio_of(solid))
 
 
@@ -136,6 +139,7 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
     >>> rc.displacement_below(solution, [0.0, 3e-6], rc.Solid(1e9, 0.3)).z.shape
     (2, 32, 32)
     """
+    solution = solution.on_host()
     return subsurface.displacement(solution.pressure, half_space_grid(solution), depth, solid)
 
 
@@ -172,6 +176,7 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     >>> f"{peak.depth * 1e6:.1f} um below the surface"
     '2.0 um below the surface'
     """
+    solution = solution.on_host()
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
 
@@ -181,7 +186,8 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
 
     shallow, deep = min(grid.spacing) / 2, max(part.lengths)
     depths = np.geomspace(shallow, deep, 2 + int(np.log(deep / shallow) / np.log(STEP)))
-    best = int(np.argmax([strongest(depth)[0] for depth in depths]))
+    tried = tracked(depths.tolist(), "Looking for the largest stress", "depths")
+    best = int(np.argmax([strongest(depth)[0] for depth in tried]))
     ends = depths[max(0, best - 1)], depths[min(len(depths) - 1, best + 1)]
     found = minimize_scalar(
         lambda z: -strongest(float(np.exp(z)))[0],
@@ -202,9 +208,9 @@ def half_space_grid(solution: Solution) -> Grid:
     problem = solution.problem
     grid = problem.grid
     if problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
-        raise ValueError(
-            "fields below the surface are those of a surface of two axes, not of a "
-            f"{problem.geometry.value}: press a map of heights"
+        raise InputError(
+            f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}",
+            "press a map of heights",
         )
     row = sum(grid.periodic) == 1
     own = solution.displacement
@@ -215,7 +221,7 @@ def half_space_grid(solution: Solution) -> Grid:
     factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
     in_own_cell = float(solution.pressure.max()) * grid.cell_area / cell_stiffness(problem.operator)
     if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max() + ROUNDING * in_own_cell:
-        raise ValueError(
+        raise InputError(
             "only the field below a half-space is known, and this is the solution of another body"
         )
     return grid
@@ -225,8 +231,12 @@ def ratio_of(solid: Solid | float) -> float:
     """Return the Poisson's ratio of a solid, or the number that was given for it."""
     if isinstance(solid, Solid):
         return solid.poisson_ratio
-    one = "give one of the two bodies: both carry the same pressure, and each has a stress of its own"
-    require(not isinstance(solid, Sequence), one)
+    require(
+        not isinstance(solid, Sequence),
+        "both bodies carry the same pressure, and each has a stress of its own",
+        "give one of the two bodies",
+        place="solid",
+    )
     return scalar(solid, "Poisson's ratio")
 
 
@@ -237,7 +247,7 @@ def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, in
     """
     box = bounding_box(pressure != 0)
     if box is None:
-        raise ValueError("nothing is in contact: there is no stress below it; press harder")
+        raise InputError("nothing is in contact: there is no stress below it", "press harder")
     sides = [
         slice(0, n) if periodic else slice(max(0, s.start - (s.stop - s.start)), min(n, 2 * s.stop - s.start))
         for s, n, periodic in zip(box, grid.shape, grid.periodic, strict=True)

@@ -11,6 +11,7 @@ import numpy as np
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
@@ -50,10 +51,17 @@ class Conductors:
 
     def __post_init__(self) -> None:
         if self.resistivities is None and self.conductivities is None:
-            raise ValueError("give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
+            raise InputError(
+                "nothing is given that the bodies conduct",
+                "give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies",
+                "resistivities, conductivities",
+            )
         for pair in (self.resistivities, self.conductivities):
             if pair is not None and np.shape(number(pair, "the numbers of both bodies")) != (2,):
-                raise ValueError(f"give the numbers of both bodies, such as (1.7e-8, 1.7e-8), not {pair!r}")
+                raise InputError(
+                    f"{pair!r} are not two numbers",
+                    "give the numbers of both bodies, such as (1.7e-8, 1.7e-8)",
+                )
         self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
 
     def given(self) -> dict[str, tuple[float, float]]:
@@ -145,8 +153,10 @@ def conductance(
     _require_part(of)
     if not isinstance(contact, Curve | Solution):
         if not hasattr(contact, "data_vars"):
-            raise ValueError(
-                f"a Curve or a Solution conducts, not {type(contact).__name__}: press the surface first"
+            raise InputError(
+                f"a Curve or a Solution conducts, not {type(contact).__name__}",
+                "press the surface first",
+                place="contact",
             )
         return with_conductance(contact, materials, of)
     if isinstance(contact, Solution):
@@ -186,7 +196,7 @@ def with_conductance(
     plastic, stiffness = "hardness" in dataset, _PARTS[of]
     missing = [name for name in ("force", stiffness, "modulus", "nominal_area") if name not in dataset]
     if missing or dataset[stiffness].dims != ("load",):
-        raise ValueError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
+        raise InputError(f"not a stiffness curve: {' and '.join(missing or ['load'])} is missing")
     stiffness = f"unloading_{stiffness}" if plastic else stiffness
     _require_conducting(Geometry(dataset.attrs.get("geometry", "surface")), stiffness not in dataset, of)
     found = conductors.of(dataset[stiffness].to_numpy(), float(dataset["modulus"]))
@@ -223,22 +233,22 @@ def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
 def _require_part(of: str) -> None:
     """Refuse what is neither the interface nor the total."""
     if of not in _PARTS:
-        raise ValueError(
-            f"of must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
+        raise about(
+            "of", f"must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
         )
 
 
 def _require_conducting(geometry: Geometry, hidden: bool, of: str) -> None:
     """Refuse a curve that does not say what its contact conducts: of a line, or without the stiffness of all cells."""
     if geometry is Geometry.LINE:
-        raise ValueError(
-            "a line contact has no conductance of its own: it depends on how far away the bodies end; press a map of "
-            "heights"
+        raise InputError(
+            "a line contact has no conductance of its own: it depends on how far away the bodies end",
+            "press a map of heights",
         )
     if geometry is Geometry.FOUNDATION and of == "interface":
-        raise ValueError("a Winkler foundation has a total conductance only: take of='total'")
+        raise InputError("a Winkler foundation has a total conductance only", "take of='total'")
     if hidden:
-        raise ValueError(
-            "under a hardness the plastic cells conduct, but the stiffness of this curve leaves them out: compute it "
-            "anew, with the stiffness of unloading"
+        raise InputError(
+            "under a hardness the plastic cells conduct, but the stiffness of this curve leaves them out",
+            "compute it anew, with the stiffness of unloading",
         )

@@ -16,7 +16,7 @@ REMEDIES = MappingProxyType(
     {
         "grid": "The cells are too large for this load: take a finer map.",
         "short cut-off": "The shortest waves of the map make it: quote the shortest wave with the number, or name that "
-        "of the instrument (short_cutoff, --short-cutoff).",
+        "of the instrument (short_cutoff, --shortest-wave).",
         "levelling": "The longest waves are about as long as the map, and a quadratic form takes them away: measure a "
         "larger map, or find out whether the form is that of the instrument.",
         "patches": "The patches differ by as much: take more or larger ones.",

@@ -14,12 +14,14 @@ from roughcontact.contact.loads.load_search import SurfaceKind
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import notes_on_sources
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Force
 from roughcontact.surface.finest_waves import is_rough_to_cells
 from roughcontact.surface.preparation.filters import require_cells
@@ -114,7 +116,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         notes.append("Levelling is left out: a form larger than the roughness is the body itself.")
     values, parts = _table(patches), []
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
-        for source, change in zip(sources, otherwise, strict=True):
+        maps = list(zip(sources, otherwise, strict=True))
+        for source, change in tracked(maps, "Errors: pressing maps made otherwise", "maps"):
             again = _table([_again(each, change) for each in patches])
             parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
             if np.isnan(again).all(axis=0).any():
@@ -149,21 +152,26 @@ def _of_highest_point(prescribed: str) -> str:
 def _check(patches: Sequence[Solution]) -> None:
     """Refuse what is no map of heights that was pressed to its tolerance, and patches that differ."""
     if not patches or not all(isinstance(each, Solution) for each in patches):
-        raise ValueError("give the Solution that press returned, or several of one size and load")
+        raise InputError(
+            "errors are those of solutions",
+            "give the Solution that press returned, or several of one size and load",
+        )
     first = patches[0].problem
     for each in patches:
         problem = each.problem
         if problem.geometry is not Geometry.SURFACE or not isinstance(problem.surface, Surface):
-            raise ValueError(
+            raise InputError(
                 f"errors are those of a map of heights that was pressed, not of a {problem.geometry.value} or of a "
-                "separation alone: press a Surface of two axes"
+                "separation alone",
+                "press a Surface of two axes",
             )
         if not is_numpy(problem.surface.heights):
-            raise ValueError(
-                "errors are for heights in NumPy's memory: press the surface there, or take solution.on_host()"
+            raise InputError(
+                "errors are for heights in NumPy's memory",
+                "press the surface there, or take solution.on_host()",
             )
         if problem.flow is not None or problem.rise or not isinstance(problem.hardness, int | float):
-            raise ValueError(
+            raise InputError(
                 "errors are those of one load that is pressed again on other maps: not of a surface that has flowed "
                 "before or that rises as it flows, nor of a hardness that differs from cell to cell"
             )
@@ -177,9 +185,11 @@ def _check(patches: Sequence[Solution]) -> None:
             and np.allclose(problem.grid.spacing, first.grid.spacing, rtol=SAME, atol=0)
         )
         if not same:
-            raise ValueError(
-                "patches must have one size and one load to have a mean: crop them to one size, and press each by "
-                f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}"
+            raise about(
+                "patches",
+                "must have one size and one load to have a mean",
+                f"crop them to one size, and press each by "
+                f"the same force, pressure or depth, not {_words(first)} and {_words(problem)}",
             )
 
 
@@ -199,9 +209,9 @@ def checked_cutoff(surface: Surface, given: float | None) -> float:
         CELLS * max(surface.grid.spacing) if given is None else positive_scalar(given, "short_cutoff [m]")
     )
     if cutoff >= min(surface.grid.lengths):
-        raise ValueError(
-            f"a short_cutoff of {cutoff:g} m leaves nothing of a map of {min(surface.grid.lengths):g} m: give the "
-            "shortest wave that the instrument records, or take a larger map"
+        raise InputError(
+            f"a short_cutoff of {cutoff:g} m leaves nothing of a map of {min(surface.grid.lengths):g} m",
+            "give the shortest wave that the instrument records, or take a larger map",
         )
     require_cells(cutoff, surface)
     return cutoff
@@ -214,9 +224,9 @@ def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution
     if surface.grid != problem.grid:
         other = capabilities(operator).coarsened(surface.grid)
         if other is None:
-            raise ValueError(
-                "this body is not known on other cells, so that the error of its grid cannot be estimated: press the "
-                "surface without operator="
+            raise InputError(
+                "this body is not known on other cells, so that the error of its grid cannot be estimated",
+                "press the surface without operator=",
             )
         operator = other
     try:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughcontact import methods
 from roughcontact.contact.curve import REMEDY, Curve
+from roughcontact.errors import InputError
 from roughcontact.evaluation.conduction import conductance
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.validation import Array, numeric, positive
@@ -139,18 +140,18 @@ def interface_table(
     (3, True)
     """
     if curve.geometry is not Geometry.SURFACE:
-        raise ValueError(
-            f"an interface has a law per area where a map of it was pressed, not a {curve.geometry.value}: "
-            "press a map of heights"
+        raise InputError(
+            f"an interface has a law per area where a map of it was pressed, not a {curve.geometry.value}",
+            "press a map of heights",
         )
     resolved = curve.resolved & np.isfinite(curve.interfacial_stiffness) & (curve.force > 0)
     kept = np.flatnonzero(resolved)[np.argsort(curve.force[resolved], kind="stable")]
     if len(kept) < 2:
-        raise ValueError(f"a table needs two resolved loads, and the curve has {len(kept)}: {REMEDY}")
+        raise InputError(f"a table needs two resolved loads, and the curve has {len(kept)}", REMEDY)
     gap = curve.mean_gap[kept]
     if not ((np.diff(gap) < 0).all() and (np.diff(curve.force[kept]) > 0).all()):
-        raise ValueError(
-            "the gap does not fall from each resolved load to the next: take loads that are further apart"
+        raise InputError(
+            "the gap does not fall from each resolved load to the next", "take loads that are further apart"
         )
     found = {}
     if resistivities is not None or conductivities is not None:

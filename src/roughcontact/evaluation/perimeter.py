@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.arrays import on_host
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 
 if TYPE_CHECKING:
@@ -49,6 +50,6 @@ def corrected_area(solution: Solution) -> float:
     """
     problem = solution.problem
     if problem.geometry is not Geometry.SURFACE:
-        raise ValueError(f"the area of a {problem.geometry.value} has no perimeter: press a map of heights")
+        raise InputError(f"the area of a {problem.geometry.value} has no perimeter", "press a map of heights")
     cell = float(np.ravel(problem.operator.weights)[0])
     return solution.contact_area - OVERHANG * edge_count(solution) * cell

@@ -11,6 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
 from roughcontact.material import Solid, as_modulus
@@ -77,11 +78,11 @@ def loading_laws(
     ['Persson', 'Greenwood-Williamson']
     """
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
-        raise ValueError("these theories are about surfaces; give a grid of two axes")
+        raise InputError("these theories are about surfaces", "give a grid of two axes")
     wanted = [names] if isinstance(names, str) else list(names)
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
-        raise ValueError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
+        raise InputError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
     known = {"modulus": value, "area": surface.grid.area} | inputs_for(surface, wanted, **given)
     found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
     scope = Scope(value, surface.grid.area, surface.rms, known.get("spectrum"))
@@ -119,7 +120,7 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
     """
     surface = solution.on_host().problem.surface
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
-        raise ValueError("Persson's theory is about surfaces on a grid of two axes")
+        raise InputError("Persson's theory is about surfaces on a grid of two axes")
     waves = _waves(surface)
     nominal = solution.force / surface.grid.area
     modulus = solution.problem.modulus

@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from roughcontact.errors import InputError
+
 __all__ = ["WriteError", "output_folder", "require_target", "written_aside"]
 
 
-class WriteError(ValueError):
+class WriteError(InputError):
     """A result cannot be written where it was asked for; the message names the path and the remedy.
 
     Examples
@@ -47,7 +49,7 @@ def written_aside(path: str | os.PathLike[str]) -> Iterator[Path]:
     except WriteError:
         raise
     except OSError as error:
-        raise WriteError(f"cannot write {target}: {_reason(error)}; {_REMEDY}") from error
+        raise WriteError(f"cannot write {target}: {_reason(error)}", _REMEDY) from error
     finally:
         # After a rename there is nothing left to remove. BaseException, an interrupt too, comes by here.
         with suppress(OSError):
@@ -85,14 +87,14 @@ def _make_writable(folder: Path) -> None:
     """Create `folder` and prove by a file that comes and goes that it can be written."""
     for each in (folder, *folder.parents):
         if each.exists() and not each.is_dir():
-            raise WriteError(f"cannot use {folder} as a folder: {each} is a file; choose another name")
+            raise WriteError(f"cannot use {folder} as a folder: {each} is a file", "choose another name")
     probe = folder / f".{secrets.token_hex(6)}.part"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe.touch(exist_ok=False)
         probe.unlink()
     except OSError as error:
-        raise WriteError(f"cannot write in the folder {folder}: {_reason(error)}; {_REMEDY}") from error
+        raise WriteError(f"cannot write in the folder {folder}: {_reason(error)}", _REMEDY) from error
 
 
 def require_target(path: str | os.PathLike[str]) -> Path:
@@ -106,14 +108,14 @@ def require_target(path: str | os.PathLike[str]) -> Path:
     # A link is followed, so that the file it names is replaced and the link stays.
     target = Path(os.path.realpath(path))
     if target.is_dir():
-        raise WriteError(f"cannot write {target}: it is a folder; add a file name")
+        raise WriteError(f"cannot write {target}: it is a folder", "add a file name")
     if target.exists() and not target.is_file():
-        raise WriteError(f"cannot write {target}: it is a device or a pipe; choose an ordinary file")
+        raise WriteError(f"cannot write {target}: it is a device or a pipe", "choose an ordinary file")
     if not target.parent.is_dir():
-        raise WriteError(f"cannot write {target}: there is no folder {target.parent}; create it first")
+        raise WriteError(f"cannot write {target}: there is no folder {target.parent}", "create it first")
     if target.exists() and not os.access(target, os.W_OK):
         # A rename would replace a protected file without asking.
-        raise WriteError(f"cannot write {target}: the file is write-protected; {_REMEDY}")
+        raise WriteError(f"cannot write {target}: the file is write-protected", _REMEDY)
     return target
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_numpy
+from roughcontact.errors import InputError, about
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.height_warnings import IMPOSSIBLE, height_warnings, highest
@@ -69,12 +70,14 @@ def assemble(
         raise ContentError(
             f"it holds heights up to {peak:.3g} m",
             "pass unit= with the right unit, or write nan where this number marks a missing point",
+            "unit",
         )
     try:
         surface = Surface(heights, grid)
-    except ValueError as error:
-        problem, _, remedy = str(error).partition("; ")
-        raise ContentError(problem, remedy or "pass unit= with the right unit") from error
+    except InputError as error:
+        if error.place == "heights":
+            raise ContentError(error.message, error.remedy) from error
+        raise ContentError(error.message, "pass unit= with the right unit", "unit") from error
     warnings = (*contradictions, *found.warnings)
     if looked_at:
         warnings += height_warnings(surface.heights, grid.spacing)
@@ -92,7 +95,7 @@ def assemble(
 
 def _require(found: HeightMap, unit: Length | None, size: object) -> None:
     """Refuse a file that leaves open what the user has left open too."""
-    problems, hints = [], []
+    problems, hints, places = [], [], []
     if unit is None and not is_length(found.unit):
         problems.append(
             "no unit of its heights"
@@ -100,12 +103,16 @@ def _require(found: HeightMap, unit: Length | None, size: object) -> None:
             else f"heights in {found.unit!r}, which is no length known here"
         )
         hints.append(_UNIT_HINT)
+        places.append("unit")
     if size is None and found.spacing is None and found.steps is None:
         unclear = "" if found.unclear is None else f" that is understood ({found.unclear})"
         problems.append(f"no size{unclear}")
         hints.append(_size_hint(found))
+        places.append("size")
     if problems:
-        raise ContentError(f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}")
+        raise ContentError(
+            f"it states {' and '.join(problems)}", f"pass {' and '.join(hints)}", ", ".join(places)
+        )
 
 
 def _size_hint(found: HeightMap) -> str:
@@ -169,8 +176,8 @@ def plain_lengths(unit: Any, size: Any) -> tuple[Length | None, Size | None]:
         try:
             unit = scalar(in_si(1.0 * unit, "m", "unit"), "unit")  # a unit, or a quantity
         except TypeError as error:
-            raise ValueError(
-                f"unit must be a text such as 'nm', or metres per unit, not {shown(unit)}"
+            raise about(
+                "unit", f"must be a text such as 'nm', or metres per unit, not {shown(unit)}"
             ) from error
     size = in_si(size, "m", "size")
     return unit, tuple(size) if isinstance(size, Iterable) and not isinstance(size, str) else size
@@ -183,5 +190,5 @@ def cell_of(size: Size, shape: tuple[int, ...]) -> tuple[float, ...]:
     lengths = tuple(size)
     if len(lengths) != len(shape):
         wanted = "a width or two lengths (Ly, Lx)" if len(shape) == 2 else "one length"
-        raise ValueError(f"size needs {wanted}, not {len(lengths)}: {lengths}")
+        raise about("size", f"needs {wanted}, not {len(lengths)}: {lengths}")
     return tuple(parse_length(length) / n for length, n in zip(lengths, shape, strict=True))

@@ -72,7 +72,7 @@ def _on_grid(found: HeightMap, points: Array) -> HeightMap:
         grid = grid_of_points(points)
     except ContentError as error:
         raise ContentError(
-            f"its {len(points)} rows of 3 look like points x, y, z, not a map ({error.problem})",
+            f"its {len(points)} rows of 3 look like points x, y, z, not a map ({error.message})",
             f"save the heights as a matrix, rows by columns, or {_NARROW}",
         ) from None
     ny, nx = grid.heights.shape

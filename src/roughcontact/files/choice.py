@@ -55,6 +55,7 @@ def choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, 
         raise ContentError(
             f"no channel is a height by its name and unit: {describe(channels)}",
             "pass channel= with a name from this list, and unit= where its unit is no length",
+            "channel",
         )
     if len(heights) == 1:
         return heights[0], ()

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.files.choice import marked
 from roughcontact.files.file_bounds import require_memory
 from roughcontact.files.file_errors import ContentError, damage
@@ -123,7 +124,7 @@ def _index(archive: zipfile.ZipFile) -> Any:
     try:
         return yaml.load(archive.read("meta.yml"), Loader=loader)
     except yaml.YAMLError as error:
-        raise ValueError(str(error).splitlines()[0]) from error
+        raise InputError(str(error).splitlines()[0]) from error
 
 
 def _measurements(index: Any) -> Iterator[_Measurement]:

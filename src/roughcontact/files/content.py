@@ -48,7 +48,7 @@ def named(path: str | os.PathLike[str]) -> Iterator[str]:
     try:
         yield name
     except ContentError as error:
-        raise ReadError(name, error.problem, error.remedy) from error.__cause__
+        raise ReadError(name, error.message, error.remedy, error.place) from error.__cause__
 
 
 @contextmanager

@@ -82,7 +82,7 @@ def height_map(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
         found = _reader(kind).read(data, channel)
     except ContentError as error:
         if points := _points_on_a_line(data, kind):
-            problem = f"it is a profile of {points} heights, not a map ({error.problem})"
+            problem = f"it is a profile of {points} heights, not a map ({error.message})"
             raise ContentError(problem, "read it by read_line") from None
         raise
     require_map(found)

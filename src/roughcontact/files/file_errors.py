@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+
+from roughcontact.errors import InputError
 
 __all__ = ["ContentError", "ReadError", "SurfaceWarning"]
 
 
-@dataclass(eq=False, repr=False)
-class ContentError(ValueError):
+class ContentError(InputError):
     """Bytes that a reader cannot turn into heights; `content` makes a `ReadError` of it, which names the file."""
-
-    problem: str
-    remedy: str
 
 
 @contextmanager
@@ -39,8 +36,7 @@ def damage(
         raise ContentError(f"{problem} ({said(error)})", remedy) from error
 
 
-@dataclass(eq=False, repr=False)
-class ReadError(ValueError):
+class ReadError(InputError):
     """A file that cannot be turned into a surface, or into a curve.
 
     Parameters
@@ -51,6 +47,8 @@ class ReadError(ValueError):
         What is wrong, with the value that is wrong.
     remedy : str
         What the reader of the message can do about it.
+    place : str, optional
+        The arguments that correct it, such as ``"unit, size"``.
 
     Examples
     --------
@@ -62,12 +60,11 @@ class ReadError(ValueError):
     part.x3p: it cannot be opened (No such file or directory); check the path and the permissions
     """
 
-    file: str
-    problem: str
-    remedy: str
-
-    def __str__(self) -> str:
-        return f"{self.file}: {self.problem}; {self.remedy}"
+    def __init__(self, file: str, problem: str, remedy: str | None, place: str | None = None) -> None:
+        super().__init__(f"{file}: {problem}", remedy, place)
+        self.args = file, problem, remedy, place  # with which it is made again from a pickle
+        self.file = file
+        self.problem = problem
 
 
 class SurfaceWarning(UserWarning):

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.files.choice import choose, holds_a_profile, marked
 from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import Channel, HeightMap, as_heights, line_if_one_row
@@ -74,7 +75,7 @@ def _fields(data: bytes) -> list[_Field]:
     with damage("its tree of values is damaged", _AGAIN, (ValueError, KeyError, TypeError, struct.error)):
         name, start, end = _object(data, len(_MARK), len(data))
         if name != "GwyContainer" or end != len(data):
-            raise ValueError(f"a {name} of {end - start} bytes in a file of {len(data)}")
+            raise InputError(f"a {name} of {end - start} bytes in a file of {len(data)}")
         items = dict(_items(data, start, end))
         found = [
             _field(data, items, match[0], match[1]) for key in items if (match := _CHANNEL.fullmatch(key))
@@ -89,7 +90,7 @@ def _field(data: bytes, items: dict[str, Any], key: str, number: str) -> _Field:
     mask = items.get(f"/{number}/mask")
     covered = None if mask is None else _values(data, mask)[0]
     if covered is not None and covered.shape != heights.shape:
-        raise ValueError(f"a mask of {covered.shape} points over {heights.shape}")
+        raise InputError(f"a mask of {covered.shape} points over {heights.shape}")
     lateral, unit = (_unit(data, values.get(name)) for name in ("si_unit_xy", "si_unit_z"))
     # Gwyddion takes a side without its sign, and one of zero for none.
     sides = tuple(abs(float(values.get(name, 0.0))) for name in ("yreal", "xreal"))
@@ -112,7 +113,7 @@ def _values(data: bytes, place: tuple[str, int, int]) -> tuple[Array, dict[str, 
     nx, ny = values["xres"], values["yres"]
     kind, begin, count = values["data"]
     if name != "GwyDataField" or kind != "D" or min(nx, ny) < 1 or count != nx * ny:
-        raise ValueError(f"a {name} of {ny} x {nx} points with {count} numbers")
+        raise InputError(f"a {name} of {ny} x {nx} points with {count} numbers")
     return np.frombuffer(data, "<f8", count, begin).reshape(ny, nx), values
 
 
@@ -147,9 +148,9 @@ def _items(data: bytes, place: int, end: int) -> Iterator[tuple[str, Any]]:
             for _ in range(count):
                 place = _text(data, place, end)[1] if kind == "S" else _object(data, place, end)[2]
         else:
-            raise ValueError(f"{name!r} is of the unknown kind {kind!r}")
+            raise InputError(f"{name!r} is of the unknown kind {kind!r}")
         if place > end:
-            raise ValueError(f"{name!r} reaches beyond its object")
+            raise InputError(f"{name!r} reaches beyond its object")
         yield name, value
 
 
@@ -158,7 +159,7 @@ def _object(data: bytes, place: int, end: int) -> tuple[str, int, int]:
     name, place = _text(data, place, end)
     (size,) = struct.unpack_from("<I", data, place)
     if place + 4 + size > end:
-        raise ValueError(f"a {name} of {size} bytes reaches beyond the end: it is cut short")
+        raise InputError(f"a {name} of {size} bytes reaches beyond the end: it is cut short")
     return name, place + 4, place + 4 + size
 
 
@@ -166,5 +167,5 @@ def _text(data: bytes, place: int, end: int) -> tuple[str, int]:
     """Return a text that a zero byte ends, and where the next value begins."""
     stop = data.find(b"\0", place, end)
     if stop < 0:
-        raise ValueError("a text has no end")
+        raise InputError("a text has no end")
     return data[place:stop].decode(), stop + 1

@@ -183,7 +183,8 @@ def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
             remedy = (
                 f"pass channel= with the name of {'one of them' if heights else f'the heights, or {remedy}'}"
             )
-        raise ContentError(f"{problem}: {describe(channels) or 'it has none'}", remedy)
+        place = "channel" if channels else None
+        raise ContentError(f"{problem}: {describe(channels) or 'it has none'}", remedy, place)
     if isinstance(wanted, int):
         if 0 <= wanted < len(channels):
             return wanted
@@ -193,5 +194,7 @@ def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
                 if same(channel.name) == same(wanted):
                     return k
     raise ContentError(
-        f"it has no channel {wanted!r}, only {describe(channels)}", "pass channel= with one of these names"
+        f"it has no channel {wanted!r}, only {describe(channels)}",
+        "pass channel= with one of these names",
+        "channel",
     )

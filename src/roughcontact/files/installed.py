@@ -4,13 +4,69 @@ from __future__ import annotations
 
 import re
 import sys
+from dataclasses import dataclass
 from importlib import import_module
 
-from roughcontact.files.own_errors import PACKAGE, raised_in
+from roughcontact.errors import InputError
 
-__all__ = ["broken_package", "lacking"]
+__all__ = ["Requirement", "broken_package", "lacking", "requirements"]
 
+PACKAGE = "roughcontact"
 _NAME = re.compile(r"[\w.-]+")
+_WANTED = re.compile(r"([\w.-]+)[^;]*?>=([\d.]+)")
+_BELOW = re.compile(r"""python_version < ['"]([\d.]+)""")
+_EXTRA = re.compile(r"""extra == ['"](\w+)""")
+
+
+@dataclass(frozen=True, slots=True)
+class Requirement:
+    """A package that this one requires, or that one of its extras does: as the metadata of the installation states it.
+
+    Parameters
+    ----------
+    name, least : str
+        Its name and lowest version.
+    extra : str
+        The extra that wants it; empty where it is always wanted.
+    version : str or None
+        The version that is installed.
+    """
+
+    name: str
+    least: str
+    extra: str
+    version: str | None
+
+    @property
+    def problem(self) -> str | None:
+        """What is wrong with it, and the command that mends it; None if it is there and new enough."""
+        if self.version is not None and _parts(self.version) >= _parts(self.least):
+            return None
+        lack = "is not installed" if self.version is None else f"{self.version} is older than {self.least}"
+        return f"the package {self.name} {lack}; {_command(self.name)}"
+
+
+def requirements() -> list[Requirement]:
+    """Return the packages that the metadata of the installation name for this Python.
+
+    Raises
+    ------
+    PackageNotFoundError
+        If this package is run from its source, without metadata.
+    """
+    from importlib.metadata import PackageNotFoundError, requires, version
+
+    found = []
+    for text in requires(PACKAGE) or []:
+        wanted, below, extra = _WANTED.match(text), _BELOW.search(text), _EXTRA.search(text)
+        if wanted is None or (below and sys.version_info >= _parts(below[1])):
+            continue
+        try:
+            installed = version(wanted[1])
+        except PackageNotFoundError:
+            installed = None
+        found.append(Requirement(wanted[1], wanted[2], extra[1] if extra else "", installed))
+    return found
 
 
 def lacking(*modules: str) -> tuple[str, str] | None:
@@ -24,25 +80,33 @@ def lacking(*modules: str) -> tuple[str, str] | None:
     return None
 
 
-def broken_package(error: BaseException) -> str | None:
-    """Return what an error says about a package of others that is missing or broken, with the remedy; None of others.
+def broken_package(error: BaseException) -> InputError | None:
+    """Return the error of a package of others that is missing or broken; None of every other error.
 
     A name that we ask a module for, and that it does not have, is a mistake of ours.
     """
     if not isinstance(error, ImportError):
         return None
-    asked = raised_in(error)[1]
+    asked = _raised_in(error)
     package = (error.name or asked).partition(".")[0]
     if package in sys.stdlib_module_names | {"", PACKAGE}:
         return None
     missing = isinstance(error, ModuleNotFoundError)
     if missing and error.name == package:
-        return f"the package {package} is not installed; {_command(package)}"
+        return InputError(f"the package {package} is not installed", _command(package))
     if asked == PACKAGE and not missing:
         return None
-    return (
-        f"the package {package} cannot be loaded ({_line(error)}); {_command(package, '--force-reinstall ')}"
+    return InputError(
+        f"the package {package} cannot be loaded ({_line(error)})", _command(package, "--force-reinstall ")
     )
+
+
+def _raised_in(error: BaseException) -> str:
+    """Return the package that raised an error, by its name and not its file, which bundles of programs do not have."""
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    return "" if last is None else str(last.tb_frame.f_globals.get("__name__")).partition(".")[0]
 
 
 def _command(module: str, options: str = "") -> str:
@@ -56,6 +120,10 @@ def _command(module: str, options: str = "") -> str:
     wanted = (text.partition(";")[0].strip() for text in required)
     named = {_same(match[0]): text for text in wanted if (match := _NAME.match(text))}
     return f'run: {sys.executable} -m pip install {options}"{named.get(_same(module), PACKAGE)}"'
+
+
+def _parts(version: str) -> tuple[int, ...]:
+    return tuple(map(int, re.findall(r"\d+", version)))
 
 
 def _same(name: str) -> str:

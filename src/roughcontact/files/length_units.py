@@ -6,6 +6,8 @@ import math
 import re
 import unicodedata
 
+from roughcontact.errors import InputError, about
+
 __all__ = ["is_length", "length_factor", "parse_length", "stated_length"]
 
 # Keys in the form NFKC, which makes one sign of the two micro signs and one of the two angstrom signs.
@@ -62,7 +64,7 @@ def length_factor(unit: str | float) -> float:
         return _by_pint(unit) if factor is None else factor
     factor = float(unit)
     if not (math.isfinite(factor) and factor > 0):
-        raise ValueError(f"unit must be a positive number of metres or one of {_KNOWN}, not {unit}")
+        raise about("unit", f"must be a length above 0, not {unit}", f"use {_KNOWN}, or a number of metres")
     return factor
 
 
@@ -71,12 +73,12 @@ def parse_length(value: str | float) -> float:
     if isinstance(value, str):
         parts = _QUANTITY.fullmatch(value)
         if parts is None or not parts[2]:
-            raise ValueError(f"length {value!r} needs a number and a unit, such as '10 um'")
+            raise InputError(f"length {value!r} needs a number and a unit, such as '10 um'")
         length = float(parts[1]) * length_factor(parts[2])
     else:
         length = float(value)
     if not (math.isfinite(length) and length > 0):
-        raise ValueError(f"length must be positive and finite, not {value!r}")
+        raise InputError(f"length must be positive and finite, not {value!r}")
     return length
 
 
@@ -98,9 +100,11 @@ def _by_pint(unit: str) -> float:
 
     try:
         if not unit.strip():
-            raise ValueError(unit)
+            raise InputError(unit)
         return parse(f"1 {unit}", LENGTH)
     except ValueError as error:
-        raise ValueError(
-            f"unit {unit!r} is not a unit of length known here; use {_KNOWN}, or a number of metres"
+        raise InputError(
+            f"unit {unit!r} is not a unit of length known here",
+            f"use {_KNOWN}, or a number of metres",
+            place="unit",
         ) from error

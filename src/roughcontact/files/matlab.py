@@ -6,6 +6,7 @@ import math
 import struct
 import zlib
 
+from roughcontact.errors import InputError
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import damage
 
@@ -37,7 +38,7 @@ def require_whole(data: bytes) -> None:
         while place < len(data):
             kind, size = struct.unpack_from(order + "2I", data, place)
             if place + _TAG + size > len(data):
-                raise ValueError(f"an element of {size} bytes reaches beyond its end")
+                raise InputError(f"an element of {size} bytes reaches beyond its end")
             body = data[place + _TAG : place + _TAG + size]
             if kind == _COMPRESSED:
                 _require_packed(body, order)
@@ -58,7 +59,7 @@ def _require_packed(packed: bytes, order: str) -> None:
         left -= len(part)
     # One more byte would be one too many; asking for it lets the checksum be compared.
     if left != 0 or unpacker.decompress(unpacker.unconsumed_tail, 1) or not unpacker.eof:
-        raise ValueError("a compressed array holds more or less than it announces")
+        raise InputError("a compressed array holds more or less than it announces")
 
 
 def _require_numbers(body: bytes, order: str, size: int) -> None:
@@ -69,7 +70,7 @@ def _require_numbers(body: bytes, order: str, size: int) -> None:
         return
     shape = struct.unpack_from(f"{order}{bytes_of_shape // 4}i", body, 16 + _TAG)
     if min(shape, default=0) < 0:
-        raise ValueError(f"an array of {' x '.join(map(str, shape))} points")
+        raise InputError(f"an array of {' x '.join(map(str, shape))} points")
     points = math.prod(shape)
     require_memory(BYTES_PER_POINT * points)
     place = _after(body, order, 16)  # its name
@@ -78,7 +79,7 @@ def _require_numbers(body: bytes, order: str, size: int) -> None:
         kind, count, start = _tag(body, order, place)
         stored = _STORED.get(kind, 0)
         if count != points * stored or start + count > size:
-            raise ValueError(f"{count} bytes for an array of {' x '.join(map(str, shape))} points")
+            raise InputError(f"{count} bytes for an array of {' x '.join(map(str, shape))} points")
         place = start + count + -count % 8
         if place > len(body):
             return  # the imaginary part lies beyond what was unpacked

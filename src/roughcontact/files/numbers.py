@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.files.fields import (
     EMPTY,
     fields_of,
@@ -89,7 +90,7 @@ class Marks:
         number = number_of(text)
         if math.isnan(number) and not _PLAIN_MARK.fullmatch(text):
             if not is_mark(text):
-                raise ValueError(text)
+                raise InputError(text)
             self.counts[text] += 1
         return number
 

@@ -13,6 +13,7 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import written_aside
 from roughcontact.files.bare_table import heights_alone
 from roughcontact.files.file_bounds import unzip
@@ -82,22 +83,22 @@ def read_npy_header(stream: IO[bytes]) -> NpyHeader:
     start = stream.read(12)
     version = start[6:8]
     if not start.startswith(_MAGIC) or version not in (b"\1\0", b"\2\0", b"\3\0"):
-        raise ValueError("it does not begin as one")
+        raise InputError("it does not begin as one")
     wide = version != b"\1\0"
     length = int.from_bytes(start[8:12] if wide else start[8:10], "little")
     offset = length + (12 if wide else 10)
     if length > _LONGEST:
-        raise ValueError(f"a header of {length} bytes")
+        raise InputError(f"a header of {length} bytes")
     text = (start + stream.read(offset - len(start)))[:offset].decode("latin-1")
     found = [pattern.search(text) for pattern in (_DESCR, _ORDER, _SHAPE)]
     if len(text) < offset or None in found:
-        raise ValueError("its header is damaged, or of values of no plain type")
+        raise InputError("its header is damaged, or of values of no plain type")
     descr, order, shape = (match[1] for match in found if match is not None)
     counts = tuple(int(n.strip().rstrip("L")) for n in shape.split(",") if n.strip())
     try:
         dtype = np.dtype(descr)
     except TypeError as error:
-        raise ValueError(f"values of type {descr}") from error
+        raise InputError(f"values of type {descr}") from error
     return NpyHeader(dtype, counts, order == "True", offset)
 
 
@@ -165,7 +166,7 @@ def whole_npy_header(stream: IO[bytes], size: int) -> NpyHeader:
     try:
         header = read_npy_header(stream)
         if header.size > size:
-            raise ValueError(f"{size} of {header.size} bytes are there")
+            raise InputError(f"{size} of {header.size} bytes are there")
     except (ValueError, OverflowError) as error:
         raise _not_whole(error) from error
     if header.size < size:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +28,7 @@ def provenance(
     control: str | None = None,
     tolerance: float | None = None,
     command: Sequence[str] | str | None = None,
+    recipe: Mapping[str, Any] | None = None,
 ) -> dict[str, str | float]:
     """Return what a result needs to be understood and repeated, as attributes of a file.
 
@@ -42,6 +44,8 @@ def provenance(
         Tolerance asked of the certificate.
     command : str or sequence of str, optional
         The command line, where there was one.
+    recipe : mapping, optional
+        The job as plain values, which are written as JSON.
 
     Returns
     -------
@@ -69,6 +73,8 @@ def provenance(
     if command is not None:
         text = command if isinstance(command, str) else " ".join(command)
         lines["history"] = f"{now}: {text}"
+    if recipe is not None:
+        lines["recipe"] = json.dumps(recipe, ensure_ascii=True)
     return {name: _plain(value) for name, value in lines.items() if value is not None}
 
 

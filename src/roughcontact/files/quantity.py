@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from roughcontact.units import registry
+from roughcontact.errors import InputError
 
 __all__ = [
     "AREA",
@@ -22,7 +22,6 @@ __all__ = [
     "has_unit",
     "parse",
     "parse_number",
-    "parse_with_unit",
     "unit_in",
 ]
 
@@ -69,34 +68,20 @@ def parse(text: str, kind: Kind) -> float:
     ValueError
         If the text is no finite number with a unit of that kind.
     """
-    expected = f"expected {kind.name} such as {kind.example}"
+    remedy = f"write {kind.name} such as {kind.example}"
     match = _NUMBER.fullmatch(text)
     if match is None:
-        raise ValueError(f"{text!r} does not start with a number; {expected}")
+        raise InputError(f"{text!r} does not start with a number", remedy)
     if match[2].startswith(","):
-        raise ValueError(f"{text!r} holds a comma: write the decimal point as '.'; {expected}")
+        raise InputError(f"{text!r} holds a comma", f"write the decimal point as '.'; {remedy}")
     number, unit = float(match[1]), match[2]
     value = number if unit in ("", kind.unit) else number * _factor(unit, kind, text)
     if not math.isfinite(value):
-        raise ValueError(f"{text!r} is not a finite number; {expected}")
+        raise InputError(f"{text!r} is not a finite number", remedy)
     if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
-        raise ValueError(
-            f"{text!r} is beyond anything of this world: check its exponent and unit; {expected}"
+        raise InputError(
+            f"{text!r} is beyond anything of this world", f"check its exponent and unit; {remedy}"
         )
-    return value
-
-
-def parse_with_unit(text: str, kind: Kind) -> float:
-    """Return the quantity in SI; a bare number is refused, since metres or pascals are hardly ever meant.
-
-    Raises
-    ------
-    ValueError
-        If the text is no finite number with a unit of that kind.
-    """
-    value = parse(text, kind)
-    if not has_unit(text):
-        raise ValueError(f"{text.strip()!r} has no unit: write {kind.name} such as {kind.example}")
     return value
 
 
@@ -119,12 +104,12 @@ def parse_number(text: str, example: str) -> float:
     ValueError
         If the text is no finite number.
     """
-    expected = f"expected a number such as {example}"
+    remedy = f"write a number such as {example}"
     match = _NUMBER.fullmatch(text)
     if match is not None and match[2].startswith(","):
-        raise ValueError(f"{text!r} holds a comma: write the decimal point as '.'; {expected}")
+        raise InputError(f"{text!r} holds a comma", f"write the decimal point as '.'; {remedy}")
     if match is None or match[2] or not math.isfinite(float(match[1])):
-        raise ValueError(f"{text!r} is not a number; {expected}")
+        raise InputError(f"{text!r} is not a number", remedy)
     return float(match[1])
 
 
@@ -133,17 +118,19 @@ def _factor(unit: str, kind: Kind, text: str) -> float:
     prefix = unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit  # not of m^2: (mm)^2 is none of it
     if prefix != unit and prefix in _PREFIXES:
         return _PREFIXES[prefix]
-    expected = f"expected {kind.name} such as {kind.example}"
+    from roughcontact.units import registry  # late: it brings NumPy, and pint when it is called
+
+    remedy = f"write {kind.name} such as {kind.example}"
     # Asked for a unit that is right first: a broken pint is not the fault of the given one.
     units = registry()
     wanted = units.parse_units(kind.unit).dimensionality
     try:
         if _UNIT.fullmatch(unit) is None:
-            raise ValueError(unit)
+            raise InputError(unit)
         given = units.Quantity(1.0, units.parse_units(unit))
         right = given.check(wanted)
     except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
-        raise ValueError(f"unknown unit {unit!r} in {text!r}; {expected}") from error
+        raise InputError(f"unknown unit {unit!r} in {text!r}", remedy) from error
     if not right:
-        raise ValueError(f"{text!r} is not {kind.name}; {expected}")
+        raise InputError(f"{text!r} is not {kind.name}", remedy)
     return float(given.to(kind.unit).magnitude)

@@ -21,6 +21,7 @@ from roughcontact.files.heightmap import Channel, HeightMap, as_heights, require
 from roughcontact.files.length_units import length_factor
 from roughcontact.files.numpy_files import NpyHeader, whole_npy_header
 from roughcontact.files.table_axes import axes_of
+from roughcontact.progress.events import task
 from roughcontact.slabs.agreement import by_each, by_first
 from roughcontact.slabs.by_rows import scatter_from_first
 from roughcontact.slabs.slabs import Slabs
@@ -203,7 +204,7 @@ def _read(
             found = reader(data, Path(file).suffix.casefold(), channel)
             return assemble(found, file, hashlib.sha256(data).hexdigest()[:16], **stated)
 
-    with named(path) as file:
+    with named(path) as file, task(f"Reading {file}"):
         if slabs is None:
             surface, messages = whole()
         elif Path(path).suffix.casefold() == ".npy" and channel is None:

@@ -23,6 +23,7 @@ from roughcontact.contact.dataset import numbers_dataset, solution_dataset, solu
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.evaluation.interface_table import InterfaceTable
 from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
@@ -36,6 +37,7 @@ from roughcontact.friction.slip_curve import SlipCurve
 from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.slabs.slab_array import SlabArray
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 
 if TYPE_CHECKING:
@@ -101,7 +103,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
         _OF_AN_INTERFACE[kind](what, path)
         return
     if not isinstance(what, Surface | Pressed):
-        raise WriteError(f"cannot write a {type(what).__name__}; give a Surface, a solution or a curve")
+        raise WriteError(f"cannot write a {type(what).__name__}", "give a Surface, a solution or a curve")
     field = what.heights if isinstance(what, Surface) else getattr(what, "pressure", None)
     if isinstance(field, SlabArray):
         _require_kind(path, f"{type(what).__name__} in slabs", _IN_SLABS[type(what)])
@@ -112,8 +114,10 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     )
     hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
     kind = _require_kind(path, type(what).__name__, formats, hint)
+    encoded = analysed_on_host(formats[kind])
+    here = what.on_host() if isinstance(what, Solution | TangentialSolution) else what
     with written_aside(path) as aside:
-        aside.write_bytes(formats[kind](what))
+        aside.write_bytes(encoded(here))
 
 
 def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
@@ -237,7 +241,7 @@ def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
         If the grid is one of rings, which image data cannot hold.
     """
     if isinstance(grid, RadialGrid):
-        raise ValueError("ParaView's image data hold cells in rows, not rings; write another format")
+        raise InputError("ParaView's image data hold cells in rows, not rings", "write another format")
     ny, nx = (1, *grid.shape)[-2:]
     dy, dx = (grid.spacing[-1], *grid.spacing)[-2:]
     extent = f"0 {nx} 0 {ny if grid.ndim == 2 else 0} 0 0"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.heightmap import HeightMap, as_heights
@@ -144,7 +145,7 @@ def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
             unpacker = zlib.decompressobj()
             parts.append(unpacker.decompress(packed[place : place + part], min(whole, left) + 1))
             if len(parts[-1]) != whole or not unpacker.eof:
-                raise ValueError(f"a stream holds {len(parts[-1])} bytes where its table states {whole}")
+                raise InputError(f"a stream holds {len(parts[-1])} bytes where its table states {whole}")
             place += part
             left -= min(whole, left)
     unpacked = b"".join(parts)

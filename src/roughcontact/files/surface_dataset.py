@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.files.assemble import Length, Size, assemble, plain_lengths
 from roughcontact.files.content import named
 from roughcontact.files.file_errors import SurfaceWarning
@@ -15,7 +16,7 @@ from roughcontact.files.netcdf import StoredVariable, height_map_of
 from roughcontact.files.provenance import provenance
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import centres, dataset_of, sizes, variable
-from roughcontact.surface.in_memory import on_host_only
+from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.units import in_si
 
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["dataset_without_heights", "surface_dataset", "surface_of"]
 
 
-@on_host_only
+@analysed_on_host
 def surface_dataset(surface: Surface) -> xarray.Dataset:
     """Return the heights as a dataset of xarray, with units, places of the cells, and provenance.
 
@@ -108,8 +109,10 @@ def surface_of(
     Grid(shape=(64,), spacing=(5e-07,), periodic=(False,))
     """
     if not hasattr(array, "coords"):
-        raise ValueError(
-            f"an xarray.DataArray is wanted, not a {type(array).__name__}: give Surface(heights, grid)"
+        raise InputError(
+            f"an xarray.DataArray is wanted, not a {type(array).__name__}",
+            "give Surface(heights, grid)",
+            place="array",
         )
     unit, size = plain_lengths(unit, size)
     variables = {"heights": _stored(array)}

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.files.installed import lacking
 from roughcontact.labels.labelled import attributes_of
@@ -132,7 +133,7 @@ def require_netcdf() -> None:
         If what writes it is not installed.
     """
     if (lack := lacking("h5py", "h5netcdf")) is not None:
-        raise WriteError(f"NetCDF needs {lack[0]}; {lack[1]}")
+        raise WriteError(f"NetCDF needs {lack[0]}", lack[1])
 
 
 def write_csv(
@@ -169,8 +170,8 @@ def write_csv(
     if dimension is None and "load" in dataset.sizes:
         dimension = "load"
     if dimension is not None and dimension not in dataset.sizes:
-        raise ValueError(
-            f"nothing lies along {dimension!r}: choose one of {', '.join(map(str, dataset.sizes))}"
+        raise InputError(
+            f"nothing lies along {dimension!r}", f"choose one of {', '.join(map(str, dataset.sizes))}"
         )
     along = () if dimension is None else (dimension,)
     columns: dict[str, xarray.DataArray] = {}
@@ -227,14 +228,15 @@ def plain_cells(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 def write_json(
     record: Mapping[str, Any], path: str | os.PathLike[str], provenance: Attributes | None = None
 ) -> None:
-    """Write a record as one JSON object, with the provenance under ``"provenance"``.
+    """Write a record as one JSON object, with what the provenance adds to it under ``"provenance"``.
 
     Raises
     ------
     WriteError
         If the file cannot be written.
     """
-    whole = dict(record) | ({"provenance": dict(provenance)} if provenance else {})
+    added = {name: value for name, value in (provenance or {}).items() if name not in record}
+    whole = dict(record) | ({"provenance": added} if added else {})
     # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
     write_text(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n", path)
 

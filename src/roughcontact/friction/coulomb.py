@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughcontact.arrays import as_like, inner, namespace, numbers
+from roughcontact.arrays import as_like, inner, namespace, on_host
 from roughcontact.validation import Array, Mask
 
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "projected", "projected_to_force", "violations"]
@@ -90,7 +90,7 @@ def _nearest(traction: Array, limit: Array, total: Array) -> Array:
         return result
 
     def excess(shift: Array) -> Array:
-        return numbers(xp.sum(projected(shifted(shift), limit), axis=1)) - total
+        return on_host(xp.sum(projected(shifted(shift), limit), axis=1)) - total
 
     shift = np.zeros(traction.shape[0])
     enough = FORCE * (float(xp.sum(limit)) + float(xp.sum(xp.abs(traction))))
@@ -112,7 +112,7 @@ def _newton_direction(shifted: Array, limit: Array, over: Array) -> Array:
     beyond = size > limit
     part = xp.where(beyond, limit / xp.where(beyond, size, 1.0), 1.0)
     normal = directions(shifted, beyond)
-    slope = float(xp.sum(part)) * np.eye(len(over)) - numbers((part * normal) @ normal.T)
+    slope = float(xp.sum(part)) * np.eye(len(over)) - on_host((part * normal) @ normal.T)
     if not slope.trace() > 0:  # one component, and all cells at their limits
         return np.asarray(np.sign(over) * float(xp.max(limit)))
     return np.asarray(np.linalg.solve(slope + SINGULAR * slope.trace() * np.eye(len(over)), over))

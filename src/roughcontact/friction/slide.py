@@ -7,9 +7,10 @@ from functools import partial
 
 import numpy as np
 
-from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, on_host
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.friction.coulomb import lengths
 from roughcontact.friction.newton import SlipNewton
 from roughcontact.friction.slip_problem import Load, Pull, Shift, SlipProblem, continued, make_problem
@@ -17,6 +18,7 @@ from roughcontact.friction.slip_solution import TangentialSolution
 from roughcontact.friction.slip_step import Slipped, SlipStep
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
+from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, number, numeric
@@ -161,8 +163,9 @@ def slide_path(
     problem = make_problem(solution, bodies, friction, along=along, operator=operator, tolerance=tolerance)
     name, given = exactly_one(forces=forces, displacements=displacements)
     if not (hasattr(given, "__len__") and len(given)):
-        raise ValueError(f"a path needs at least one load, in a row, not {given}")
-    return _follow(problem, [problem.load(**{name.removesuffix("s"): value}) for value in given])
+        raise InputError(f"a path needs at least one load, in a row, not {given}")
+    loads = [problem.load(**{name.removesuffix("s"): value}) for value in given]
+    return tracked(_follow(problem, loads), "Sliding", "loads", len(loads))
 
 
 def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[TangentialSolution]:
@@ -202,10 +205,15 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     [0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
     """
     if int(steps) != steps or steps < 1 or int(cycles) != cycles or cycles < 0:
-        raise ValueError(f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}")
+        raise InputError(
+            f"a cycle needs whole numbers, steps >= 1 and cycles >= 0, not {steps} and {cycles}",
+            place="steps, cycles",
+        )
     largest = np.asarray(number(amplitude, "amplitude"))
     if largest.shape not in ((), (2,)) or not np.isfinite(largest).all():
-        raise ValueError(f"an amplitude is one finite number, or two (x, y), not {amplitude}")
+        raise InputError(
+            f"an amplitude is one finite number, or two (x, y), not {amplitude}", place="amplitude"
+        )
     since = np.arange(1 - steps, 4 * cycles * steps + 1) % (4 * steps)  # steps since the last upper reversal
     part = np.abs(since - 2 * steps) / steps - 1
     return np.multiply.outer(part, largest)
@@ -264,7 +272,7 @@ def _slid(step: SlipStep, force: Array) -> Slipped:
     q = step.limit * as_like(direction[:, None], step.limit)
     u = step.interface.apply(q)
     level = u - step.slip
-    shift = numbers(xp.mean(level, axis=1))
+    shift = on_host(xp.mean(level, axis=1))
     shift += (float(xp.max(as_like(direction, level) @ level)) - direction @ shift) * direction
     along = as_like(direction, level) @ step.slipped(u, shift)
     residual = step.residual(q, u, along * as_like(direction[:, None], along))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.arrays import inner, namespace, numbers
+from roughcontact.arrays import inner, namespace, on_host
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.validation import Array
 
@@ -107,11 +107,11 @@ def _preconditioner(interface: ContactCells, freedom: Freedom) -> Callable[[Arra
         return answer
     # Answers to common displacements, of which a combination removes a resultant.
     common = [answer(freedom.project(unit)) for unit in interface.units()]
-    shares = np.linalg.pinv(np.array([numbers(xp.sum(z, axis=1)) for z in common]).T)
+    shares = np.linalg.pinv(np.array([on_host(xp.sum(z, axis=1)) for z in common]).T)
 
     def without_resultant(r: Array) -> Array:
         z = answer(r)
-        for part, response in zip(shares @ numbers(xp.sum(z, axis=1)), common, strict=True):
+        for part, response in zip(shares @ on_host(xp.sum(z, axis=1)), common, strict=True):
             z -= float(part) * response
         return z
 

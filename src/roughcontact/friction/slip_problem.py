@@ -10,6 +10,7 @@ import numpy as np
 
 from roughcontact.arrays import namespace
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -107,25 +108,27 @@ class SlipProblem:
         if value.ndim == 0:
             value = value * np.asarray(self.along or (1.0, 0.0))
         if value.shape != (2,) or not np.isfinite(value).all():
-            raise ValueError(f"a tangential load is one finite number, or two (x, y), not {given}")
+            raise InputError(f"a tangential load is one finite number, or two (x, y), not {given}")
         load = (Pull if name == "force" else Shift)(*value.tolist())
         size = math.hypot(load.x, load.y)
         if size > LARGEST:
-            raise ValueError(f"a tangential load must be at most {LARGEST:g} in SI units, not {given}")
+            raise InputError(f"a tangential load must be at most {LARGEST:g} in SI units, not {given}")
         if self.along is not None:
             ex, ey = self.along
             if abs(load.x * ey - load.y * ex) > PARALLEL * size:
-                raise ValueError(
-                    f"traction acts along {self.along} only, and ({load.x:g}, {load.y:g}) does not: leave out `along`"
+                raise InputError(
+                    f"traction acts along {self.along} only, and ({load.x:g}, {load.y:g}) does not",
+                    "leave out `along`",
                 )
         if isinstance(load, Pull) and size > self.capacity * (1 + SLIDING):
-            raise ValueError(
-                f"friction holds at most mu P = {self.capacity:.6g} N, and {size:.6g} N makes the bodies slide away: "
-                "pull less, or press harder"
+            raise InputError(
+                f"friction holds at most mu P = {self.capacity:.6g} N, and {size:.6g} N makes the bodies slide away",
+                "pull less, or press harder",
             )
         if isinstance(load, Shift) and self.interface.floating:
-            raise ValueError(
-                "all cells of a periodic grid are in contact: no traction displaces their mean; give a force"
+            raise InputError(
+                "all cells of a periodic grid are in contact: no traction displaces their mean",
+                "give a force",
             )
         return load
 
@@ -142,16 +145,16 @@ def make_problem(
     """Return the problem, or say in a ValueError what is wrong with it."""
     kind = pressed.problem.geometry
     if kind is not Geometry.SURFACE:
-        raise ValueError(
-            f"partial slip is that of a surface of two axes, not of a {kind.value}: press a map of heights"
+        raise InputError(
+            f"partial slip is that of a surface of two axes, not of a {kind.value}", "press a map of heights"
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
-        raise ValueError("the bodies do not touch: nothing to pull at; press them first")
+        raise InputError("the bodies do not touch: nothing to pull at", "press them first")
     modulus, stated = reduced_modulus(*pair_of(bodies)), pressed.problem.modulus
     if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:
-        raise ValueError(
-            f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa: press "
-            "and pull the same"
+        raise InputError(
+            f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa",
+            "press and pull the same",
         )
     body = shear_body(pressed.problem.grid, bodies, operator)
     direction = None if along is None else _unit(along)
@@ -171,16 +174,16 @@ def continued(
 ) -> SlipProblem:
     """Return an earlier problem, whose operator is at hand, to another tolerance; all else must be the same."""
     if earlier.pressed is not pressed:
-        raise ValueError("the initial state is that of another contact: the pressure must stay as it is")
+        raise InputError("the initial state is that of another contact: the pressure must stay as it is")
     given = (bodies, friction, earlier.along if along is None else _unit(along))
     if given != (earlier.bodies, earlier.friction, earlier.along):
-        raise ValueError(
-            f"the initial state has bodies {earlier.bodies}, friction {earlier.friction} and along={earlier.along}: "
-            "go on with the same"
+        raise InputError(
+            f"the initial state has bodies {earlier.bodies}, friction {earlier.friction} and along={earlier.along}",
+            "go on with the same",
         )
     if operator is not None and operator is not earlier.operator:
-        raise ValueError(
-            "the initial state was found with another operator: go on with the same, or name none"
+        raise InputError(
+            "the initial state was found with another operator", "go on with the same, or name none"
         )
     return replace(earlier, tolerance=tolerance)
 

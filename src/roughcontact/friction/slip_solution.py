@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from roughcontact import methods
-from roughcontact.arrays import as_like, inner, is_numpy, namespace, numbers, on_host
+from roughcontact.arrays import as_like, inner, is_numpy, namespace, on_host
 from roughcontact.cached import cached_property
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import at_limit
@@ -86,7 +86,7 @@ class TangentialSolution:
     def force(self) -> Array:
         """Tangential force [N], shape (2,)."""
         traction = self._on_cells(self.traction)
-        return numbers(namespace(traction).sum(traction, axis=1)) * self.problem.interface.area
+        return on_host(namespace(traction).sum(traction, axis=1)) * self.problem.interface.area
 
     @cached_property
     def slipping(self) -> Mask:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughcontact.arrays import as_like, inner, namespace, numbers
+from roughcontact.arrays import as_like, inner, namespace, on_host
 from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import (
     at_limit,
@@ -66,7 +66,7 @@ class SlipStep:
         stored = inner(state.traction, state.displacement / 2 - self.slip)
         if self.shift is None:  # the work of a given force is the same for all tractions that add up to it
             return stored
-        return stored - float(self.shift @ numbers(namespace(state.traction).sum(state.traction, axis=1)))
+        return stored - float(self.shift @ on_host(namespace(state.traction).sum(state.traction, axis=1)))
 
     def admitted(self, traction: Array) -> Array:
         """Return the nearest traction that friction can hold, under the force if one is given."""
@@ -172,16 +172,16 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
     across = level - xp.sum(level * normal, axis=0) * normal
     weight = xp.ones_like(limit)
     for _ in range(2):  # the weights need a first answer: which cells slip, and how far
-        free = float(xp.sum(weight)) * np.eye(level.shape[0]) - numbers((weight * normal) @ normal.T)
-        shift = np.asarray(np.linalg.lstsq(free, numbers(across @ weight), rcond=None)[0], np.float64)
+        free = float(xp.sum(weight)) * np.eye(level.shape[0]) - on_host((weight * normal) @ normal.T)
+        shift = np.asarray(np.linalg.lstsq(free, on_host(across @ weight), rcond=None)[0], np.float64)
         forward = forward_of(shift)
         weight = 1 / (1 + xp.clip(-forward, 0.0, None) / (limit * self_influence))
     if bool(xp.all(xp.any(normal != 0, axis=0) & (forward > 0))):
         # All slip, and all the wrong way: the free part does not determine the shift. None slips forward from here on:
-        pull = numbers(normal @ limit)
+        pull = on_host(normal @ limit)
         pull /= np.sqrt(pull @ pull)
         leaning = as_like(pull, normal) @ normal
         if bool(xp.all(leaning > 0)):
-            mean = numbers(xp.mean(level, axis=1))
+            mean = on_host(xp.mean(level, axis=1))
             return np.asarray(mean + pull * float(xp.max(forward_of(mean) / leaning)))
     return shift

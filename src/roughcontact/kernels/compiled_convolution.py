@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.kernels.buffers import aligned, empty
 from roughcontact.kernels.calls import Operand
 from roughcontact.kernels.loader import functions
@@ -70,7 +71,7 @@ class CompiledConvolution:
     def apply(self, plane: Array) -> Array:
         """Return the convolution of a field, padded by zeros, cut back to its own shape."""
         if plane.shape != self.shape:  # machine code looks at nothing twice
-            raise ValueError(f"a field of shape {plane.shape} where {self.shape} is expected")
+            raise InputError(f"a field of shape {plane.shape} where {self.shape} is expected")
         plan, (ny, nx) = self.plan, self.shape
         convolve = functions("fft", plan.precision)["convolve"]
         lanes, blocks, scratch, rows = plan.lanes, plan.blocks, plan.scratch, plan.padded(ny)

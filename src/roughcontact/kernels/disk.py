@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-__all__ = ["DIGEST", "keep", "private", "read"]
+__all__ = ["DIGEST", "cache_folder", "keep", "private", "read"]
 
 DIGEST = 32  # bytes of the digest of key and code, before the code
 
@@ -18,7 +18,7 @@ DIGEST = 32  # bytes of the digest of key and code, before the code
 def read(name: str, key: bytes) -> bytes | None:
     """Return the code that is kept in that file under that key, of 32 bytes; None if there is none to be trusted."""
     try:
-        folder = private(_folder())
+        folder = private(cache_folder())
         if folder is None:
             return None
         with open(folder / name, "rb", opener=_without_links) as file:
@@ -34,7 +34,7 @@ def read(name: str, key: bytes) -> bytes | None:
 def keep(name: str, key: bytes, code: bytes) -> None:
     """Keep the code if there is a place for it; whoever reads meanwhile finds all of it or none."""
     with contextlib.suppress(OSError):
-        wanted = _folder()
+        wanted = cache_folder()
         missing = [place for place in (wanted, *wanted.parents) if not place.exists()]
         for place in reversed(missing):
             place.mkdir(mode=0o700, exist_ok=True)
@@ -84,7 +84,14 @@ def _without_links(path: str, flags: int) -> int:
     return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
 
 
-def _folder() -> Path:
+def cache_folder() -> Path:
+    """Return the folder where code is kept.
+
+    Raises
+    ------
+    OSError
+        If the user has no home.
+    """
     import platformdirs
 
     folder = platformdirs.user_cache_path("roughcontact")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from typing import NamedTuple
 
+from roughcontact.errors import InputError
+
 __all__ = ["VARIABLE", "Processor", "is_off", "processor"]
 
 VARIABLE = "ROUGHCONTACT_CPU"  # of the environment, read once by a process
@@ -58,11 +60,11 @@ def processor() -> Processor:
     known = _NEEDED.get(binding.get_default_triple().partition("-")[0], {})
     choice = f"choose one of {', '.join((NATIVE, OFF, *known))}"
     if name not in known:
-        raise ValueError(f"{VARIABLE}={name!r} is not a processor known here: {choice}")
+        raise InputError(f"{VARIABLE}={name!r} is not a processor known here", choice)
     lacking = [feature for feature in known[name] if not has.get(feature)]
     if lacking:
-        raise ValueError(
-            f"{VARIABLE}={name!r} needs {', '.join(lacking)}, which this machine ({host}) lacks: {choice}"
+        raise InputError(
+            f"{VARIABLE}={name!r} needs {', '.join(lacking)}, which this machine ({host}) lacks", choice
         )
     return Processor(name, "")
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Capabilities
@@ -150,5 +151,5 @@ def foundation(grid: Grid, modulus: float | Solid | tuple[Solid, Solid]) -> Foun
     [0.0, 1e-09, 2e-09, 0.0]
     """
     if not isinstance(grid, Grid) or grid.ndim != 1:
-        raise ValueError("a Winkler foundation carries a line: give a grid of one axis, Grid(n, spacing)")
+        raise InputError("a Winkler foundation carries a line", "give a grid of one axis, Grid(n, spacing)")
     return Foundation(grid, as_modulus(modulus))

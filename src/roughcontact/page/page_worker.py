@@ -13,18 +13,22 @@ import sys
 import threading
 import traceback
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
 
+from roughcontact.errors import InputError
 from roughcontact.page.frames import LENGTHS, header_of, lengths_of, packed
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
-from roughcontact.page.server.page_request import Job, PageRequest, Send
+from roughcontact.page.server.page_request import PageJob, PageRequest, Send
 from roughcontact.page.stopping import Stopped, Stopping
+from roughcontact.progress.events import listening
 
 __all__ = ["main", "perform"]
 
 _SHARE = 0.75  # of the memory that is free when it starts
+_INTERVAL = 0.3  # seconds between two messages about how far a task is
 
 
 def main() -> None:
@@ -57,12 +61,18 @@ def main() -> None:
 
 
 def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping: Stopping) -> None:
-    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program."""
+    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program.
+
+    How far it is goes before, as messages of the type "progress".
+    """
     end: dict[str, Any] = {"type": "end", "how": "done"}
     try:
         stopping.begin(given["number"])
         request = _request(given)
-        with contextlib.redirect_stdout(io.StringIO()):
+        with (
+            contextlib.redirect_stdout(io.StringIO()),
+            listening(lambda event: send({"type": "progress", **asdict(event)}), interval=_INTERVAL),
+        ):
             _job(given["job"])(request, cache, send)
     except Stopped:
         end["how"] = "stopped"
@@ -70,7 +80,8 @@ def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping:
         cache.kept.clear()
         end |= {
             "how": "refused",
-            "message": "The memory does not suffice for that many points: crop or subsample.",
+            "message": "The memory does not suffice for that many points.",
+            "remedy": "Crop or subsample.",
         }
     except Exception as error:
         from roughcontact.page.refusal import refusal
@@ -84,24 +95,22 @@ def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping:
 
 
 def _request(given: Mapping[str, Any]) -> PageRequest:
-    from roughcontact.page.recipe import as_recipe
-
     files = {key: UploadedFile(Path(each["path"]), each["name"]) for key, each in given["files"].items()}
-    return PageRequest(as_recipe(given["recipe"]), files, given.get("more") or {})
+    return PageRequest.of(given["recipe"], files, given.get("more") or {})
 
 
-def _job(name: str) -> Job:
+def _job(name: str) -> PageJob:
     from roughcontact.page.jobs.bodies_job import bodies
     from roughcontact.page.jobs.curve_jobs import curve, theories
     from roughcontact.page.jobs.export_job import export
     from roughcontact.page.jobs.press_jobs import cut, press
     from roughcontact.page.jobs.surface_jobs import look, study
 
-    jobs: dict[str, Job] = {
+    jobs: dict[str, PageJob] = {
         each.__name__: each for each in (look, study, bodies, press, cut, curve, theories, export)
     }
     if name not in jobs:
-        raise ValueError(f"there is no job {name!r}")
+        raise InputError(f"there is no job {name!r}")
     return jobs[name]
 
 
@@ -118,20 +127,18 @@ def _listen(requests: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str,
 def _warm_up() -> Iterator[None]:
     """Load, step by step, what requests take: modules, units, and the machine code of the solvers."""
 
-    def made(points: int, *, periodic: bool = False) -> dict[str, Any]:
-        return {
-            **{"kind": "made", "hurst": "0.8", "rms": "0.1um", "size": "0.5mm"},
-            **{"points": points, "periodic": periodic},
-        }
+    def asked(job: str, points: str, **more: Any) -> dict[str, Any]:
+        made = {"kind": "self-affine", "hurst": "0.8", "rms": "0.1um", "size": "0.5mm", "points": points}
+        return {"job": job, "source": made, **more}
 
-    light, heavy = ({"control": "pressure", "text": text} for text in ("0.1MPa", "10MPa"))
+    def pressed(points: str, pressure: str) -> dict[str, Any]:
+        return asked("press", points, bodies={"modulus": "100GPa"}, load={"pressure": pressure})
+
+    # Large enough for every method of the solvers.
     steps: list[tuple[str, dict[str, Any]]] = [
-        ("look", {"source": made(64)}),
-        ("press", {"source": made(64, periodic=True), "load": light}),
-        # Large enough for every method of the solvers.
-        ("press", {"source": made(512), "load": light}),
-        ("press", {"source": made(512), "load": heavy}),
-        ("study", {"source": made(64)}),
+        ("look", asked("surface", "64")),
+        *(("press", pressed(*load)) for load in (("64", "0.1MPa"), ("512", "0.1MPa"), ("512", "10MPa"))),
+        ("study", asked("surface", "64")),
     ]
     cache = SessionCache()
     for job, recipe in steps:

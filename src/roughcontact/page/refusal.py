@@ -1,59 +1,59 @@
-"""Why a request was refused, in words for a page: what is wrong, and which of its fields mends it."""
+"""Why a request was refused, in words for a page: what is wrong, what to do, and which of its fields it concerns."""
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import Any
 
+from roughcontact.errors import correctable
 from roughcontact.files.file_errors import ReadError
-from roughcontact.files.own_errors import is_ours
-from roughcontact.page.field_error import FieldError
 
-__all__ = ["refusal"]
+__all__ = ["on_the_page", "refusal"]
 
-# Errors of the library name keywords of Python; the page has fields of these names.
-_KEYWORDS = {
+# What the library says by names and calls of Python.
+_WORDS = {
     "poisson_ratio": "Poisson's ratio",
     "young_modulus": "Young's modulus",
     "short_cutoff": "the short cut-off",
     "long_cutoff": "the long cut-off",
+    "pass channel= for another": "choose another under Channel",
+    "take them out by masked()": "crop them away",
+    "unit=": "the unit of the heights",
+    "size=": "the width",
 }
-_FIELDS = {"unit": "the unit of the heights", "size": "the width of the map", "channel": "the channel"}
+_LACKING = {"unit": "the unit of the heights", "size": "the width of the map", "channel": "the channel"}
 
 
 def refusal(error: Exception) -> dict[str, Any]:
     """Return how a request ended that raised an error: refused, or with a mistake of this program."""
-    if isinstance(error, FieldError):
-        end = refusal(error.error) | {"field": error.field}
-        for keyword, words in _KEYWORDS.items():
-            end["message"] = re.sub(keyword, words, end["message"], flags=re.IGNORECASE)
-        return end | {"message": _sentence(end["message"])}
-    if isinstance(error, ReadError):
-        lacking = [name for name in _FIELDS if re.search(rf"\b{name}=", error.remedy)]
-        remedy = error.remedy
-        if lacking:
-            remedy = f"Give {' and '.join(_FIELDS[name] for name in lacking)}."
-        elif "read_line" in remedy:
+    found = correctable(error)
+    if found is None:
+        words = f"{type(error).__name__}: {error}"
+        return {"how": "mistake", "message": f"This is a mistake in roughcontact, not in your input: {words}"}
+    if isinstance(error, OSError):  # its folder is the server's: the user knows the name alone
+        return _refused(found.message.replace(str(found.place), f"the file {Path(str(found.place)).name}"))
+    places = [] if found.place is None else found.place.split(", ")
+    message, remedy = found.message, found.remedy
+    if isinstance(found, ReadError):
+        message, fields = found.problem, [place.rpartition(".")[2] for place in places]
+        if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
+            remedy = f"Give {' and '.join(lacking)}."
+        elif remedy is not None and "read_line" in remedy:
             remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
-        return {
-            "how": "refused",
-            "message": _sentence(error.problem),
-            "remedy": _sentence(remedy),
-            "lacking": lacking,
-        }
-    if isinstance(error, ValueError | OSError) and is_ours(error):
-        return {"how": "refused", "message": _sentence(_words(error))}
-    words = f"{type(error).__name__}: {error}"
-    return {"how": "mistake", "message": f"This is a mistake in roughcontact, not in your input: {words}"}
+    return _refused(message, remedy) | {"places": places}
 
 
-def _words(error: ValueError | OSError) -> str:
-    """Return a message without the folder in which the server keeps the file: its user knows the name alone."""
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"the file {Path(os.fsdecode(error.filename)).name}: {error.strerror or error}"
-    return str(error)
+def on_the_page(text: str) -> str:
+    """Return what the library says, in the words of the page: fields by their labels."""
+    for python, words in _WORDS.items():
+        text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
+    return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)
+
+
+def _refused(message: str, remedy: str | None = None) -> dict[str, Any]:
+    advice = {} if remedy is None else {"remedy": _sentence(on_the_page(remedy))}
+    return {"how": "refused", "message": _sentence(on_the_page(message))} | advice
 
 
 def _sentence(text: str) -> str:

@@ -13,17 +13,16 @@ from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import about
 from roughcontact.plot import curves, loops, maps, profile_plot
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
-from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 
 __all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
-@on_host_only
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights: a map in colour, of a profile a curve.
 
@@ -80,7 +79,7 @@ def plot_solution(
     'x [µm]'
     """
     if field not in ("pressure", "contact"):
-        raise ValueError(f"field must be 'pressure' or 'contact', not {field!r}")
+        raise about("field", f"must be 'pressure' or 'contact', not {field!r}")
     if solution.problem.grid.ndim == 1:
         one = {"pressure": profile_plot.pressure_profile, "contact": profile_plot.contact_profile}
         return one[field](solution, ax)
@@ -130,9 +129,9 @@ def plot_curve(
     ('log', 'contact area [µm²]')
     """
     if law is not None and "stiffness" not in quantity:
-        raise ValueError(f"law is about the stiffness: leave it out with {quantity!r}")
+        raise about("law", "is about the stiffness", f"leave it out with {quantity!r}")
     if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
-        raise ValueError(f"quantity must be one of {', '.join(every)}, not {quantity!r}")
+        raise about("quantity", f"must be one of {', '.join(every)}, not {quantity!r}")
     draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve
     return draw(curve, ax, quantity=quantity, law=law, theories=theories)
 
@@ -172,7 +171,7 @@ def plot_loop(
         return loops.bearing_curves(loop.surface, loop.flow, ax)
     draw = {"depth": loops.depth_loop, "stiffness": loops.stiffness_loop}
     if quantity not in draw:
-        raise ValueError(f"quantity must be one of {', '.join((*draw, 'bearing'))}, not {quantity!r}")
+        raise about("quantity", f"must be one of {', '.join((*draw, 'bearing'))}, not {quantity!r}")
     return draw[quantity](loop, ax)
 
 

@@ -288,7 +288,7 @@ def require_picture(path: str | os.PathLike[str]) -> str:
     """
     ending = Path(path).suffix.lower().removeprefix(".")
     if ending not in _FORMATS:
-        raise WriteError(f"cannot write the picture {path}: end its name in {', '.join(_FORMATS)}")
+        raise WriteError(f"cannot write the picture {path}", f"end its name in {', '.join(_FORMATS)}")
     return ending
 
 

@@ -100,9 +100,15 @@ def force_curve(
     >>> [rc.plot.force_curve(curve, quantity=each, theories=laws).get_ylabel() for each in ("contact_area", "depth")]
     ['contact area [µm²]', 'depth [µm]']
     """
-    require(quantity in OF_FORCE, f"quantity must be one of {', '.join(OF_FORCE)}, not {quantity!r}")
+    require(
+        quantity in OF_FORCE,
+        f"quantity must be one of {', '.join(OF_FORCE)}, not {quantity!r}",
+        place="quantity",
+    )
     stiffness = quantity == "stiffness"
-    require(stiffness or law is None, f"law is about the stiffness: leave it out with {quantity!r}")
+    require(
+        stiffness or law is None, "law is about the stiffness", f"leave it out with {quantity!r}", place="law"
+    )
     axes = axes_for(ax)
     _, y = scales = _draw(axes, curve, quantity)
     limits = _limits(curve) if stiffness else {}
@@ -179,7 +185,11 @@ def areal_curve(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('nominal pressure [bar]', 'mean gap [nm]')
     """
-    require(quantity in PER_AREA, f"quantity must be one of {', '.join(PER_AREA)}, not {quantity!r}")
+    require(
+        quantity in PER_AREA,
+        f"quantity must be one of {', '.join(PER_AREA)}, not {quantity!r}",
+        place="quantity",
+    )
     axes = axes_for(ax)
     of_theory = PER_AREA[quantity]
     words = [

@@ -49,7 +49,7 @@ def detachment_force(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
     'pull-off force 487 nN, 30 detachments'
     """
     axes, kind = axes_for(ax), curve.geometry
-    line = _line(curve)
+    line = line_of(curve)
     x = scale(float(np.abs(line[:, 0]).max(initial=0.0)), VARIABLES["depth"].unit)
     y = scale(float(np.abs(line[:, 1]).max(initial=0.0)), unit_of("force", kind))
     axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
@@ -90,7 +90,7 @@ def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
 def detachment_facts(curve: DetachmentCurve) -> list[tuple[str, str]]:
     """Return what a curve of stuck surfaces is worth telling, line by line."""
     kind = curve.geometry
-    depth, force = min(_line(curve), key=lambda point: point[1], default=(0.0, 0.0))
+    depth, force = min(line_of(curve), key=lambda point: point[1], default=(0.0, 0.0))
     at = f" at a depth of {quantity('depth', depth)}" if force < 0 else ""
     return [
         *_of_the_bodies(curve.work, curve.modulus),
@@ -114,7 +114,7 @@ def _count(number: int, name: str) -> str:
     return f"{number} {name}{'' if number == 1 else 's'}"
 
 
-def _line(curve: DetachmentCurve) -> Array:
+def line_of(curve: DetachmentCurve) -> Array:
     """Return depths and forces along the curve: between detachments the force is linear in the depth."""
     points: list[tuple[float, float]] = []
     for k, here in enumerate(zip(curve.depth, curve.force, strict=True)):

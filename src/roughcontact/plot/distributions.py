@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import scale, written
@@ -78,7 +79,7 @@ def pressure_distribution(
     grid, unit = solution.problem.grid, unit_of("pressure", solution.problem.geometry)
     pressures = solution.pressure[solution.contact]
     if not pressures.size:
-        raise ValueError("nothing is in contact: there is no pressure to show the distribution of")
+        raise InputError("nothing is in contact: there is no pressure to show the distribution of")
     axes = axes_for(ax)
     largest = float(pressures.max())
     end = (usual_range(np.append(0.0, pressures), _PART, _EDGES) or (0.0, largest))[1]

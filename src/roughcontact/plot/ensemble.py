@@ -10,6 +10,7 @@ import xarray
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 
+from roughcontact.errors import InputError
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import pretty
@@ -72,9 +73,9 @@ def mean_curves(
     points = force.dims[-1]
     groups = [d for d in mean.dims if d != points]
     if len(groups) > 1 or points not in mean.dims:
-        raise ValueError(
-            f"curves lie along {points!r} and one dimension of groups, not along {', '.join(map(str, mean.dims))}: "
-            "select or average the others first"
+        raise InputError(
+            f"curves lie along {points!r} and one dimension of groups, not along {', '.join(map(str, mean.dims))}",
+            "select or average the others first",
         )
     axes = axes_for(ax)
     half = 0.0 * mean if error is None else error
@@ -143,8 +144,9 @@ def fitted_values(
     'exponent'
     """
     if fits[name].dims != (along,):
-        raise ValueError(
-            f"{name} lies along {', '.join(map(str, fits[name].dims))}, not along {along!r} alone: select first"
+        raise InputError(
+            f"{name} lies along {', '.join(map(str, fits[name].dims))}, not along {along!r} alone",
+            "select first",
         )
     axes = axes_for(ax)
     x, y, low, high = (fits[each].to_numpy() for each in (along, name, f"{name}_low", f"{name}_high"))

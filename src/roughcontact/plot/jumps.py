@@ -54,7 +54,7 @@ def jump_loop(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     y = scale(float(np.abs(loop.force).max()), unit_of("force", kind))
     axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
     for way, style in _STYLES.items():
-        for depth, force in _branches(loop, way):
+        for depth, force in pieces_of(loop, way):
             axes.plot(depth * x.factor, force * y.factor, linewidth=1.1, color=style["color"])
         points = (loop.approach == way) & finite
         if points.any():
@@ -165,7 +165,7 @@ def loop_words(loop: AdhesiveCurve) -> str:
     return ", ".join(words) + (" (unresolved)" if loop.unresolved else "")
 
 
-def _branches(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
+def pieces_of(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
     """Return the pieces of a path between its jumps, as depths and forces, that go one way."""
     pieces: list[list[tuple[float, float]]] = [[]]
     last: tuple[float, float] | None = None

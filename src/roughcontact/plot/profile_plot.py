@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
@@ -67,11 +68,11 @@ def profile_curve(
         rows = heights.shape[0]
         chosen = rows // 2 if row is None else row
         if not -rows <= chosen < rows:
-            raise ValueError(f"row must lie between {-rows} and {rows - 1}, not at {chosen}")
+            raise about("row", f"must lie between {-rows} and {rows - 1}, not at {chosen}")
         heights = heights[chosen]
         marked = None if marked is None else marked[chosen]
     elif row is not None:
-        raise ValueError(f"a profile has no row {row}: leave row out")
+        raise InputError(f"a profile has no row {row}", "leave row out")
     step = surface.grid.spacing[-1]
     places = (np.arange(heights.size) + 0.5) * step
     x = scale(heights.size * step, VARIABLES["lengths"].unit)
@@ -175,7 +176,7 @@ def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
 
 def _of_line(solution: Solution) -> Solution:
     """Return the solution on the host, if its grid has one axis."""
-    require(solution.problem.grid.ndim == 1, "this is a surface: draw it with pressure_map or contact_map")
+    require(solution.problem.grid.ndim == 1, "this is a surface", "draw it with pressure_map or contact_map")
     return solution.on_host()
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError
 from roughcontact.evaluation.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.halfspace.subsurface.fields_below import stress
 from roughcontact.material import Solid
@@ -63,19 +64,24 @@ def von_mises_section(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'depth [µm]')
     """
+    solution = solution.on_host()
     grid, nu = half_space_grid(solution), ratio_of(solid)
     pressure, part, first = loaded_part(solution.pressure, grid)
     if row is None:
         row = int(np.argmax(solution.pressure.max(axis=1)))
     if not first[0] <= row < first[0] + part.shape[0]:
-        raise ValueError(
-            f"row {row} lies beside the contact: choose one from {first[0]} to {first[0] + part.shape[0] - 1}"
+        raise InputError(
+            f"row {row} lies beside the contact",
+            f"choose one from {first[0]} to {first[0] + part.shape[0] - 1}",
+            place="row",
         )
     loaded = np.flatnonzero(pressure.any(axis=0)), np.flatnonzero(pressure.any(axis=1))
     extent = max(step * (np.ptp(cells) + 1) for step, cells in zip(part.spacing[::-1], loaded, strict=True))
     bottom = float(extent) if deepest is None else float(deepest)
     if not (np.isfinite(bottom) and bottom > 0):
-        raise ValueError(f"the picture must end at a positive, finite depth [m], not {deepest}")
+        raise InputError(
+            f"the picture must end at a positive, finite depth [m], not {deepest}", place="deepest"
+        )
     depths = (np.arange(DEPTHS) + 0.5) * bottom / DEPTHS
     here = row - first[0]
     values = np.stack([stress(pressure, part, depth, nu).von_mises[here] for depth in depths])

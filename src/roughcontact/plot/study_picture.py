@@ -9,6 +9,7 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughcontact.errors import InputError
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
 from roughcontact.statistics.averages import combinations
@@ -59,22 +60,23 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     name = f"{quantity}_mean"
     if name not in averaged:
         known = [str(each).removesuffix("_mean") for each in averaged if str(each).endswith("_mean")]
-        raise ValueError(f"no {quantity!r} differs between samples: choose one of {', '.join(known)}")
+        raise InputError(f"no {quantity!r} differs between samples", f"choose one of {', '.join(known)}")
     points = [d for d in averaged[name].dims if d not in averaged["cases"].dims]
     numbers = _numbers(averaged)
     if along is not None and along not in numbers:
-        raise ValueError(
-            f"{along!r} is no number that varies: choose one of {', '.join(numbers) or 'none: nothing varies'}"
+        raise InputError(
+            f"{along!r} is no number that varies",
+            f"choose one of {', '.join(numbers) or 'none: nothing varies'}",
         )
     chosen = along or max(numbers, key=lambda each: len(numbers[each]), default=None)
     if points == ["load"]:
         return _curves(averaged, quantity, chosen)
     if points:
-        raise ValueError(
-            f"{quantity!r} lies along {', '.join(map(str, points))}: choose one along the loads, or none"
+        raise InputError(
+            f"{quantity!r} lies along {', '.join(map(str, points))}", "choose one along the loads, or none"
         )
     if chosen is None:
-        raise ValueError(f"{quantity!r} is one number, and nothing varies: take the command study table")
+        raise InputError(f"{quantity!r} is one number, and nothing varies", "take the command study table")
     figure = Figure(figsize=(5.6, 4.2), layout="constrained")
     _against(figure.subplots(), averaged, quantity, chosen)
     return figure
@@ -98,7 +100,7 @@ def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figur
     axes = figure.subplots(1, 2) if laws else [figure.subplots()]
     force = next((name for name in _FORCES if name in averaged and "load" in averaged[name].dims), None)
     if force is None:
-        raise ValueError("the study has no forces along its loads: choose a quantity without loads")
+        raise InputError("the study has no forces along its loads", "choose a quantity without loads")
     resolved = averaged["resolved_mean"] >= 0.5 if "resolved_mean" in averaged else None
     mean_curves(
         _grouped(averaged, averaged[force]).rename(force.removesuffix("_mean")),

@@ -10,6 +10,7 @@ from matplotlib import colormaps
 from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
+from roughcontact.errors import InputError
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import scale
@@ -59,7 +60,7 @@ def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = Tr
     'height [nm]'
     """
     if surface.grid.ndim != 2:
-        raise ValueError("a profile has no view from aside: draw it with profile_curve")
+        raise InputError("a profile has no view from aside", "draw it with profile_curve")
     axes: Any = axes_for(ax, projection="3d")
     small = _reduced(surface)
     grid = small.grid

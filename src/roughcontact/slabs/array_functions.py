@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.slabs.communicator import Communicator
 from roughcontact.slabs.rows import Edges, edges_of
 from roughcontact.slabs.slab_array import Local, SlabArray
@@ -98,7 +99,7 @@ class SlabFunctions:
     def concat(self, arrays: list[SlabArray], *, axis: int = 0) -> SlabArray:
         """Return arrays one beside the other."""
         if axis == 0:
-            raise ValueError("arrays in slabs are joined along their rows, not one below the other")
+            raise about("arrays", "in slabs are joined along their rows, not one below the other")
         return arrays[0].like(np.concatenate([x.local for x in arrays], axis=axis))
 
     def repeat(self, x: SlabArray, repeats: int, *, axis: int) -> SlabArray:
@@ -111,7 +112,7 @@ class SlabFunctions:
         if axis != 0:
             return x.like(np.roll(x.local, shift, axis=axis))
         if shift not in (1, -1):
-            raise ValueError(f"rows in slabs are rolled by one, not by {shift}")
+            raise InputError(f"rows in slabs are rolled by one, not by {shift}", place="shift")
         taken = self.row_beside(x, shift)
         return x.like(np.concatenate([taken, x.local[:-1]] if shift == 1 else [x.local[1:], taken]))
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.slabs.rows import Edges, edges_of
 from roughcontact.slabs.slab_array import SlabArray
 
@@ -48,8 +49,9 @@ def filtered_in_slabs(
     import scipy.fft
 
     if tuple(field.shape) != tuple(lengths):
-        raise ValueError(
-            "a surface in slabs must be periodic along both axes: Grid(..., periodic=True), or press it in one process"
+        raise InputError(
+            "a surface in slabs must be periodic along both axes",
+            "make the grid with periodic=True, or press it in one process",
         )
     functions, (ny, nx), rows = field.functions, lengths, len(field.local)
     communicator, rank = functions.communicator, functions.rank

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.slabs.rows import Edges
 
 __all__ = ["SlabArray"]
@@ -115,12 +116,12 @@ class SlabArray:
         """
         if isinstance(other, SlabArray):
             if other.edges != self.edges:
-                raise ValueError(
+                raise InputError(
                     f"rows dealt out at {other.edges} do not fit those dealt out at {self.edges}"
                 )
             return other.local
         if np.size(other) != 1:
-            raise ValueError("a whole array does not go with one in slabs: deal it out by Slabs.array")
+            raise InputError("a whole array does not go with one in slabs", "deal it out by Slabs.array")
         return other
 
     def to_device(self, device: str, /, stream: Any = None) -> Any:

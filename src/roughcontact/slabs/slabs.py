@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.slabs.array_functions import SlabFunctions
 from roughcontact.slabs.communicator import Communicator
 from roughcontact.slabs.one_process import OneProcess
@@ -57,9 +58,10 @@ class Slabs:
         self.communicator: Communicator = OneProcess() if communicator is None else communicator
         lacking = [name for name in NEEDED if not hasattr(self.communicator, name)]
         if lacking:
-            raise ValueError(
+            raise InputError(
                 f"a communicator is wanted, such as mpi4py.MPI.COMM_WORLD, not {communicator!r}, which lacks "
-                f"{', '.join(lacking)}"
+                f"{', '.join(lacking)}",
+                place="communicator",
             )
         self.functions = SlabFunctions(self.communicator)
 
@@ -99,12 +101,13 @@ class Slabs:
         own = np.array(local, order="C")
         given = self.communicator.allgather((own.shape, own.dtype))
         if len({(shape[1:], dtype) for shape, dtype in given}) != 1:
-            raise ValueError(f"the processes gave rows that differ in length or type: {given}")
+            raise InputError(f"the processes gave rows that differ in length or type: {given}")
         counts = [shape[0] for shape, _ in given]
         edges = edges_of(sum(counts), self.communicator.size)
         if counts != [end - start for start, end in pairwise(edges)]:
-            raise ValueError(
+            raise InputError(
                 f"the processes gave {counts} rows; those of process {self.communicator.rank} of a plane of "
-                f"{edges[-1]} are {self.rows(edges[-1])}: give what Slabs.rows says"
+                f"{edges[-1]} are {self.rows(edges[-1])}",
+                "give what Slabs.rows says",
             )
         return SlabArray(own, edges, self.functions)

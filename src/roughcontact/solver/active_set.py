@@ -15,6 +15,7 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.kernels import loader
+from roughcontact.progress.events import RunningTask, decades, solving
 from roughcontact.solver import tuning
 from roughcontact.solver.bound_constrained_cg import InnerSystem, inner_solve, inner_system
 from roughcontact.solver.control import Specification, State, Status, Tangent
@@ -165,6 +166,8 @@ class _Outer:
         Of the last inner solve.
     tangent : Tangent, optional
         Of the pressure, where the last solve was direct.
+    task : RunningTask, optional
+        Where the residual is reported.
     """
 
     operator: Operator
@@ -181,15 +184,21 @@ class _Outer:
     idle: int = 0
     inner: InnerOperator | None = None
     tangent: Tangent | None = None
+    task: RunningTask | None = None
 
     def run(self) -> State:
         """Iterate A2 to A10: converged, or stagnated."""
+        with solving(self.conditions.spec.tolerance, self.pressure.shape) as self.task:
+            return self._iterate()
+
+    def _iterate(self) -> State:
         tolerance = self.conditions.spec.tolerance
         self.displacement, self.exact = first_product(self.operator, self.pressure)  # A2
         self.steps = 1
         while True:
             # A3, A4
             found = self.conditions.evaluate(Iterate(self.pressure, self.displacement, self.separation))
+            self._report(found.residual)
             if found.residual <= tolerance:  # A5
                 if self.exact:
                     return self._state(found, Status.CONVERGED)
@@ -212,7 +221,7 @@ class _Outer:
         The prediction and its system are gone when this returns, and before the projection: fields are large.
         """
         spec = self.conditions.spec
-        solved = self._solve(self._reduced(found))
+        solved = self._solve(self._reduced(found), found.residual)
         if solved and spec.plastic:
             gap = self.displacement + self.separation
             self.pressure, self.displacement = (
@@ -257,14 +266,15 @@ class _Outer:
         limit = found.scale * max(tuning.INNER_TOLERANCE * spec.tolerance, factor * found.residual)
         return inner_system(inner, iterate, conditions, predicted.free, limit=limit)
 
-    def _solve(self, reduced: Cells | InnerSystem) -> bool:
-        """Solve a reduced problem: few cells directly (A8), more by algorithm B (A9), none by zero pressure."""
+    def _solve(self, reduced: Cells | InnerSystem, residual: float) -> bool:
+        """Solve a reduced problem from a residual: few cells directly (A8), more by B (A9), none by zero pressure."""
         conditions, spec, shape = self.conditions, self.conditions.spec, self.pressure.shape
         if isinstance(reduced, InnerSystem):
             if not spec.plastic:
                 self.displacement = None  # the system has what it needs of it
             left = self.max_steps - self.steps
-            self.pressure, steps = inner_solve(reduced, conditions, max_steps=left)  # A9
+            report = None if self.task is None else lambda part: self._report(part * residual)
+            self.pressure, steps = inner_solve(reduced, conditions, max_steps=left, report=report)  # A9
             self.tangent, self.steps = None, self.steps + steps
         elif len(reduced):
             try:
@@ -282,6 +292,10 @@ class _Outer:
             # The depth is too small for this grid.
             self.pressure, self.displacement = xp.zeros_like(self.pressure), xp.zeros_like(self.pressure)
         return True
+
+    def _report(self, residual: float) -> None:
+        if self.task is not None:
+            self.task.reached(decades(residual))
 
     def _rough_steps_pay(self) -> bool:
         """Whether some tens of steps in machine code cost less than a matrix of many cells and its factorisation."""

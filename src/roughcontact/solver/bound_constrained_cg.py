@@ -8,6 +8,7 @@ estimated before the product, so that one product serves projection and line sea
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -126,7 +127,13 @@ def inner_system(
     return InnerSystem(inner, vectors, part.pressure, unit, limit / unit)
 
 
-def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) -> InnerSolution:
+def inner_solve(
+    system: InnerSystem,
+    conditions: Optimality,
+    *,
+    max_steps: int,
+    report: Callable[[float], None] | None = None,
+) -> InnerSolution:
     """Solve a bound-constrained problem by algorithm B.
 
     Cells are deactivated until none has a pressure out of bounds, and only then violated ones are freed: to do both at
@@ -139,6 +146,8 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
         Of the whole problem.
     max_steps : int
         Largest number of products.
+    report : function, optional
+        Called now and then with the residual on F, as a part of the one to start from.
     """
     (inner, vectors, start, unit, goal), spec = system, conditions.spec
     target, steps, rounds, estimate = max(goal, tuning.INNER_FORCING), 0, 0, StepEstimate()  # B1: the target
@@ -154,6 +163,8 @@ def inner_solve(system: InnerSystem, conditions: Optimality, *, max_steps: int) 
                 max_steps=max_steps - steps,
             )
             steps += done
+            if report is not None:
+                report(residual)
             worst = vectors.free_violated(0.5 * goal)  # B16
             if worst:
                 target = max(goal, tuning.INNER_FORCING * max(residual, worst))  # B17

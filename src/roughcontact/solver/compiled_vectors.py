@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.cached import cached_property
+from roughcontact.errors import InputError
 from roughcontact.kernels import buffers, planes
 from roughcontact.kernels.active_cells import ActiveCells, mask_above, subtract_shifted, zeros_with_margins
 from roughcontact.kernels.calls import Operand
@@ -170,7 +171,9 @@ class CompiledVectors:
 
     def _located(self, field: Field) -> Operand:
         if field.shape != self.free.shape:  # machine code checks no shape
-            raise ValueError(f"a field of shape {field.shape} where {self.free.shape} is expected")
+            raise InputError(
+                f"a field of shape {field.shape} where {self.free.shape} is expected", place="field"
+            )
         return Operand(np.ascontiguousarray(field, self.free.dtype))
 
     def _zeros(self) -> Operand:

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.arrays import max_abs
+from roughcontact.errors import InputError, about, joined
 from roughcontact.validation import Array, require_numbers, scalar
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Force:
     def __post_init__(self) -> None:
         require_numbers(self, value="N")
         if not 0 < self.value < math.inf:
-            raise ValueError(f"the force must be positive and finite [N], not {self.value}")
+            raise about("the force", f"must be positive and finite [N], not {self.value}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +76,9 @@ class Depth:
     def __post_init__(self) -> None:
         require_numbers(self, value="m")
         if not 0 <= self.value < math.inf:
-            raise ValueError(
-                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}"
+            raise InputError(
+                f"the depth counts from first touch: at least 0 and finite [m], not {self.value}",
+                place="value",
             )
 
 
@@ -132,7 +134,7 @@ def checked_tolerance(tolerance: Any) -> float:
     """
     value = scalar(tolerance, "tolerance")
     if not 1e-14 < value < 1e-2:
-        raise ValueError(f"the tolerance must lie between 1e-14 and 1e-2, not {value}")
+        raise about("the tolerance", f"must lie between 1e-14 and 1e-2, not {value}")
     return value
 
 
@@ -145,7 +147,7 @@ class Status(Enum):
     >>> rc.Status.CONVERGED.converged, rc.Status.MAX_STEPS.converged
     (True, False)
     >>> rc.Status.MAX_STEPS.message
-    'The solver ran out of steps above the tolerance; allow it more steps.'
+    'The solver ran out of steps above the tolerance: allow it more steps.'
     """
 
     CONVERGED = "converged"
@@ -163,24 +165,36 @@ class Status(Enum):
     @property
     def message(self) -> str:
         """What happened and, where something is amiss, what to do."""
-        return _MESSAGES[self]
+        return joined(self.outcome, self.remedy) + "."
+
+    @property
+    def outcome(self) -> str:
+        """What happened."""
+        return _OUTCOMES[self][0]
+
+    @property
+    def remedy(self) -> str | None:
+        """What to do about it; None where nothing is amiss."""
+        return _OUTCOMES[self][1]
 
 
-_MESSAGES = {
-    Status.CONVERGED: "The answer meets the tolerance.",
-    Status.NO_CONTACT: "The bodies do not touch at this depth.",
-    Status.MAX_STEPS: "The solver ran out of steps above the tolerance; allow it more steps.",
+_OUTCOMES = {
+    Status.CONVERGED: ("The answer meets the tolerance", None),
+    Status.NO_CONTACT: ("The bodies do not touch at this depth", None),
+    Status.MAX_STEPS: ("The solver ran out of steps above the tolerance", "allow it more steps"),
     Status.STAGNATED: (
-        "The residual stopped falling above the tolerance. Often rounding allows no more: ask for a larger "
-        "tolerance, or take a large offset out of the heights before they are stored; else try another solver."
+        "The residual stopped falling above the tolerance: often rounding allows no more",
+        "ask for a larger tolerance, or take a large offset out of the heights before they are stored; "
+        "else try another solver",
     ),
     Status.UNSETTLED: (
-        "The hardness of the spots and the spots under that hardness did not settle on each other; take a hardness "
-        "that falls as spots grow, or change the load a little."
+        "The hardness of the spots and the spots under that hardness did not settle on each other",
+        "take a hardness that falls as spots grow, or change the load a little",
     ),
     Status.AFTER_MISSED: (
         "This load meets the tolerance on the surface that a larger load before it flattened, and that load missed "
-        "the tolerance; repeat the loads with a solver that is allowed more steps, or change the larger load a little."
+        "the tolerance",
+        "repeat the loads with a solver that is allowed more steps, or change the larger load a little",
     ),
 }
 

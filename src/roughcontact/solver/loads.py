@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid
 from roughcontact.solver.control import Control, Depth, Force
 from roughcontact.validation import Array, exactly_one, number, require, scalar
@@ -48,10 +49,11 @@ class Loads:
     def __post_init__(self) -> None:
         values = np.atleast_1d(number(self.values, f"the list of {self.kind}s"))
         if values.ndim != 1 or not len(values):
-            raise ValueError(
-                f"the list of {self.kind}s must hold at least one number in one row, not shape {values.shape}"
+            raise InputError(
+                f"the list of {self.kind}s must hold at least one number in one row, not shape {values.shape}",
+                place=f"{self.kind}s",
             )
-        require(np.isfinite(values), f"the {self.kind}s must be finite", values)
+        require(np.isfinite(values), f"the {self.kind}s must be finite", value=values)
         object.__setattr__(self, "values", values)
 
     @classmethod
@@ -83,9 +85,10 @@ class Loads:
         steps = np.diff(self.values) > 0
         if not steps.all():
             at = int(np.argmin(steps))
-            raise ValueError(
+            raise InputError(
                 f"the {self.kind}s must increase strictly, but {self.values[at + 1]:g} follows {self.values[at]:g} at "
-                f"place {at + 1}; {remedy}"
+                f"place {at + 1}",
+                remedy,
             )
         return self
 
@@ -123,5 +126,5 @@ def control_of(kind: str, value: float, grid: AnyGrid) -> Control:
     if kind == "depth":
         return Depth(value)
     if not 0 < value < math.inf:
-        raise ValueError(f"the pressure must be positive and finite [Pa], not {value}")
+        raise about("the pressure", f"must be positive and finite [Pa], not {value}")
     return Force(value * grid.area)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.halfspace.operators.operator import Operator, is_semidefinite
+from roughcontact.progress.events import decades, solving
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Specification, State, Status
 from roughcontact.solver.optimality import Optimality
@@ -95,57 +96,62 @@ class PolonskyKeer:
         d = 0.0 if given is None else given
         delta, norm_old = 0.0, 1.0
         best, idle, steps = np.inf, 0, 0
-        while True:
-            u = operator.apply(p)
-            steps += 1
-            free = (p > 0) & (p < hardness)
-            g = u + (separation - d)  # in this order: where much is plastic, u may be far smaller than both
-            if given is None:
-                shift = force_multiplier(measure, g, p, free)
-                g -= shift
-                d += shift
-            elif singular and bool(xp.all(free)):
-                p = _to_bound(p, spec, float(xp.mean(g)), xp)
-                free = (p > 0) & (p < hardness)
-            rho = optimality.residual(p, u, g)
-            idle = 0 if rho < best else idle + 1
-            best = min(best, rho)
-            if rho <= spec.tolerance:
-                return State(p, d, rho, steps, Status.CONVERGED, displacement=u)
-            if steps >= self.max_steps:
-                return State(p, d, rho, steps, Status.MAX_STEPS)
-            if idle > self.patience or not bool(xp.all(xp.isfinite(p))):
-                return State(p, d, rho, steps, Status.STAGNATED)
-            wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
-            some_wrong, between = bool(xp.any(wrong)), free
-            # Too long a step for those that were wrong: one that suits them too. On the same cells as before
-            # the residual of conjugate gradients may leap.
-            if (some_wrong and idle > tuning.CYCLING) or (
-                rho > tuning.LEAP * best and bool(xp.any(between != before))
-            ):
-                free, delta = free | wrong, 0.0
-            g_free = xp.where(free, g, 0.0)
-            norm = measure.dot(g_free, g_free)
-            alpha = (
-                1 / self_influence
-            )  # the step of a single cell, which at given force has no error to reduce
-            if norm > 0 and norm_old > 0:
-                s = xp.where(free, g + delta * (norm / norm_old) * s, 0.0)
-                q = operator.apply(s)
+        with solving(spec.tolerance, p.shape) as task:
+            while True:
+                u = operator.apply(p)
                 steps += 1
+                free = (p > 0) & (p < hardness)
+                g = u + (
+                    separation - d
+                )  # in this order: where much is plastic, u may be far smaller than both
                 if given is None:
-                    q -= measure.mean(q, free)
-                curvature = measure.dot(q, s)
-                if curvature > 0:
-                    alpha = measure.dot(g_free, s) / curvature
-            else:
-                s = xp.zeros_like(p)
-            norm_old = norm if norm > 0 else 1.0
-            p = xp.where(free, xp.clip(p - alpha * s, 0.0, hardness), p)
-            p = xp.where(wrong, xp.clip(p - alpha * g, 0.0, hardness), p)
-            delta, before = 0.0 if some_wrong else 1.0, between
-            if given is None and 0 < measure.total(p) < np.inf:
-                p = project(measure, p, g, spec)
+                    shift = force_multiplier(measure, g, p, free)
+                    g -= shift
+                    d += shift
+                elif singular and bool(xp.all(free)):
+                    p = _to_bound(p, spec, float(xp.mean(g)), xp)
+                    free = (p > 0) & (p < hardness)
+                rho = optimality.residual(p, u, g)
+                idle = 0 if rho < best else idle + 1
+                best = min(best, rho)
+                if task is not None:
+                    task.reached(decades(rho))
+                if rho <= spec.tolerance:
+                    return State(p, d, rho, steps, Status.CONVERGED, displacement=u)
+                if steps >= self.max_steps:
+                    return State(p, d, rho, steps, Status.MAX_STEPS)
+                if idle > self.patience or not bool(xp.all(xp.isfinite(p))):
+                    return State(p, d, rho, steps, Status.STAGNATED)
+                wrong = ((p == 0) & (g < 0)) | ((p == hardness) & (g > 0))
+                some_wrong, between = bool(xp.any(wrong)), free
+                # Too long a step for those that were wrong: one that suits them too. On the same cells as before
+                # the residual of conjugate gradients may leap.
+                if (some_wrong and idle > tuning.CYCLING) or (
+                    rho > tuning.LEAP * best and bool(xp.any(between != before))
+                ):
+                    free, delta = free | wrong, 0.0
+                g_free = xp.where(free, g, 0.0)
+                norm = measure.dot(g_free, g_free)
+                alpha = (
+                    1 / self_influence
+                )  # the step of a single cell, which at given force has no error to reduce
+                if norm > 0 and norm_old > 0:
+                    s = xp.where(free, g + delta * (norm / norm_old) * s, 0.0)
+                    q = operator.apply(s)
+                    steps += 1
+                    if given is None:
+                        q -= measure.mean(q, free)
+                    curvature = measure.dot(q, s)
+                    if curvature > 0:
+                        alpha = measure.dot(g_free, s) / curvature
+                else:
+                    s = xp.zeros_like(p)
+                norm_old = norm if norm > 0 else 1.0
+                p = xp.where(free, xp.clip(p - alpha * s, 0.0, hardness), p)
+                p = xp.where(wrong, xp.clip(p - alpha * g, 0.0, hardness), p)
+                delta, before = 0.0 if some_wrong else 1.0, between
+                if given is None and 0 < measure.total(p) < np.inf:
+                    p = project(measure, p, g, spec)
 
 
 def _to_bound(pressure: Array, spec: Specification, gap: float, xp: Any) -> Array:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_array, is_numpy, max_abs, multiply, namespace
+from roughcontact.errors import InputError, about
 from roughcontact.halfspace.operators.operator import Operator, capabilities, is_semidefinite
 from roughcontact.solver import tuning
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
@@ -131,16 +132,18 @@ def prescribe(
 ) -> Prescribed:
     """Return what `prescribed_displacement` does, with whatever residual was reached."""
     if not (hasattr(operator, "apply") and hasattr(operator, "grid")):
-        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}")
+        raise InputError(
+            f"an operator is wanted, such as half_space(grid, modulus), not {operator!r}", place="operator"
+        )
     if not (isinstance(max_steps, int | np.integer) and max_steps >= 2):
-        raise ValueError(f"max_steps must be a whole number, two at least, not {max_steps!r}")
+        raise about("max_steps", f"must be a whole number, two at least, not {max_steps!r}")
     tolerance = checked_tolerance(tolerance)
     region = checked_region(region, operator.grid.shape)
     xp = namespace(region)
     if not bool(xp.any(region)):
-        raise ValueError("the region holds no cell: nothing can be displaced")
+        raise about("the region", "holds no cell: nothing can be displaced")
     if is_semidefinite(operator) and bool(xp.all(region)):
-        raise ValueError("all cells of a periodic grid: no pressure moves their mean; leave a cell free")
+        raise InputError("all cells of a periodic grid: no pressure moves their mean", "leave a cell free")
     displacement, initial = in_si(displacement, "m", "displacement"), in_si(initial, "Pa", "initial")
     _check("displacement", displacement, region)
     if initial is not None:
@@ -153,9 +156,9 @@ def prescribe(
         )
     size = max_abs(target)
     if not 0 < size < math.inf:
-        raise ValueError("the displacement must be finite, and not zero everywhere on the region [m]")
+        raise about("the displacement", "must be finite, and not zero everywhere on the region [m]")
     if initial is not None and not bool(xp.all(xp.isfinite(initial))):
-        raise ValueError("the initial pressure must be finite [Pa]")
+        raise about("the initial", "pressure must be finite [Pa]")
     subdomain = _subdomain(operator, region)
     part, inside, wanted = operator, region, target
     if subdomain is not None:
@@ -208,11 +211,11 @@ def _check(name: str, given: Any, region: Mask) -> None:
         scalar(given, name)
         return
     if tuple(given.shape) != tuple(region.shape):
-        raise ValueError(
+        raise InputError(
             f"the {name}, of shape {tuple(given.shape)}, does not fit {tuple(region.shape)} cells"
         )
     if is_numpy(given) != is_numpy(region):
-        raise ValueError(f"the {name} must be an array of the same library as the region")
+        raise InputError(f"the {name} must be an array of the same library as the region")
 
 
 def _solve(
@@ -301,11 +304,15 @@ def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
     given = region if is_array(region) else np.asarray(region)
     xp = namespace(given)
     if tuple(given.shape) != shape:
-        raise ValueError(f"a region of shape {tuple(given.shape)} does not fit the grid of shape {shape}")
+        raise InputError(
+            f"a region of shape {tuple(given.shape)} does not fit the grid of shape {shape}", place="region"
+        )
     if xp.isdtype(given.dtype, "bool"):
         return given
     if xp.isdtype(given.dtype, "numeric"):
         inside: Mask = given == 1
         if bool(xp.all(inside | (given == 0))):
             return inside
-    raise ValueError("a region is given by truth values, such as pressure > 0, or by ones and zeros alone")
+    raise InputError(
+        "a region is given by truth values, such as pressure > 0, or by ones and zeros alone", place="region"
+    )

@@ -12,6 +12,7 @@ from roughcontact.arrays import max_abs
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import with_margins
 from roughcontact.kernels.constants import NEVER, ROUNDINGS
+from roughcontact.solver import tuning
 from roughcontact.solver.compiled_vectors import CompiledVectors
 from roughcontact.solver.control import Specification
 from roughcontact.solver.inner_operator import InnerOperator
@@ -66,6 +67,7 @@ class ArrayVectors:
         self._free, self._upper = free, xp.zeros_like(free) if upper is None else upper
         self._r_free, self._z = residual, residual
         self._w: Array | None = None
+        self._w_area = 0.0
 
     @property
     def upper(self) -> Mask | None:
@@ -93,8 +95,11 @@ class ArrayVectors:
         return max_abs(self._out_of_bounds())
 
     def constraint_direction(self) -> float:
-        """Make w = M^-1 1 on F; return its sum 1.w (B4)."""
-        self._w = self._inner.approximate_inverse(self.free) * self.free
+        """Make w = M^-1 1 on F, anew where F has lost many cells; return its sum 1.w (B4)."""
+        area = self._measure.total(self.free)
+        if self._w is None or area < (1 - tuning.STALE_CONSTRAINT_DIRECTION) * self._w_area:
+            self._w, self._w_area = self._inner.approximate_inverse(self.free), area
+        self._w *= self.free
         return self._measure.total(self._w)
 
     def precondition(self) -> Preconditioned:

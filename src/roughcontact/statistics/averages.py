@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.solver.control import Status
+from roughcontact.statistics.common_forces import on_common
 from roughcontact.statistics.fit import fit_power_laws
 from roughcontact.statistics.fit_window import Window
+from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.statistics.samples import dimensions, summary
 from roughcontact.validation import RngLike, as_generator
 
@@ -97,8 +100,10 @@ def averages(
     rng = as_generator(rng)
     over = sample_dimensions(dataset) if samples is None else dimensions(samples)
     if not over or any(d not in dataset.sizes for d in over):
-        raise ValueError(
-            f"no samples lie along {' or '.join(over or _SAMPLES)}: take what study.export makes"
+        raise InputError(
+            f"no samples lie along {' or '.join(over or _SAMPLES)}",
+            "take what study.export makes",
+            place="samples",
         )
     answered = dataset.assign(
         {name: _answered(dataset, values) for name, values in dataset.data_vars.items()}
@@ -112,7 +117,7 @@ def averages(
     if "case_status" in dataset:
         result["cases"] = _done(dataset["case_status"], over)
     try:
-        laws = fit_power_laws(dataset, window, rng=rng, samples=over)
+        laws = fit_power_laws(_on_common_forces(dataset, over), window, rng=rng, samples=over)
     except ValueError as error:
         return result.assign_attrs(no_power_law=str(error))
     laws = laws.rename(count="law_count", samples="law_samples")
@@ -156,6 +161,24 @@ def _varying(averaged: xarray.Dataset) -> tuple[str, ...]:
     dims = averaged["cases"].dims
     in_rows = [name for name, values in averaged.coords.items() if values.dims == ("row",) and name != "row"]
     return tuple(str(name) for d in dims for name in (in_rows if d == "row" else [d]))
+
+
+def _on_common_forces(dataset: xarray.Dataset, over: Sequence[str]) -> xarray.Dataset:
+    """Return loading curves at forces that all of them reach, where the curve of each sample stands at its own.
+
+    Raises
+    ------
+    InputError
+        If the loads go up and down.
+    """
+    if "branch" in dataset:
+        raise InputError("the loads go up and down: these are no loading curves")
+    force = dataset.get("dimensionless_force")
+    own = [] if force is None or "load" not in force.dims else [d for d in over if d in force.dims]
+    if force is None or not own or float((force.max(own) / force.min(own)).max()) <= 1 + ROUNDING:
+        return dataset
+    low, high = float(force.min("load").max()), float(force.max("load").min())
+    return on_common(dataset, np.geomspace(low, high, dataset.sizes["load"])) if low < high else dataset
 
 
 def _done(status: xarray.DataArray, over: Sequence[str]) -> xarray.DataArray:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.units import in_si
 from roughcontact.validation import number
@@ -63,10 +64,10 @@ def on_common(
     import xarray
 
     if at not in dataset or along not in dataset[at].dims:
-        raise ValueError(f"no variable {at!r} lies along {along!r}: nothing says where the points stand")
+        raise InputError(f"no variable {at!r} lies along {along!r}: nothing says where the points stand")
     wanted = np.asarray(number(in_si(values, dataset[at].attrs.get("units"), "values"), "values"))
     if wanted.ndim != 1 or not (np.isfinite(wanted) & (wanted > 0)).all():
-        raise ValueError("the common values are finite numbers above zero, in one row")
+        raise InputError("the common values are finite numbers above zero, in one row")
     places = dataset[at].transpose(..., along)
     table = places.to_numpy().reshape(-1, places.sizes[along])
     found = np.stack([_between(row, wanted) for row in table], axis=1)

@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact.errors import about
 from roughcontact.validation import Array
 
 __all__ = ["Mean", "mean_over_samples", "shares_of_samples"]
@@ -36,7 +37,7 @@ def mean_over_samples(values: Array, mean: Mean = "arithmetic", counts: Array | 
         If `mean` is neither.
     """
     if mean not in ("arithmetic", "geometric"):
-        raise ValueError(f"mean must be 'arithmetic' or 'geometric', not {mean!r}")
+        raise about("mean", f"must be 'arithmetic' or 'geometric', not {mean!r}")
     weights = np.ones(len(values)) if counts is None else np.asarray(counts, dtype=np.float64)
     there = ~np.isnan(values)
     with np.errstate(invalid="ignore", divide="ignore"):

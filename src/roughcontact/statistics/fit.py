@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.solver.control import Status
 from roughcontact.statistics.bootstrap import counts_of, interval, resampled_laws
 from roughcontact.statistics.ensemble_fit import fit_ensemble, law_error
@@ -114,7 +115,7 @@ def fit_power_laws(
     >>> laws["exponent"].round(6).item(), laws["prefactor_error"].round(3).item()
     (0.6, 0.048)
     """
-    require(0 < level < 1, f"the level of an interval lies between 0 and 1, not at {level}")
+    require(0 < level < 1, f"the level of an interval lies between 0 and 1, not at {level}", place="level")
     import xarray
 
     over = dimensions(samples)
@@ -193,14 +194,14 @@ def _curves(
 ) -> tuple[xarray.DataArray, xarray.DataArray, str]:
     """Return k/(E* L) where it converged, F/(E* h L), and the name of their common dimension."""
     if missing := [name for name in (_FORCE, _STIFFNESS) if name not in dataset]:
-        raise ValueError(f"these are no loading curves: {' and '.join(missing)} is missing")
+        raise InputError(f"these are no loading curves: {' and '.join(missing)} is missing")
     points = _FORCE if _FORCE in dataset.dims else "load"
     force, stiffness = dataset[_FORCE], dataset[_STIFFNESS]
     for name, values in ((_FORCE, force), (_STIFFNESS, stiffness)):
         if points not in values.dims:
-            raise ValueError(f"{name} does not lie along 'load': these are no loading curves")
+            raise InputError(f"{name} does not lie along 'load': these are no loading curves")
     if absent := [d for d in samples if d not in dataset.sizes]:
-        raise ValueError(
+        raise InputError(
             f"there are no samples along {absent[0]!r}; there are {', '.join(map(str, dataset.sizes))}"
         )
     if "status" in dataset and points in dataset["status"].dims:
@@ -241,8 +242,8 @@ def _common(force: Array) -> Array:
     with np.errstate(invalid="ignore"):
         common = np.asarray(np.fmin.reduce(force, axis=0))
         if (np.abs(force / common - 1) > ROUNDING).any():
-            raise ValueError(
-                "the samples stand at forces of their own: use roughcontact.statistics.on_common first"
+            raise InputError(
+                "the samples stand at forces of their own", "use roughcontact.statistics.on_common first"
             )
     return common
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.statistics.power_law import FORCE_LIMIT
 from roughcontact.validation import numeric, scalar
@@ -61,7 +62,9 @@ class Window:
 
     def __post_init__(self) -> None:
         if not 0 <= self.force[0] < self.force[1]:
-            raise ValueError(f"a window goes from a dimensionless force to a larger one, not {self.force}")
+            raise InputError(
+                f"a window goes from a dimensionless force to a larger one, not {self.force}", place="force"
+            )
 
 
 @numeric
@@ -148,13 +151,14 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
     """
     wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "full_contact_stiffness")
     if missing := [name for name in wanted if name not in dataset]:
-        raise ValueError(
-            f"the curves do not say what is resolved, for want of {', '.join(missing)}: give a window, "
-            "resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)"
+        raise InputError(
+            f"the curves do not say what is resolved, for want of {', '.join(missing)}",
+            "give a window, resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)",
         )
     if dataset.attrs.get("geometry") == Geometry.LINE.value:
-        raise ValueError(
-            "on a line it is not the stiffness that tells what is resolved: give a window, force_window(...)"
+        raise InputError(
+            "on a line it is not the stiffness that tells what is resolved",
+            "give a window, force_window(...)",
         )
     # E* L, whatever the body is; it has no meaning where both are zero or infinite.
     stiffness = dataset["stiffness"]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.statistics.ensemble_mean import mean_over_samples
 
 if TYPE_CHECKING:
@@ -262,11 +263,13 @@ def summary(
     """
     over = dimensions(samples)
     if absent := [d for d in over if d not in dataset.sizes]:
-        raise ValueError(f"no samples lie along {absent[0]!r}; there are {_listed(dataset.sizes)}")
+        raise InputError(
+            f"no samples lie along {absent[0]!r}; there are {_listed(dataset.sizes)}", place="samples"
+        )
     numbers = [str(name) for name, values in dataset.data_vars.items() if values.dtype.kind in "fiub"]
     chosen = [n for n in numbers if set(over) <= set(dataset[n].dims)] if names is None else list(names)
     if unknown := [name for name in chosen if name not in numbers]:
-        raise ValueError(f"there are no numbers named {unknown[0]!r}; there are {_listed(numbers)}")
+        raise InputError(f"there are no numbers named {unknown[0]!r}; there are {_listed(numbers)}")
     result = dataset.drop_vars([*dataset.data_vars, *over], errors="ignore")
     for name in chosen:
         values = dataset[name]
@@ -296,8 +299,9 @@ def _along(
     """Return `function`, of an array with the samples first, as a variable that says what it is."""
     over = dimensions(samples)
     if absent := [d for d in over if d not in values.dims]:
-        raise ValueError(
-            f"no samples of {values.name} lie along {absent[0]!r}; it has {_listed(values.dims)}"
+        raise InputError(
+            f"no samples of {values.name} lie along {absent[0]!r}; it has {_listed(values.dims)}",
+            place="samples",
         )
     first = values.transpose(*over, ...)
     kept = first.isel(dict.fromkeys(over, 0), drop=True)

@@ -6,15 +6,20 @@ Parameters are numbers in SI, or text with a unit: a model that has a field ``si
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from itertools import chain
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, TypeVar, get_args
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, TypeAdapter, ValidationError
+from pydantic.fields import FieldInfo
 
+from roughcontact.errors import InputError
 from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, Kind, parse
 from roughcontact.study.checked import Checked
+from roughcontact.study.nested_names import at
+from roughcontact.study.study_errors import mistakes_of, refusal
 
 if TYPE_CHECKING:
     import xarray
@@ -29,6 +34,7 @@ __all__ = [
     "Parameters",
     "Positive",
     "Pressure",
+    "Record",
     "Stiffness",
 ]
 
@@ -41,9 +47,77 @@ class Parameters(Checked):
     >>> import roughcontact as rc
     >>> class Block(rc.study.Parameters):
     ...     side: rc.study.Positive[rc.study.Length]
-    >>> Block(side="2 mm").side
-    0.002
+    >>> Block(side="2 mm").side, Block(side="2 mm").labelled()
+    (0.002, {'side': (0.002, 'm')})
     """
+
+    @classmethod
+    def reader(cls, name: str, beside: Mapping[str, Any]) -> Callable[[Any], Any]:
+        """Return what turns the text of a parameter into its value: ranges are made with it.
+
+        Parameters
+        ----------
+        name : str
+            Of the parameter.
+        beside : dict
+            The other parameters, as they are given.
+
+        Returns
+        -------
+        function
+            Takes text or a number and returns the number.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.study.find_case("curve").parameters.reader("size", {})("2 mm")
+        0.002
+        """
+        field = cls.model_fields[name]
+        reader: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])  # type: ignore[arg-type]
+
+        def read(value: Any) -> Any:
+            try:
+                return reader.validate_python(value)
+            except ValidationError as error:
+                raise refusal(mistakes_of(error)) from None
+
+        return read
+
+    def labelled(self, names: Iterable[str] = ()) -> dict[str, tuple[Any, str | None]]:
+        """Return what is given by name, each value with its unit in SI if it has one.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            What is to be there in any case.
+
+        Returns
+        -------
+        dict of str to tuple
+            The values of an export.
+        """
+        values = self.model_dump(mode="json")
+        found = {name: (each, _unit(type(self).model_fields[name])) for name, each in values.items()}
+        return found | {name: (at(values, name), None) for name in names if name not in found}
+
+    def inputs(self) -> dict[str, str]:
+        """Return the SHA-256 of the files that the case reads, by their names.
+
+        Returns
+        -------
+        dict of str to str
+            Empty where it reads none.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> class Block(rc.study.Parameters):
+        ...     side: rc.study.Length
+        >>> Block(side=1.0).inputs()  # the case "job" names the files of its source
+        {}
+        """
+        return {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +157,11 @@ class Case:
     name: str
     version: int
     parameters: type[Parameters]
-    run: Callable[[Any, np.random.Generator], xarray.Dataset]
+    run: Callable[[Any, np.random.Generator], Record]
     fields: tuple[str, ...] = ()
 
+
+Record: TypeAlias = "xarray.Dataset"  # what a case returns
 
 _T = TypeVar("_T")
 Positive = Annotated[_T, Field(gt=0)]
@@ -97,7 +173,7 @@ def _quantity(kind: Kind) -> BeforeValidator:
 
     def read(value: Any) -> Any:
         if isinstance(value, bool):
-            raise ValueError(f"{value} is not {kind.name}; expected {kind.name} such as {kind.example!r}")
+            raise InputError(f"{value} is not {kind.name}", f"write {kind.name} such as {kind.example!r}")
         return parse(value, kind) if isinstance(value, str) else value
 
     return BeforeValidator(read)
@@ -110,3 +186,15 @@ Area = Annotated[float, _quantity(Kind("an area", "m**2", "1mm**2"))]
 Stiffness = Annotated[float, _quantity(Kind("a stiffness", "N/m", "1MN/m"))]
 Energy = Annotated[float, _quantity(Kind("an energy", "J", "1mJ"))]
 EnergyPerArea = Annotated[float, _quantity(ENERGY_PER_AREA)]
+_UNITS = (
+    *((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J")),
+    (EnergyPerArea, "J m-2"),
+)
+
+
+def _unit(field: FieldInfo) -> str | None:
+    """Return the SI unit of a parameter that is declared as a quantity."""
+    # A quantity that may be none carries its marks one level down.
+    parts = [getattr(part, "__metadata__", ()) for part in get_args(field.annotation)]
+    marks = [*field.metadata, *chain(*parts)]
+    return next((unit for kind, unit in _UNITS if get_args(kind)[1] in marks), None)

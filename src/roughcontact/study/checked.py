@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from roughcontact.study.study_errors import StudyError, description
+from roughcontact.study.study_errors import StudyError, mistakes_of, refusal
 
 __all__ = ["TOO_DEEP", "Checked"]
 
@@ -28,6 +28,6 @@ class Checked(BaseModel):
         try:
             super().__init__(**values)
         except ValidationError as error:
-            raise StudyError(description(error, type(self).model_fields)) from None
+            raise refusal(mistakes_of(error, type(self).model_fields)) from None
         except RecursionError:
             raise StudyError(TOO_DEEP) from None

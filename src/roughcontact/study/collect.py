@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
+
 if TYPE_CHECKING:
     import xarray
 
@@ -57,7 +59,7 @@ class GatheredColumn:
             If it has other dimensions or another unit than before.
         """
         if variable.dims != self.dims:
-            raise ValueError(
+            raise InputError(
                 f"{self.name!r} lies along {variable.dims} in one record and along {self.dims} in another: "
                 "such cases make two studies"
             )
@@ -99,7 +101,7 @@ class GatheredColumn:
             return
         one, other = self.attributes.get("units"), attributes.get("units")
         if self._places and one != other:
-            raise ValueError(
+            raise InputError(
                 f"{self.name!r} is in {one} in one record and in {other} in another: such cases make two studies"
             )
         self.attributes = {

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughcontact.study.case import Area, Energy, Force, Length, Pressure, Stiffness
 from roughcontact.study.collect import Collector
+from roughcontact.study.nested_names import flat
 from roughcontact.study.study_errors import StudyError
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.study.case import Parameters
     from roughcontact.study.record import Row
     from roughcontact.study.store import Store
     from roughcontact.study.study import Study
@@ -27,7 +25,6 @@ if TYPE_CHECKING:
 __all__ = ["assemble", "export"]
 
 _CONVENTIONS = {"Conventions": "CF-1.11"}
-_UNITS = ((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J"))
 Triple = tuple[tuple[str, ...], Any, dict[str, str]]
 
 
@@ -121,7 +118,7 @@ def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xar
         data["case_seconds"] = (outer, times, {"long_name": "wall time of the case", "units": "s"})
     source = {
         "source": f"roughcontact {', '.join(sorted(versions)) or __version__}",
-        "study": study.to_toml(),
+        "study": study.model_copy(update={"folder": ""}).to_toml(),
     }
     return xarray.Dataset(
         data,
@@ -163,15 +160,15 @@ def _layout_of(study: Study) -> _Layout:
     StudyError
         If a parameter that varies is called ``row`` or ``sample``.
     """
-    found = study.combinations()
-    combinations = [each.model_dump(mode="json") for each in found]
-    in_rows = list(dict.fromkeys(name for row in study.rows for name in row))
+    in_rows = list(dict.fromkeys(name for row in study.rows for name in flat(row)))
+    labelled = [each.labelled([*in_rows, *study.table]) for each in study.combinations()]
+    units = {name: unit for each in labelled for name, (_, unit) in each.items() if unit}
+    combinations = [{name: value for name, (value, _) in each.items()} for each in labelled]
     if taken := sorted({"row", "sample"} & {*in_rows, *study.table}):
         raise StudyError(
             f"a parameter that varies cannot be called {taken[0]!r}: this is a dimension of its own"
         )
 
-    units = _units_of(type(found[0]))
     values = {name: _distinct([each[name] for each in combinations]) for name in study.table}
     sizes = {name: len(each) for name, each in values.items()}
     in_one_row = math.prod(sizes.values())
@@ -194,17 +191,6 @@ def _layout_of(study: Study) -> _Layout:
         place = np.unravel_index(number % len(combinations), shape) if shape else ()
         places[task.key] = (*map(int, place), task.sample)
     return _Layout(sizes | {"sample": study.samples}, coordinates, constants, places)
-
-
-def _units_of(model: type[Parameters]) -> dict[str, str]:
-    """Return the SI units of those parameters that are declared as quantities."""
-    units: dict[str, str] = {}
-    for name, field in model.model_fields.items():
-        # A quantity that may be none carries its marks one level down.
-        parts = [getattr(part, "__metadata__", ()) for part in get_args(field.annotation)]
-        marks = [*field.metadata, *itertools.chain(*parts)]
-        units.update((name, unit) for kind, unit in _UNITS if get_args(kind)[1] in marks)
-    return units
 
 
 def _distinct(values: Sequence[Any]) -> list[Any]:

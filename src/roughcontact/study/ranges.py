@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from roughcontact.errors import InputError
 from roughcontact.study.checked import Checked
 from roughcontact.units import as_text
 
@@ -56,9 +57,9 @@ class Range(Checked):
     @model_validator(mode="after")
     def _one_way(self) -> Range:
         if (self.count is None) == (self.step is None):
-            raise ValueError("a range has either a count or a step: give one of them")
+            raise InputError("a range has either a count or a step", "give one of them")
         if self.step is not None and self.spacing == "log":
-            raise ValueError("a range in equal ratios has a count, not a step")
+            raise InputError("a range in equal ratios has a count, not a step")
         return self
 
     def values(self, read: Callable[[Any], Any]) -> tuple[float, ...]:
@@ -84,9 +85,9 @@ class Range(Checked):
             step = read(self.step) if isinstance(self.step, str) else self.step
             return _by_steps(start, stop, _number(step))
         if start == stop:
-            raise ValueError(f"it starts and stops at {start:g}: give the one value under parameters")
+            raise InputError(f"it starts and stops at {start:g}", "give the one value under parameters")
         if self.spacing == "log" and not start * stop > 0:
-            raise ValueError(
+            raise InputError(
                 f"equal ratios do not lead from {start:g} to {stop:g}: both ends must be above 0, or both below"
             )
         spaced = np.linspace if self.spacing == "linear" else np.geomspace
@@ -96,19 +97,19 @@ class Range(Checked):
 
 def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"{value!r} is not a number, and only numbers have ranges: write a list")
+        raise InputError(f"{value!r} is not a number, and only numbers have ranges", "write a list")
     return float(value)
 
 
 def _by_steps(start: float, stop: float, step: float) -> tuple[float, ...]:
     if step == 0 or (stop - start) / step < 0:
-        raise ValueError(
-            f"steps of {step:g} do not lead from {start:g} to {stop:g}: give a step towards the stop"
+        raise InputError(
+            f"steps of {step:g} do not lead from {start:g} to {stop:g}", "give a step towards the stop"
         )
     steps = (stop - start) / step
     if steps >= _MOST:
-        raise ValueError(
-            f"{steps:.3g} steps of {step:g} are too many: give a step above {abs(stop - start) / _MOST:g}"
+        raise InputError(
+            f"{steps:.3g} steps of {step:g} are too many", f"give a step above {abs(stop - start) / _MOST:g}"
         )
     count = math.floor(steps + _HIT) + 1
     return _rounded(start + step * np.arange(count))

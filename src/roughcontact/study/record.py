@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.errors import about
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -39,7 +41,7 @@ def require_record(record: Any, fields: Iterable[str] = ()) -> None:
         raise TypeError(f"a case returns an xarray.Dataset, not {type(record).__name__}")
     for name in fields:
         if name not in record.data_vars:
-            raise ValueError(f"the record lacks {name!r}, which the case declares as a field")
+            raise about("the record", f"lacks {name!r}, which the case declares as a field")
     for place, variable in record.variables.items():
         if variable.dtype.kind not in _KINDS or (variable.dtype.kind == "f" and variable.dtype.itemsize > 8):
             raise TypeError(f"{place!r} has the type {variable.dtype}, and a record holds {_HELD}")

@@ -9,6 +9,7 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
+from roughcontact.progress.events import task
 from roughcontact.study.executors.serial import Serial
 from roughcontact.study.run_task import run_task
 from roughcontact.study.store import Store
@@ -27,7 +28,6 @@ def run(
     *,
     retry: bool = False,
     on_result: Callable[[Result], None] | None = None,
-    on_progress: Callable[[Summary], None] | None = None,
 ) -> Summary:
     """Compute the cases of a study that a folder does not hold yet.
 
@@ -44,8 +44,6 @@ def run(
         Whether cases that failed before are tried again.
     on_result : function, optional
         Called with every result, after it was stored.
-    on_progress : function, optional
-        Called with the `Summary` at the beginning and after every result.
 
     Returns
     -------
@@ -70,20 +68,20 @@ def run(
     3
     """
     start = time.monotonic()
+    study.require_files()
     with Store.open(folder, study) as store:
         known = store.done_keys() if retry else store.done_keys() | store.failed_keys()
         summary = store.summary().with_failed_left() if retry else store.summary()
         tasks = {task.key: task for task in study.tasks() if task.key not in known}
-        if on_progress is not None:
-            on_progress(summary)
         results = (executor or Serial()).results(run_task, list(tasks.values()))
+        ended = summary.total - summary.left
         # Closing it stops the workers.
-        with closing(cast("Any", results)):
-            for result in results:
+        with task(study.name, summary.total, "cases", done=ended) as cases, closing(cast("Any", results)):
+            for done, result in enumerate(results, ended + 1):
                 store.add(tasks[result.key], result)
                 summary = summary.after(failed=result.record is None, seconds=time.monotonic() - start)
                 if on_result is not None:
                     on_result(result)
-                if on_progress is not None:
-                    on_progress(summary)
+                if cases is not None:
+                    cases.reached(done, f"{summary.failed} failed" if summary.failed else "")
     return replace(summary, seconds=time.monotonic() - start)

@@ -109,6 +109,7 @@ class Store:
             with on_disk(place, "there is no such folder, and it cannot be made"):
                 place.mkdir(parents=True, exist_ok=True)
             held.callback(_locked(place).release)
+            study = study.pinned()
             before = _kept(place) if (place / STUDY).exists() else None
             if before is not None:
                 _require_growth(place, before, study)

@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
-import itertools
-import math
 import os
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
+import tomli_w
 from pydantic import (
     AfterValidator,
     BeforeValidator,
     Field,
+    ModelWrapValidatorHandler,
     PlainValidator,
-    TypeAdapter,
     ValidationError,
     model_validator,
 )
 
+from roughcontact.errors import InputError
 from roughcontact.files.aside import written_aside
+from roughcontact.files.fingerprint import fingerprint
 from roughcontact.study.case import Case, Parameters
 from roughcontact.study.cases import find_case
 from roughcontact.study.checked import TOO_DEEP, Checked
+from roughcontact.study.combinations import combined, reads_files
+from roughcontact.study.nested_names import flat
 from roughcontact.study.ranges import Range
-from roughcontact.study.study_errors import StudyError, description, expected
+from roughcontact.study.study_errors import StudyError, mistakes_of, refusal
 from roughcontact.study.task import Task, canonical, key_of
-from roughcontact.study.toml import toml_of
 from roughcontact.units import as_text
 
 __all__ = ["Study"]
-
-MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
 
 
 def _study_name(name: str) -> str:
@@ -45,8 +45,9 @@ def _study_name(name: str) -> str:
         If it does not.
     """
     if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name, re.ASCII) is None:
-        raise ValueError(
-            f"{name!r} is no name for a study: use letters, digits, '-', '_' and '.', and begin with a letter or digit"
+        raise InputError(
+            f"{name!r} is no name for a study",
+            "use letters, digits, '-', '_' and '.', and begin with a letter or digit",
         )
     return name
 
@@ -60,8 +61,9 @@ def _case_name(case: Any) -> Any:
         If it is a case itself.
     """
     if isinstance(case, Case):
-        raise ValueError(
-            f"name the case {case.name!r} by its module, such as 'mycases:CASE', so that other processes can import it"
+        raise InputError(
+            f"other processes cannot import the case {case.name!r}",
+            "name it by its module, such as 'mycases:CASE'",
         )
     return case
 
@@ -73,7 +75,17 @@ def _plain(value: Any) -> Any:
         return {name: _plain(each) for name, each in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(each) for each in value]
-    return value.tolist() if hasattr(value, "tolist") else value
+    value = value.tolist() if hasattr(value, "tolist") else value
+    if not isinstance(value, (bool, int, float, str, list)):
+        raise InputError(
+            f"{value!r} has no place in a study file", "give numbers, text, truth values or lists of them"
+        )
+    return value
+
+
+def _by_name(table: Any) -> Any:
+    """Return a table with dotted names in place of nested tables, as TOML reads ``preparation.level = [...]``."""
+    return flat(table) if isinstance(table, Mapping) else table
 
 
 def _entry(value: Any) -> Range | tuple[Any, ...]:
@@ -84,18 +96,18 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
     ValueError
         If they are neither a list nor a range.
     """
-    value = _plain(value)
     if isinstance(value, Range):
         return value
+    value = _plain(value)
     if isinstance(value, Mapping):
         return Range(**value)
     if not isinstance(value, list):
-        raise ValueError(
+        raise InputError(
             f"{value!r} is neither a list nor a range: a single value is given under parameters, a range as "
             "{ start = 0.1, stop = 0.9, count = 9 }"
         )
     if not value:
-        raise ValueError("the list is empty: give one value or more")
+        raise InputError("the list is empty", "give one value or more")
     return tuple(value)
 
 
@@ -117,12 +129,19 @@ class Study(Checked):
     table : dict
         Parameters with lists of values, or a `Range`; every combination of them is computed.
     rows : sequence of dict
-        Combinations spelt out, instead of a table or crossed with it.
+        Combinations spelt out, instead of a table or crossed with it. Here and in the table a dotted name, such as
+        ``"preparation.level"``, is a parameter in a nested table.
+    folder : str
+        From which the names of files count; in a study file relative to it. By default where the study file lies, in
+        Python the current folder.
+    files : dict of str to str
+        SHA-256 of the files that the parameters name. It is filled where a study is run: another file under one of the
+        names is refused then.
 
     Raises
     ------
     StudyError
-        If it makes no sense; the case is asked whether it takes all of the parameters.
+        If it makes no sense: all mistakes, each with its place. The case is asked whether it takes the parameters.
 
     Examples
     --------
@@ -143,14 +162,30 @@ class Study(Checked):
     seed: Annotated[int, BeforeValidator(_plain), Field(ge=0, strict=True)] = 0
     samples: Annotated[int, BeforeValidator(_plain), Field(ge=1, strict=True)] = 1
     parameters: Annotated[dict[str, Any], BeforeValidator(_plain)] = Field(default_factory=dict)
-    table: dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(_entry)]] = Field(default_factory=dict)
+    table: Annotated[
+        dict[str, Annotated[Range | tuple[Any, ...], PlainValidator(_entry)]], BeforeValidator(_by_name)
+    ] = Field(default_factory=dict)
     rows: Annotated[tuple[dict[str, Any], ...], BeforeValidator(_plain)] = ()
+    folder: str = ""
+    files: dict[str, str] = Field(default_factory=dict)
 
-    @model_validator(mode="after")
-    def _sound(self) -> Study:
-        self.combinations()
-        self.to_toml()
-        return self
+    @model_validator(mode="wrap")
+    @classmethod
+    def _sound(cls, values: Any, handler: ModelWrapValidatorHandler[Study]) -> Study:
+        found: list[InputError] = []
+        try:
+            study = handler(values)
+        except ValidationError as error:
+            found = mistakes_of(error, cls.model_fields)
+            try:
+                study = handler(_others(values, found))
+            except ValidationError:
+                raise refusal(found) from None
+        known = {_name(each) for each in found}
+        found += [each for each in combined(study)[1] if _name(each) not in known]
+        if found:
+            raise refusal(found)
+        return study
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Study:
@@ -172,17 +207,20 @@ class Study(Checked):
             If the file cannot be read or makes no sense.
         """
         try:
-            return cls(**tomllib.loads(Path(path).read_text(encoding="utf-8")))
+            values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+            if reads_files(str(values.get("case"))):
+                values["folder"] = os.path.normpath(Path(path).parent / str(values.get("folder", "")))
+            return cls(**values)
         except OSError as error:
             raise StudyError(
-                f"{path}: {error.strerror}; name the file of a study, such as study.toml"
+                f"{path}: {error.strerror}", "name the file of a study, such as study.toml"
             ) from error
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise StudyError(f"{path}: it is no TOML file: {error}") from error
         except RecursionError:
             raise StudyError(f"{path}: {TOO_DEEP}") from None
         except StudyError as error:
-            raise StudyError(f"{path}: {error}") from None
+            raise StudyError(f"{path}: {error.message}", error.remedy, error.place) from None
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file, which appears whole or not at all.
@@ -197,7 +235,8 @@ class Study(Checked):
         WriteError
             If it cannot be written.
         """
-        text = self.to_toml()
+        from_there = os.path.relpath(self.folder or ".", Path(path).parent) if reads_files(self.case) else ""
+        text = self.model_copy(update={"folder": from_there if from_there != "." else ""}).to_toml()
         with written_aside(path) as aside:
             aside.write_text(text, encoding="utf-8")
 
@@ -209,12 +248,13 @@ class Study(Checked):
         str
             What `read` takes.
         """
-        head = {"name": self.name, "case": self.case, "seed": self.seed, "samples": self.samples}
-        table = {
-            name: each.model_dump(exclude_defaults=True) if isinstance(each, Range) else each
-            for name, each in self.table.items()
+        written = dict(self) | {
+            "table": {
+                name: each.model_dump(exclude_defaults=True) if isinstance(each, Range) else each
+                for name, each in self.table.items()
+            }
         }
-        return toml_of(head, {"parameters": self.parameters, "table": table}, {"rows": self.rows})
+        return tomli_w.dumps({name: each for name, each in written.items() if each not in ({}, (), "")})
 
     def with_samples(self, count: int) -> Study:
         """Return the same study with another number of samples.
@@ -236,6 +276,60 @@ class Study(Checked):
         """
         return Study(**(dict(self) | {"samples": count}))
 
+    def pinned(self) -> Study:
+        """Return the same study with the SHA-256 of the files that its parameters name.
+
+        Returns
+        -------
+        Study
+            Itself where they name none.
+
+        Raises
+        ------
+        StudyError
+            If the case does not take the parameters, or a file cannot be read.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.write(rc.examples.surface("ground"), "part.npz")
+        >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": [1, 2]}).pinned()
+        >>> [(name, len(digest)) for name, digest in study.files.items()]
+        [('part.npz', 64)]
+        """
+        files = {name: each for case in self.combinations() for name, each in case.inputs().items()}
+        return self if files == self.files else Study(**(dict(self) | {"files": files}))
+
+    def require_files(self) -> None:
+        """Check that each file is the one that `files` names.
+
+        Raises
+        ------
+        StudyError
+            If one is another, or cannot be read.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> rc.write(rc.examples.surface("ground"), "part.npz")
+        >>> job = {"job": "press", "source": {"file": "part.npz"}, "bodies": {"modulus": "110 GPa"}}
+        >>> study = rc.study.Study(name="few", case="job", parameters=job, table={"load.force": [1, 2]}).pinned()
+        >>> rc.write(rc.examples.surface("blasted"), "part.npz")
+        >>> try:
+        ...     study.require_files()
+        ... except rc.study.StudyError as error:
+        ...     print(error.message)
+        part.npz is not the file that the study was begun with: its SHA-256 differs
+        """
+        for name, digest in self.files.items():
+            if fingerprint(Path(self.folder, name)) != digest:
+                raise StudyError(
+                    f"{name} is not the file that the study was begun with: its SHA-256 differs",
+                    "put that file back, or take its line out of [files] and choose another folder",
+                    f"files.{name}",
+                )
+
     def combinations(self) -> tuple[Parameters, ...]:
         """Return the parameters of all cases of one sample, row by row, the last name of the table varying fastest.
 
@@ -249,31 +343,9 @@ class Study(Checked):
         StudyError
             If the case does not take them, if two of them are the same, or if there are more than ``MOST_CASES`` cases.
         """
-        model = find_case(self.case).parameters
-        self._require_names(model)
-        values = [self._values(model, name) for name in self.table]
-        cases = self.samples * max(len(self.rows), 1) * math.prod(map(len, values))
-        if cases > MOST_CASES:
-            raise StudyError(
-                f"samples, rows and table make {cases:,} cases, and a study has {MOST_CASES:,} at most: take fewer "
-                "samples or values, or several studies"
-            )
-        found: dict[str, Parameters] = {}
-        for row in self.rows or ({},):
-            for chosen in itertools.product(*values):
-                given = self.parameters | row | dict(zip(self.table, chosen, strict=True))
-                try:
-                    parameters = model(**given)
-                except StudyError as error:
-                    raise StudyError(
-                        f"the case {self.case!r} does not take these parameters: {error}"
-                    ) from None
-                text = canonical(parameters)
-                if text in found:
-                    raise StudyError(
-                        f"a case comes twice: {text}; take one of them out of the table or the rows"
-                    )
-                found[text] = parameters
+        found, mistakes = combined(self)
+        if mistakes:
+            raise refusal(mistakes)
         return tuple(found.values())
 
     def tasks(self) -> Iterator[Task]:
@@ -291,42 +363,18 @@ class Study(Checked):
                 key = key_of(case, text, seed=self.seed, sample=sample)
                 yield Task(key, case, parameters, self.seed, sample)
 
-    def _require_names(self, model: type[Parameters]) -> None:
-        """Refuse names that the case does not take, and such as are given in two places."""
-        in_rows = {name for row in self.rows for name in row}
-        places = {"parameters": self.parameters.keys(), "table": self.table.keys(), "rows": in_rows}
-        for place, names in places.items():
-            for name in sorted(names - model.model_fields.keys()):
-                raise StudyError(
-                    f"{place}: the case {self.case!r} has no parameter {name!r}: {expected(name, model.model_fields)}"
-                )
-        for one, other in itertools.combinations(places, 2):
-            for name in sorted(places[one] & places[other]):
-                raise StudyError(
-                    f"{name!r} is given both in {one} and in {other}: take it out of one of them"
-                )
 
-    def _values(self, model: type[Parameters], name: str) -> tuple[Any, ...]:
-        """Return the values that the table has for a parameter."""
-        values = self.table[name]
-        if not isinstance(values, Range):
-            return values
-        field = model.model_fields[name]
-        # The type of the parameter turns text with units into numbers.
-        reader: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])  # type: ignore[arg-type]
-        try:
-            return values.values(_reading(reader.validate_python))
-        except ValueError as error:
-            raise StudyError(f"table: {name}: {error}") from None
+def _others(values: Any, found: Sequence[InputError]) -> Any:
+    """Return the values of a study without those that are wrong, so that other mistakes are found."""
+    if not isinstance(values, Mapping):
+        return values
+    wrong = {each.place for each in found}
+    left = {name: values[name] for name in ("case", "parameters", "rows") if name in values}
+    if isinstance(table := values.get("table", {}), Mapping):
+        left["table"] = {name: each for name, each in flat(table).items() if f"table.{name}" not in wrong}
+    return left | {"name": "study"}
 
 
-def _reading(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Return `read` with errors in plain words."""
-
-    def reading(value: Any) -> Any:
-        try:
-            return read(value)
-        except ValidationError as error:
-            raise ValueError(description(error)) from None
-
-    return reading
+def _name(error: InputError) -> str:
+    """Return the parameter that an error is about, without the table that gives it."""
+    return (error.place or "").partition(".")[2]

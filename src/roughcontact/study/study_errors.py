@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.errors import InputError, every, in_place, together
 from roughcontact.files.aside import WriteError
 
 if TYPE_CHECKING:
@@ -16,22 +17,25 @@ if TYPE_CHECKING:
 
 __all__ = [
     *(
+        "MOST_MISTAKES",
         "SAFE",
         "StoreError",
         "StudyError",
         "computed_again",
         "disk_trouble",
-        "description",
         "expected",
+        "mistakes_of",
         "on_disk",
+        "refusal",
     ),
 ]
 
 SAFE = "what was stored before is safe"
+MOST_MISTAKES = 20  # in one message
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-class StudyError(ValueError):
+class StudyError(InputError):
     """A study that makes no sense; the message names the value and the remedy.
 
     Examples
@@ -41,11 +45,11 @@ class StudyError(ValueError):
     ...     rc.study.Study(name="few", case="curve", parameters={"hurts": 0.8})
     ... except rc.study.StudyError as error:
     ...     print(str(error).partition("?")[0] + "?")
-    parameters: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
+    parameters.hurts: the case 'curve' has no parameter 'hurts': did you mean 'hurst'?
     """
 
 
-class StoreError(ValueError):
+class StoreError(InputError):
     """A folder of results that cannot be used as it is; nothing in it is lost.
 
     Parameters
@@ -67,13 +71,10 @@ class StoreError(ValueError):
     """
 
     def __init__(self, folder: str | os.PathLike[str], problem: str, remedy: str) -> None:
-        super().__init__(os.fspath(folder), problem, remedy)  # all three in `args`, so that it can be pickled
+        super().__init__(f"{os.fspath(folder)}: {problem}", remedy, "folder")
+        self.args = os.fspath(folder), problem, remedy  # with which it is made again from a pickle
         self.folder = os.fspath(folder)
         self.problem = problem
-        self.remedy = remedy
-
-    def __str__(self) -> str:
-        return f"{self.folder}: {self.problem}; {self.remedy}"
 
 
 def computed_again(key: str) -> str:
@@ -109,19 +110,39 @@ def expected(name: str, known: Iterable[str]) -> str:
     return (f"did you mean {near[0]!r}? " if near else "") + f"It may be {', '.join(known)}"
 
 
-def description(error: ValidationError, known: Iterable[str] = ()) -> str:
-    """Return what is wrong with the values of a model, which has fields of the `known` names."""
-    return "; ".join(_line(each, known) for each in error.errors(include_url=False))
-
-
-def _line(found: Mapping[str, Any], known: Iterable[str]) -> str:
-    place = ".".join(str(part) for part in found["loc"])
-    if found["type"] == "extra_forbidden":
-        return f"there is no {place!r}: {expected(place, known)}"
-    if found["type"] == "missing":
-        return f"{place!r} is missing"
-    if found["type"] in ("value_error", "assertion_error"):  # of a validator, with words of its own
-        words = str(found["ctx"]["error"])
+def refusal(found: Sequence[InputError]) -> StudyError:
+    """Return the error about all mistakes of a study, each with its place; at most the first `MOST_MISTAKES`."""
+    shown = list(found[:MOST_MISTAKES])
+    if len(found) > len(shown):
+        shown.append(StudyError("more mistakes like these follow", "correct these first"))
+    if len(shown) == 1:
+        [one] = shown
+        text = in_place(InputError(one.message, None, one.place))
+        error = StudyError(text, one.remedy, one.place)
     else:
-        words = f"{found['input']!r} {found['msg'].removeprefix('Input ').removeprefix('Value ')}"
-    return f"{place}: {words}" if place else words
+        whole = together(shown)
+        error = StudyError(whole.message, None, whole.place)
+    error.parts = tuple(found)
+    return error
+
+
+def mistakes_of(error: ValidationError, known: Iterable[str] = ()) -> list[InputError]:
+    """Return all that is wrong with the values of a model, which has fields of the `known` names."""
+    return [each for found in error.errors(include_url=False) for each in _mistakes(found, known)]
+
+
+def _mistakes(found: Mapping[str, Any], known: Iterable[str]) -> Iterator[InputError]:
+    loc = [str(part) for part in found["loc"]]
+    place = ".".join(loc)
+    own = found.get("ctx", {}).get("error")  # of a validator, with words of its own
+    if isinstance(own, InputError):
+        for each in every(own):
+            where = ".".join([*loc, *([each.place] if each.place else [])])
+            yield InputError(each.message, each.remedy, where or None)
+    elif found["type"] == "extra_forbidden":
+        yield InputError(f"there is no {place!r}: {expected(place, known)}", None, place)
+    elif found["type"] == "missing":
+        yield InputError(f"{place!r} is missing", f"give {loc[-1]}", place)
+    else:
+        words = found["msg"].removeprefix("Input ").removeprefix("Value ")
+        yield InputError(f"{found['input']!r} {words}", None, place or None)

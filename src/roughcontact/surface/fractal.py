@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
@@ -49,9 +50,9 @@ def magnify(surface: Surface, factor: float, hurst: float) -> Surface:
     'spacing 4 um, rms 3.0314 = 4^0.8'
     """
     if not (math.isfinite(factor) and factor > 0):
-        raise ValueError(f"a magnification must be positive and finite, not {factor}")
+        raise InputError(f"a magnification must be positive and finite, not {factor}", place="factor")
     moderate(factor, "a magnification")
-    require(-1 <= hurst <= 3, f"hurst must lie between -1 and 3, not {hurst}")
+    require(-1 <= hurst <= 3, f"hurst must lie between -1 and 3, not {hurst}", place="hurst")
     grid = surface.grid
     wider = Grid(grid.shape, tuple(factor * step for step in grid.spacing), grid.periodic)
     line = f"magnified by {factor:g} with H = {hurst:g}"
@@ -85,8 +86,12 @@ def fractal_dimension(hurst: float, dimension: int = 2) -> float:
     >>> round(rc.fractal_dimension(0.8), 12)
     2.2
     """
-    require(0 <= hurst <= 1, f"D = 3 - H holds for a Hurst exponent from 0 to 1, not {hurst}")
-    require(dimension in (1, 2), f"dimension must be 2 (a surface) or 1 (a line), not {dimension}")
+    require(0 <= hurst <= 1, f"D = 3 - H holds for a Hurst exponent from 0 to 1, not {hurst}", place="hurst")
+    require(
+        dimension in (1, 2),
+        f"dimension must be 2 (a surface) or 1 (a line), not {dimension}",
+        place="dimension",
+    )
     return dimension + 1 - hurst
 
 
@@ -127,13 +132,13 @@ def box_counting_dimension(surface: Surface) -> float:
     >>> f"{rc.box_counting_dimension(surface):.1f}"
     '2.3'
     """
-    require(not surface.missing, f"{surface.missing} points are missing: crop or fill the surface first")
+    require(not surface.missing, f"{surface.missing} points are missing", "crop or fill the surface first")
     shortest = min(surface.grid.shape) - 1
     if shortest < 64:
-        raise ValueError(f"counting boxes needs at least 65 points along each axis, not {surface.grid.shape}")
+        raise InputError(f"counting boxes needs at least 65 points along each axis, not {surface.grid.shape}")
     widths = 2 ** np.arange(3, int(math.log2(shortest / 4)) + 1)
     ranges = np.array([_mean_range(surface.heights, int(width)) for width in widths])
-    require(ranges.all(), "the surface is flat: it has no fractal dimension")
+    require(ranges.all(), "the surface is flat: it has no fractal dimension", place="surface")
     # Tiles number width^-ndim, boxes in a tile range/width.
     slope = np.polyfit(np.log(widths), np.log(ranges), 1)[0]
     return float(surface.grid.ndim + 1 - slope)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, moderate
 
 __all__ = ["height_range", "is_elsewhere", "own_heights"]
@@ -30,22 +31,24 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
     if is_elsewhere(heights):
         own = heights
         if not namespace(own).isdtype(own.dtype, "real floating"):
-            raise ValueError(
-                f"heights that are not NumPy's must be real floating numbers [m], not of type {own.dtype}: "
-                "convert whole numbers to float64"
+            raise about(
+                "heights",
+                f"that are not NumPy's must be real floating numbers [m], not of type {own.dtype}",
+                "convert whole numbers to float64",
             )
         if wants_gradient(own):
-            raise ValueError("nothing here is differentiated: give heights without gradients, .detach()")
+            raise InputError("nothing here is differentiated", "give heights without gradients, .detach()")
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
-            raise ValueError(f"heights must be real numbers [m], not of type {given.dtype}")
+            raise about("heights", f"must be real numbers [m], not of type {given.dtype}")
         own = np.array(given, dtype=np.float64)
         own.flags.writeable = False
     if tuple(own.shape) != shape:
-        raise ValueError(
-            f"heights of shape {tuple(own.shape)} do not fit the grid of shape {shape}: give "
-            "Grid(heights.shape, spacing)"
+        raise about(
+            "heights",
+            f"of shape {tuple(own.shape)} do not fit the grid of shape {shape}",
+            "give Grid(heights.shape, spacing)",
         )
     _check_range(own)
     return own  # type: ignore[no-any-return]
@@ -72,9 +75,13 @@ def _check_range(heights: Array) -> None:
     xp = namespace(heights)
     lowest, highest = height_range(heights)
     if math.isnan(highest) or lowest > highest:
-        raise ValueError("all heights are NaN: the surface holds no measured point; give at least one height")
+        raise InputError(
+            "all heights are NaN: the surface holds no measured point", "give at least one height", "heights"
+        )
     if math.isinf(highest) or math.isinf(lowest):
         count = int(xp.count_nonzero(xp.isinf(heights)))
-        raise ValueError(f"{count} heights are infinite; mark points without a measurement by NaN")
+        raise InputError(
+            f"{count} heights are infinite", "mark points without a measurement by NaN", "heights"
+        )
     if highest > lowest:
         moderate(highest - lowest, "the range of the heights [m]")

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 from roughcontact.arrays import is_numpy, on_host
+from roughcontact.errors import InputError
 from roughcontact.slabs.exchange import is_in_slabs
 
 __all__ = ["analysed_on_host", "on_host_only", "on_host_or_in_slabs"]
 
 
-P = ParamSpec("P")
-R = TypeVar("R")
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -34,23 +33,23 @@ def _refusing(function: F, refused: Callable[[Any], bool]) -> F:
         surfaces: tuple[Any, ...] = (*args, *kwargs.values())
         for given in surfaces:
             if _is_elsewhere(given) and refused(given.heights):
-                raise ValueError(
-                    f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}: "
-                    "prepare the surface first, then put its heights on the device"
+                raise InputError(
+                    f"{function.__name__} is for heights in NumPy's memory, not a {type(given.heights).__name__}",
+                    "prepare the surface first, then put its heights on the device",
                 )
         return function(*args, **kwargs)
 
     return checked  # type: ignore[return-value]
 
 
-def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
+def analysed_on_host(function: F) -> F:
     """Return a function of surfaces that is given a copy of heights of another library in NumPy's memory.
 
     For what returns numbers and NumPy's arrays. Heights in slabs are refused: no process holds all of them.
     """
 
     @wraps(function)
-    def there(*args: P.args, **kwargs: P.kwargs) -> R:
+    def there(*args: Any, **kwargs: Any) -> Any:
         if not any(map(_is_elsewhere, (*args, *kwargs.values()))):
             return function(*args, **kwargs)
 
@@ -58,15 +57,15 @@ def analysed_on_host(function: Callable[P, R]) -> Callable[P, R]:
             if not _is_elsewhere(given):
                 return given
             if is_in_slabs(given.heights):
-                raise ValueError(
-                    f"{function.__name__} is for surfaces that one process holds: gather the heights first, "
-                    "rc.Surface(surface.heights.gathered(), surface.grid)"
+                raise InputError(
+                    f"{function.__name__} is for surfaces that one process holds",
+                    "gather the heights first, rc.Surface(surface.heights.gathered(), surface.grid)",
                 )
             return replace(given, heights=on_host(given.heights))
 
         return function(*map(copied, args), **{name: copied(given) for name, given in kwargs.items()})
 
-    return there
+    return there  # type: ignore[return-value]
 
 
 def _is_elsewhere(given: Any) -> bool:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.wave_grid import (
     Spectrum,
@@ -63,9 +64,13 @@ class Moments:
     def __post_init__(self) -> None:
         require_numbers(self, m0="m^2", m4="1/m^2")
         for name in ("m0", "m2", "m4"):
-            require(getattr(self, name) >= 0, f"{name} must not be negative, not {getattr(self, name)}")
+            require(
+                getattr(self, name) >= 0,
+                f"{name} must not be negative, not {getattr(self, name)}",
+                place=name,
+            )
         if self.dimension not in (1, 2):
-            raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
+            raise about("dimension", f"must be 2 (a surface) or 1 (a line), not {self.dimension}")
 
     @property
     def rms_height(self) -> float:
@@ -181,14 +186,18 @@ def surface_moments(
         derivative = "spectral" if all(grid.periodic) and whole else "difference"
     if derivative == "spectral":
         if not whole:
-            raise ValueError(
-                f"{surface.missing} points are missing: use derivative='difference' or fill them first"
+            raise InputError(
+                f"{surface.missing} points are missing", "use derivative='difference' or fill them first"
             )
         import scipy.fft
 
         transform = scipy.fft.rfftn(surface.heights - surface.heights.mean()) / grid.size
         return _summed(np.abs(transform) ** 2 * multiplicity(grid.shape), grid)
-    require(derivative == "difference", f"derivative must be 'spectral' or 'difference', not {derivative!r}")
+    require(
+        derivative == "difference",
+        f"derivative must be 'spectral' or 'difference', not {derivative!r}",
+        place="derivative",
+    )
     return _by_differences(surface)
 
 
@@ -223,5 +232,5 @@ def _by_differences(surface: Surface) -> Moments:
 def _mean_square(field: Array) -> float:
     known = field[~np.isnan(field)]
     if known.size == 0:
-        raise ValueError("no point has the measured neighbours that differences need: the grid is too small")
+        raise InputError("no point has the measured neighbours that differences need: the grid is too small")
     return float(np.mean(known**2))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import RadialGrid
 from roughcontact.surface.height_range import is_elsewhere, own_heights
 from roughcontact.units import in_si
@@ -52,9 +53,11 @@ class RadialProfile:
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, RadialGrid):
-            raise ValueError(f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}")
+            raise InputError(
+                f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}", place="grid"
+            )
         if is_elsewhere(self.heights):
-            raise ValueError("the heights of a radial profile must be NumPy's: bring them to the host")
+            raise about("the heights", "of a radial profile must be NumPy's", "bring them to the host")
         object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from roughcontact import methods
 from roughcontact.arrays import is_numpy, namespace
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.late import static
 from roughcontact.surface.height_range import own_heights
@@ -62,9 +63,13 @@ class Surface:
 
     def __post_init__(self) -> None:
         wanted = f"grid must be a Grid, such as Grid(heights.shape, 1e-6), not {shown(self.grid)}"
-        require(isinstance(self.grid, Grid), wanted)
+        require(isinstance(self.grid, Grid), wanted, place="grid")
         object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
+
+    def __repr__(self) -> str:
+        """Say where the heights lie and come from, not the heights."""
+        return f"Surface({self.grid}, {'; '.join(self.provenance) or 'heights as given'})"
 
     def __add__(self, other: Surface) -> Surface:
         """Return the sum of the heights of two surfaces on one grid; missing where either is missing."""
@@ -79,14 +84,18 @@ class Surface:
         factor = in_si(factor, None, "factor")
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
-        require(math.isfinite(factor), f"heights can be multiplied by a finite number, not by {factor}")
+        require(
+            math.isfinite(factor),
+            f"heights can be multiplied by a finite number, not by {factor}",
+            place="heights",
+        )
         return self.with_heights(self.heights * float(factor), f"heights times {factor:g}")
 
     __rmul__ = __mul__
 
     def _joined(self, other: Surface, sign: int) -> Surface:
         if is_numpy(self.heights) != is_numpy(other.heights):
-            raise ValueError(
+            raise InputError(
                 "surfaces are added where both live: the heights of one are NumPy's, of the other not"
             )
         mine, theirs = self.grid, other.grid
@@ -94,8 +103,9 @@ class Surface:
         if (mine.shape, mine.periodic) != (theirs.shape, theirs.periodic) or not np.allclose(
             mine.spacing, theirs.spacing, rtol=1e-9, atol=0
         ):
-            raise ValueError(
-                f"surfaces are added on one grid, not {mine} and {theirs}: bring one onto the other by resampled()"
+            raise InputError(
+                f"surfaces are added on one grid, not {mine} and {theirs}",
+                "bring one onto the other by resampled()",
             )
         line = ("plus: " if sign > 0 else "minus: ") + ("; ".join(other.provenance) or "a surface")
         return self.with_heights(self.heights + sign * other.heights, line)

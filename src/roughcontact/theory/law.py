@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.validation import Array, number
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ class LoadingLaw:
         array([ 5587., 22349.])
         """
         if quantity not in self.quantities:
-            raise ValueError(
+            raise InputError(
                 f"{self.name} says nothing about {quantity!r}, only about {sorted(self.quantities)}"
             )
         given = np.atleast_1d(number(force, "force [N]"))
@@ -152,7 +153,7 @@ class LoadingLaw:
             If the theory does not predict the quantity.
         """
         if quantity not in self.quantities:
-            raise ValueError(f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}")
+            raise InputError(f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}")
         found = self.quantities[quantity]
         return replace(self, quantities={name: composed(of, found) for name, of in functions.items()})
 

@@ -9,6 +9,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import TypedDict, Unpack
 
+from roughcontact.errors import InputError
 from roughcontact.theory.asperity_models import bush_gibson_thomas, greenwood_williamson, interaction
 from roughcontact.theory.joints import joint
 from roughcontact.theory.law import LoadingLaw
@@ -243,9 +244,9 @@ def named(name: str, *, modulus: float | None = None, **given: Unpack[GivenValue
     """
     require(name in LAWS, f"there is no law named {name!r}; there are {', '.join(LAWS)}")
     if strange := given.keys() - {field.name for field in fields(LawInputs)}:
-        raise ValueError(f"no law asks for {', '.join(sorted(strange))}")
+        raise InputError(f"no law asks for {', '.join(sorted(strange))}")
     law, inputs = LAWS[name], LawInputs(modulus, **given).completed()
     wanted = {need: getattr(inputs, need) for need in law.needs}
     if missing := [need for need, value in wanted.items() if value is None]:
-        raise ValueError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")
+        raise InputError(f"the law {name!r} needs {', '.join(law.needs)}: {', '.join(missing)} missing")
     return law.make(*wanted.values())

@@ -6,15 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import AdhesionLaw, note_long_range, note_unresolved
-from roughcontact.cli.contact.profile_options import kinds_of
+from roughcontact.cli.adhesion.adhesion_notes import note_long_range, note_unresolved
+from roughcontact.cli.contact_of_job import best_state, contact_of, name_of
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.load_options import AdhesiveLoad
-from roughcontact.cli.messages import plain, reported
+from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.pressed import Pressed, best_state
-from roughcontact.cli.report import adhesive_facts, doing, emit, note_files, print_facts
+from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.report import adhesive_facts, emit, print_facts
+from roughcontact.progress.events import task
+from roughcontact.recipe.adhesive_jobs import AdhesivePressJob
+from roughcontact.recipe.library_calls import perform
+from roughcontact.recipe.prescribed_loads import kinds_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,54 +35,41 @@ roughcontact adhesion press part.x3p --mean-gap 0.2um --periodic --modulus 1GPa 
 }
 
 
-def press(
-    reading: options.Reading,
-    *,
-    load: AdhesiveLoad,
-    elasticity: options.Elasticity,
-    law: AdhesionLaw,
-    answer: options.Answer,
-) -> None:
+def press(job: AdhesivePressJob, *, answer: Answer) -> None:
     """Bring a surface that sticks to one load: map of pressure and tension, area, stiffness and stability.
 
     The state is the end of an approach from beyond the reach of the attraction. For a tension use 'adhesion curve'.
     """
-    import roughcontact as rc
-
-    file = reading.source.file
-    with reported(file, answer.out, as_json=answer.json):
-        given = load.value(reading.profile)
-        modulus, adhesion, tolerance = elasticity.reduced_modulus(), law.adhesion(), answer.residual
-        with output(answer.out) as folder:
-            surface = reading.surface()
-            note_long_range(adhesion, surface)
-            pressed = Pressed.of(surface, modulus, None)
-            limits = {"operator": reading.body(surface, modulus), "tolerance": tolerance}
-            state: AdhesiveState = best_state(
-                rc.adhesive_state, surface, modulus, adhesion, **given, **limits
-            )
-            with doing("Stability and files"):
-                record = {
-                    "command": "adhesion press",
-                    "file": plain(str(file)),
-                    "surface": list(surface.provenance),
-                    "kind": pressed.kind.value,
-                    **state.to_record(),
-                    "converged": state.status.converged,
-                }
-                if folder is not None:
-                    [(name, value)] = given.items()
-                    control = f"{name.replace('_', ' ')} = {value!r} {kinds_of(reading.profile)[name].unit}"
-                    _write(state, record, folder, control, answer.ending)
-        if answer.json:
-            emit(record)
-        else:
-            size, *others = adhesive_facts(state)
-            print_facts([size, *pressed.facts(), *others])
-        note_unresolved(state.unresolved)
-        note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
-        if not state.status.converged:
-            raise typer.Exit(MISSED)
+    with output(answer.out) as folder:
+        known = contact_of(job)
+        law, call = job.calls()
+        perform(law, known)
+        note_long_range(known["adhesion"], known["surface"])
+        pressed = Pressed.of(known["surface"], known["modulus"], None)
+        state: AdhesiveState = best_state(call, known)
+        with task("Stability and files"):
+            record = {
+                "command": job.NAME,
+                "file": name_of(job.source),
+                "surface": list(known["surface"].provenance),
+                "kind": pressed.kind.value,
+                **state.to_record(),
+                "converged": state.status.converged,
+                "recipe": carried(job, answer.out),
+            }
+            if folder is not None:
+                [(name, value)] = job.load.named(job.contact.profile).items()
+                control = f"{name.replace('_', ' ')} = {value!r} {kinds_of(job.contact.profile)[name].unit}"
+                _write(state, record, folder, control, answer.ending)
+    if answer.json:
+        emit(record)
+    else:
+        size, *others = adhesive_facts(state)
+        print_facts([size, *pressed.facts(), *others])
+    note_unresolved(state.unresolved)
+    answer.note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
+    if not state.status.converged:
+        raise typer.Exit(MISSED)
 
 
 def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: str, ending: str) -> None:
@@ -95,6 +85,7 @@ def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: 
         control=control,
         tolerance=state.problem.tolerance,
         command=command_line(),
+        recipe=record["recipe"],
     )
     with all_or_none(folder) as aside:
         write_netcdf(state.to_dataset(), aside / "adhesive_state.nc", source)

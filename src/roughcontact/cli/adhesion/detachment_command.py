@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughcontact.cli import options
-from roughcontact.cli.adhesion.adhesion_options import WORK, parse_work
-from roughcontact.cli.contact.profile_options import kinds_of
-from roughcontact.cli.load_options import FallingLoads, OneLoad
-from roughcontact.cli.messages import note, reported
+from roughcontact.cli.contact_of_job import best_state, contact_of
+from roughcontact.cli.messages import note
+from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.path_answer import PathAnswer, collected
-from roughcontact.cli.pressed import best_state
+from roughcontact.recipe.adhesive_jobs import DetachJob
+from roughcontact.recipe.prescribed_loads import kinds_of
+from roughcontact.recipe.recipe_fields import value_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,47 +28,35 @@ roughcontact adhesion detach part.x3p --depth 100nm --depths 50nm:-50nm:11 --mod
 }
 
 
-def detach(
-    reading: options.Reading,
-    *,
-    load: OneLoad,
-    retreat: FallingLoads,
-    elasticity: options.Elasticity,
-    work: str = WORK,
-    answer: options.Answer,
-) -> None:
+def detach(job: DetachJob, *, answer: Answer) -> None:
     """Press a surface by one load, and draw it back as if it were stuck: pull-off force, and the cells that let go.
 
     This is the limit of an attraction without a range, by Johnson, Kendall and Roberts. Nothing attracts the surface
     while it is pressed. With an attraction that has a range use 'adhesion loop'.
     """
-    import roughcontact as rc
     from roughcontact.adhesion.detachment_curve import collect_detachments
     from roughcontact.adhesion.detachment_path import states_drawn_back
     from roughcontact.plot.detachment_plot import DETACHMENT_COLUMNS, detachment_facts
+    from roughcontact.solver.loads import Loads
 
-    file, body = reading.source.file, reading.profile
-    with reported(file, answer.out, as_json=answer.json):
-        given, loads, energy = load.value(body), retreat.values(body), parse_work(work)
-        total = 1 if loads is None else loads.values.size
-        with output(answer.out) as folder:
-            surface, modulus = reading.surface(), elasticity.reduced_modulus()
-            limits = {"operator": reading.body(surface, modulus), "tolerance": answer.residual}
-            preload = best_state(rc.press, surface, modulus, **given, **limits)
-            states = states_drawn_back(preload, energy, loads)
-            found, whole = collected(
-                states, lambda states: collect_detachments(states, loads), "Drawing back", total
-            )
-            converged = preload.status.converged and found.converged
-            path = PathAnswer("detach", file, surface, found, whole, "detachment", "detachments", converged)
-            if folder is not None:
-                [(name, value)] = given.items()
-                control = f"drawn back from {name} = {value!r} {kinds_of(body)[name].unit}"
-                path.write(folder, control, _drawn, answer.ending)
-        path.show(DETACHMENT_COLUMNS, (), detachment_facts(found), json=answer.json)
-        if not preload.status.converged:
-            note("the preload missed the tolerance")
-        path.end(folder, answer.ending, total)
+    profile = job.contact.profile
+    loads = Loads.given(**job.retreat.named(profile))
+    total = 1 if loads is None else loads.values.size
+    with output(answer.out) as folder:
+        known = contact_of(job)
+        preload = best_state(next(job.calls()), known)
+        states = states_drawn_back(preload, value_of(job.adhesion, "work"), loads)
+        found, whole = collected(states, lambda states: collect_detachments(states, loads))
+        converged = preload.status.converged and found.converged
+        path = PathAnswer(job, known["surface"], found, whole, "detachment", "detachments", converged, answer)
+        if folder is not None:
+            [(name, value)] = job.load.named(profile).items()
+            control = f"drawn back from {name} = {value!r} {kinds_of(profile)[name].unit}"
+            path.write(folder, control, _drawn)
+    path.show(DETACHMENT_COLUMNS, (), detachment_facts(found))
+    if not preload.status.converged:
+        note("the preload missed the tolerance")
+    path.end(folder, total)
 
 
 def _drawn(found: DetachmentCurve) -> Figure:

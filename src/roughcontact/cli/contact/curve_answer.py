@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,30 +10,35 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cached import cached_property
 from roughcontact.cli import report
 from roughcontact.cli.contact.conductance_command import conduction_facts, shown_columns
-from roughcontact.cli.contact.theory_options import deviations, exponents, parameters
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.contact.curve_theories import deviations, exponents, parameters
+from roughcontact.cli.contact_of_job import name_of
+from roughcontact.cli.messages import note
 from roughcontact.cli.output import all_or_none, command_line
-from roughcontact.files.own_errors import is_ours
-from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.column import names_of
-from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
+from roughcontact.errors import InputError
+from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from roughcontact.cli.contact.error_options import LoadErrors
+    from roughcontact.cli.contact.curve_theories import TheoriesOf
+    from roughcontact.cli.contact.load_errors import LoadErrors
     from roughcontact.cli.pressed import Pressed
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.evaluation.conduction import Conductors
     from roughcontact.plot.drawing.engineering_units import Scale
+    from roughcontact.recipe.elastic_jobs import CurveJob
+    from roughcontact.solver.loads import Loads
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
 
 __all__ = ["CurveAnswer"]
+
+_UNITS = {"interfacial_stiffness_per_area": "unit_stiffness", "nominal_pressure": "unit_pressure"}
 
 
 @dataclass(frozen=True)
@@ -43,49 +47,59 @@ class CurveAnswer:
 
     Parameters
     ----------
+    job : CurveJob
+        What was asked for.
     curve : Curve
     surface : Surface
         What was pressed.
-    file : Path
-        Where it comes from.
-    tolerance : float
-        That was asked for.
     notes : tuple of str
         On the last load.
-    laws : mapping of str to LoadingLaw
-        Theories, by the names they were asked for.
-    taken : mapping of str to float
-        What they took from the surface, in SI units.
+    theories : TheoriesOf
+        Of the surface.
     conductors : Conductors or None
         The conducting bodies.
-    of : str
-        What conducts, see `roughcontact.conductance`.
     per_area : bool
         Whether table and picture are those of a joint, against nominal pressure.
-    units : mapping of str to Scale
-        Units that were asked for, by column.
-    refused : mapping of str to str
-        Why theories that were asked for do not apply to the surface, by their names.
     errors : tuple of LoadErrors
         Of the first and the last resolved load, if they were asked for.
     pressed : Pressed
         What the surface is to a contact.
+    loads : Loads
+        Those of the curve.
+    out : Path or None
+        The folder of its files.
+    loop : Loop or None
+        First loading, which is the curve, with unloading and loading again.
     """
 
+    job: CurveJob
     curve: Curve
     surface: Surface
-    file: Path
-    tolerance: float
     notes: tuple[str, ...]
-    laws: Mapping[str, LoadingLaw]
-    taken: Mapping[str, float]
+    theories: TheoriesOf
     conductors: Conductors | None
-    of: str
     per_area: bool
-    units: Mapping[str, Scale]
-    refused: Mapping[str, str]
     errors: tuple[LoadErrors, ...]
     pressed: Pressed
+    loads: Loads
+    out: Path | None
+    loop: Loop | None
+
+    @cached_property
+    def tolerance(self) -> float:
+        """The largest residual that was asked for."""
+        return float(value_of(self.job.contact, "tolerance"))
+
+    @cached_property
+    def units(self) -> dict[str, Scale]:
+        """Units that were asked for, by column."""
+        from roughcontact.plot.drawing.engineering_units import Scale
+
+        return {
+            column: Scale(1 / value_of(self.job.units, name), text.strip())
+            for column, name in _UNITS.items()
+            if (text := getattr(self.job.units, name)) is not None
+        }
 
     @property
     def converged(self) -> bool:
@@ -115,25 +129,28 @@ class CurveAnswer:
                 name=key,
                 quantities={name: law.quantities[name] for name in self.comparisons[key].predicted},
             )
-            for key, law in self.laws.items()
+            for key, law in self.theories.laws.items()
             if key in self.comparisons
         )
+
+    @cached_property
+    def recipe(self) -> dict[str, Any]:
+        """The job, with file names that count from the folder of the answer."""
+        return carried(self.job, self.out)
 
     @property
     def left_out(self) -> dict[str, str]:
         """Why a theory does not stand beside the curve, by its name."""
-        return {**self.refused, **self._compared[1]}
+        return {**self.theories.refused, **self._compared[1]}
 
     @cached_property
     def _compared(self) -> tuple[dict[str, Comparison], dict[str, str]]:
         found: dict[str, Comparison] = {}
         failed: dict[str, str] = {}
-        for key, law in self.laws.items():
+        for key, law in self.theories.laws.items():
             try:
                 found[key] = self.curve.compare(law)
-            except ValueError as error:
-                if not is_ours(error):
-                    raise
+            except InputError as error:
                 failed[key] = str(error)
         return found, failed
 
@@ -146,13 +163,15 @@ class CurveAnswer:
 
         dataset = with_theories(curve_dataset(self.curve), self.comparisons)
         if self.conductors is not None:
-            dataset = with_conductance(dataset, self.conductors, self.of)
+            dataset = with_conductance(dataset, self.conductors, self.job.conduction.of)
         return dataset.assign({name: _in_unit(dataset[name], unit) for name, unit in self.units.items()})
 
     @cached_property
     def record(self) -> dict[str, Any]:
         """The answer as plain values."""
         from roughcontact.contact.dataset import curve_record
+        from roughcontact.labels.column import names_of
+        from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
         from roughcontact.labels.labelled import plain_values
 
         conducted = {
@@ -161,22 +180,26 @@ class CurveAnswer:
             if name in self.dataset
         }
         record = {
-            "command": "curve",
-            "file": plain(str(self.file)),
+            "command": self.job.NAME,
+            "file": name_of(self.job.source),
             "surface": list(self.surface.provenance),
             **self.pressed.record(),
             **curve_record(self.curve),
             **{name: plain_values(values.to_numpy()) for name, values in conducted.items()},
             "fit": None if self.fit is None else _fit_record(self.fit),
             "local_exponents": [asdict(each) for each in self.curve.local_exponents()],
-            "theory_parameters": dict(self.taken),
+            "theory_parameters": dict(self.theories.taken),
             "theories_left_out": self.left_out,
             "theories": {key: each.to_record() for key, each in self.comparisons.items()},
             "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
             "notes": list(self.notes),
+            "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
+            "recipe": self.recipe,
         }
+        if self.loop is not None:
+            record["loop"] = self.loop.to_record()
         record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
         return record
 
@@ -190,6 +213,7 @@ class CurveAnswer:
             control=control,
             tolerance=self.tolerance,
             command=command_line(),
+            recipe=self.recipe,
         )
 
     def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:
@@ -203,24 +227,29 @@ class CurveAnswer:
             save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
-    def tell(self, json: bool, loop: Loop | None = None) -> None:
+    def tell(self, json: bool) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
+        from roughcontact.halfspace.operators.geometry import Geometry
+        from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
+
         curve = self.curve
         if json:
-            report.emit(self.record | ({} if loop is None else {"loop": loop.to_record()}))
+            report.emit(self.record)
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
             report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
-            columns = report.AREAL_COLUMNS if self.per_area else report.CURVE_COLUMNS
+            columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
-            conducting = [] if self.conductors is None else conduction_facts(self.dataset, self.of)
+            conducting = (
+                [] if self.conductors is None else conduction_facts(self.dataset, self.job.conduction.of)
+            )
             local = exponents(curve, self.comparisons)
             report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
             if self.comparisons:
-                report.print_facts([*deviations(self.comparisons), *parameters(self.taken)])
-            if loop is not None:
-                report.print_facts(report.loop_facts(loop))
+                report.print_facts([*deviations(self.comparisons), *parameters(self.theories.taken)])
+            if self.loop is not None:
+                report.print_facts(report.loop_facts(self.loop))
             for each in self.errors:
                 each.tell(self.units, patch=not self.per_area, joint=self.per_area)
         missed = sum(not status.converged for status in curve.status)

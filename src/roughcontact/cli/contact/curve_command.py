@@ -8,32 +8,37 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from roughcontact.cli import options
-from roughcontact.cli.contact.conductance_command import Materials
+from roughcontact.cli.contact.conductance_command import conductors_of
 from roughcontact.cli.contact.curve_answer import CurveAnswer
-from roughcontact.cli.contact.error_options import Errors
-from roughcontact.cli.contact.plastic_options import LoopLoads, write_loop
-from roughcontact.cli.contact.table_options import InterfaceTables
-from roughcontact.cli.contact.theory_options import Theories
+from roughcontact.cli.contact.curve_theories import theories_of
+from roughcontact.cli.contact.interface_files import write_tables
+from roughcontact.cli.contact.load_errors import errors_of, require_errors
+from roughcontact.cli.contact.loop_files import write_loop
+from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, softer_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.load_options import RisingLoads, unit_of_loads
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import doing, note_files, quantity, screen
-from roughcontact.cli.units_of_answer import Units
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.cli.report import quantity
+from roughcontact.progress.events import task
+from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.prescribed_loads import kinds_of, numbers
+from roughcontact.recipe.recipe_fields import given, value_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
+    from roughcontact.validation import Array
 
 __all__ = ["EXAMPLES", "curve"]
 
@@ -44,7 +49,7 @@ roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
-roughcontact curve part.x3p --modulus 110GPa --errors --short-cutoff 5um
+roughcontact curve part.x3p --modulus 110GPa --errors --shortest-wave 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
@@ -55,95 +60,98 @@ roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --t
 _FEWEST = 3  # resolved loads that a power law takes
 
 
-def curve(
-    reading: options.Reading,
-    *,
-    given: RisingLoads,
-    bodies: options.TwoBodies,
-    plastic: LoopLoads,
-    materials: Materials,
-    theories: Theories,
-    errors: Errors,
-    asked: options.Answer,
-    units: Units,
-    tables: InterfaceTables,
-) -> None:
+def curve(job: CurveJob, *, answer: Answer) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
     Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
     """
-    file, out = reading.source.file, asked.out
-    with reported(file, out, as_json=asked.json):
-        in_slabs = slabs_of_job() is not None
-        loads = given.values(reading.profile)
-        if in_slabs and loads is None:
-            raise UsageError(
-                "several processes do not look for loads: name them, such as --pressures 1kPa:1MPa:20"
-            )
-        chosen = units.chosen()
-        modulus, hardness = bodies.elasticity.reduced_modulus(), plastic.hardness(bodies)
-        plastic.check(loads, errors)
-        conductors = materials.conductors()
-        if reading.profile is not None:
-            part = None if conductors is None else materials.of.value
-            reading.profile.require(conducting=part, areal_units=bool(chosen), hardness=hardness is not None)
-        theories.check()
-        errors.check()
-        tables.check(out)
-        tolerance, ending = asked.residual, asked.ending
-        more: tuple[str, ...] = ()
-        with output(out) as folder:
-            surface = reading.surface()
-            errors.check_for(surface)
-            operator = reading.body(surface, modulus)
-            pressed = Pressed.of(surface, modulus, bodies.softer())
-            laws, taken, refused = theories.laws(surface, modulus, hardness)
-            if loads is None:
-                loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
-            elif loads.kind != "depth" and not in_slabs:
-                _look_ahead(surface, modulus, loads, operator)
-            values, option = loads.values, f"--{loads.kind}s"
-            limits = {
-                "tolerance": tolerance,
-                "hardness": hardness,
-                "operator": operator,
-                "flow": plastic.reading,
-            }
-            path = plastic.up_and_down(loads)
-            computed, notes, outer, loop = _load(surface, modulus, path, values.size, limits)
-            left = values[len(computed) :]
-            if left.size:
-                rest = ",".join(f"{load:.12g}" for load in left)
-                elsewhere = "" if folder is None else ", and a new --out: this folder would be replaced"
-                notes += (
-                    f"stopped: {len(computed)} of {values.size} loads are computed; compute the others with "
-                    f"{option} {rest}{elsewhere}",
-                )
-            per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(chosen)
-            if errors.errors and not outer:
-                note("no errors: no load is resolved")
-            if plastic.loop and loop is None:
-                notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
-            joint = (materials.of.value, per_area, chosen, refused, errors.of(outer), pressed)
-            answer = CurveAnswer(computed, surface, file, tolerance, notes, laws, taken, conductors, *joint)
-            if out is not None:
-                unit, done = unit_of_loads(loads, reading.profile), values[: len(computed)]
-                source = answer.source(
-                    f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
-                )
-            if folder is not None:
-                with doing("Writing files"):
-                    answer.write(folder, source, ending)
-                    more = tables.write(folder, computed, surface, conductors)
-                    if loop is not None:
-                        more += write_loop(loop, folder, source, ending)
-        answer.tell(asked.json, loop)
+    if job.tables.table is not None and answer.out is None:
+        raise UsageError("--table writes files", "say where by --out", "tables.table")
+    import numpy as np
+
+    from roughcontact.cli.contact.stored_loads import stored_loads
+    from roughcontact.contact.join_curves import joined
+    from roughcontact.solver.loads import Loads
+
+    profile, plastic, in_slabs = job.contact.profile, job.plastic, slabs_of_job() is not None
+    more: tuple[str, ...] = ()
+    hardness, conductors = hardness_of_job(job), conductors_of(job.conduction)
+    with output(answer.out) as folder:
+        loads = _named_loads(job)
+        known = contact_of(job)
+        surface, modulus, operator = known["surface"], known["modulus"], known.get("operator")
+        require_errors(job.errors, surface)
+        pressed = Pressed.of(surface, modulus, softer_of(job))
+        theories = theories_of(job.theories, surface, modulus, hardness)
+        if loads is None:
+            loads = _suggested(surface, modulus, pressed, operator=operator, hardness=hardness)
+        elif loads.kind != "depth" and not in_slabs:
+            _look_ahead(surface, modulus, loads, operator)
+        limits = {
+            "tolerance": value_of(job.contact, "tolerance"),
+            "hardness": hardness,
+            "operator": operator,
+            "flow": plastic.flow or "removed",
+        }
+        stored = None if in_slabs else stored_loads(job, carried(job, answer.out), loads, answer.out)
+        new = loads.values if stored is None else np.setdiff1d(loads.values, stored.values)
+        if new.size or stored is None:
+            wanted = Loads(loads.kind, new)
+            computed, notes, outer, loop = _load(surface, modulus, wanted, limits, loop=plastic.loop)
+            done = new[: len(computed)]
+            if stored is not None:
+                computed, done = joined(stored.curve, computed), np.union1d(stored.values, done)
+        else:
+            computed, done, notes, outer, loop = stored.curve, stored.values, stored.notes, [], None
+        left = np.setdiff1d(loads.values, done)
+        if left.size:
+            notes += (_rest(job, loads, left, answer.out),)
+        if job.errors.errors and not outer:
+            note("no errors: no load is resolved")
+        if plastic.loop and loop is None:
+            notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
+        per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(given(job.units))
+        errors = errors_of(job.errors, outer)
+        beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out, loop)
+        found = CurveAnswer(job, computed, surface, notes, *beside)
         if folder is not None:
-            note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{ending}", *more))
-        if left.size or (plastic.loop and loop is None):
-            raise typer.Exit(INTERRUPTED)
-        if not answer.converged:
-            raise typer.Exit(MISSED)
+            unit = kinds_of(profile)[loads.kind].unit
+            source = found.source(
+                f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
+            )
+            with task("Writing files"):
+                found.write(folder, source, answer.ending)
+                more = write_tables(job.tables, folder, computed, surface, conductors)
+                if loop is not None:
+                    more += write_loop(loop, folder, source, answer.ending)
+    found.tell(answer.json)
+    answer.note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
+    if left.size or (plastic.loop and loop is None):
+        raise typer.Exit(INTERRUPTED)
+    if not found.converged:
+        raise typer.Exit(MISSED)
+
+
+def _rest(job: CurveJob, loads: Loads, left: Array, out: Path | None) -> str:
+    """Return how to compute the loads that a curve was stopped before."""
+    words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
+    if out is not None and job.plastic.hardness is None and not job.errors.errors:
+        return f"{words}; the same command computes the others"
+    elsewhere = "" if out is None else ", and a new --out: this folder would be replaced"
+    rest = ",".join(f"{load:.12g}" for load in left)
+    return f"{words}; compute the others with --{loads.kind}s {rest}{elsewhere}"
+
+
+def _named_loads(job: CurveJob) -> Loads | None:
+    """Return the loads; None where they are to be found, which one process alone can do."""
+    from roughcontact.solver.loads import Loads
+
+    named = job.loads.named(job.contact.profile)
+    if not named and slabs_of_job() is not None:
+        raise UsageError(
+            "several processes do not look for loads", "name them, such as --pressures 1kPa:1MPa:20"
+        )
+    return Loads.given(**{name: numbers({name: loads}) for name, loads in named.items()})
 
 
 def _suggested(
@@ -152,11 +160,11 @@ def _suggested(
     """Return the forces [N] that suit a surface, and say which they are."""
     from roughcontact.contact.loads.load_outlook import load_outlook
     from roughcontact.contact.loads.load_range import load_range
+    from roughcontact.halfspace.operators.geometry import Geometry
     from roughcontact.halfspace.operators.operator import geometry_of
     from roughcontact.solver.loads import Loads
 
-    with doing("Looking for the loads that suit this surface"):
-        found = load_range(surface, modulus, operator=operator, hardness=hardness)
+    found = load_range(surface, modulus, operator=operator, hardness=hardness)
     loads, end = Loads("force", found.forces), found.reasons[1]
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
@@ -180,8 +188,7 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
     from roughcontact.contact.loads.load_outlook import load_outlook
 
     name = f"{loads.kind}s"
-    with doing("Looking which of these loads the grid resolves"):
-        ahead = load_outlook(surface, modulus, loads, operator)
+    ahead = load_outlook(surface, modulus, loads, operator)
     if ahead.resolved >= min(_FEWEST, ahead.count):
         return
     ends = ((ahead.below, "too small: the cells set the stiffness"), (ahead.above, "near full contact"))
@@ -193,18 +200,18 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
 
 
 def _load(
-    surface: Surface, modulus: float, loads: Loads, count: int, limits: dict[str, Any]
+    surface: Surface, modulus: float, loads: Loads, limits: dict[str, Any], *, loop: bool
 ) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
-    There is a loop where more loads are given than the `count` of the curve. A bar on standard error moves on at every
-    load. Ctrl-C ends the curve with the loads that are done.
+    With `loop` the loads are unloaded and loaded again. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
-    from roughcontact.contact.loop import closed_loop
+    from roughcontact.contact.loop import closed_loop, loads_of_loop
 
-    path, total = solutions_along(surface, modulus, loads, **limits), loads.values.size
+    every, count = loads_of_loop(loads) if loop else loads, loads.values.size
+    path = solutions_along(surface, modulus, every, **limits)
     notes: list[tuple[str, ...]] = []
     ends: list[Solution] = []
     turn: list[Solution] = []
@@ -221,23 +228,9 @@ def _load(
             if not notes:  # nothing to keep
                 raise
 
-    columns = (
-        TextColumn("Pressing"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(elapsed_when_finished=True),
-    )
-    with Progress(*columns, console=screen()) as progress:
-        task = progress.add_task("Pressing", total=total)
-
-        def moving(path: Iterator[Solution]) -> Iterator[Solution]:
-            for solution in path:
-                progress.advance(task)
-                yield solution
-
-        curve = collect(moving(watched(path)))
-        loop = None
-        if len(curve) == count < total:
-            with suppress(KeyboardInterrupt):
-                loop = closed_loop(curve, turn[0], moving(path))
-    return curve, notes[0], ends, loop
+    curve = collect(watched(path))
+    closed = None
+    if loop and len(curve) == count:
+        with suppress(KeyboardInterrupt):
+            closed = closed_loop(curve, turn[0], path)
+    return curve, notes[0], ends, closed

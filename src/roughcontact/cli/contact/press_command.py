@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.arrays import max_abs
-from roughcontact.cli import options
-from roughcontact.cli.contact.error_options import Errors, LoadErrors
-from roughcontact.cli.contact.plastic_options import AfterLoad
-from roughcontact.cli.contact.profile_options import kinds_of
+from roughcontact.cli.contact.load_errors import LoadErrors, errors_of, require_errors
+from roughcontact.cli.contact.loop_files import write_flattened
+from roughcontact.cli.contact_of_job import best_state, contact_of, hardness_of_job, name_of, softer_of
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import communicator_of_job
-from roughcontact.cli.load_options import OneLoad
-from roughcontact.cli.messages import UsageError, note, plain, reported
-from roughcontact.cli.option_groups import option
+from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.pressed import Pressed, best_state
-from roughcontact.cli.report import doing, emit, note_files, print_facts, solution_facts
+from roughcontact.cli.pressed import Pressed
+from roughcontact.cli.report import emit, print_facts, solution_facts
+from roughcontact.progress.events import task
+from roughcontact.recipe.elastic_jobs import PressJob
+from roughcontact.recipe.prescribed_loads import kinds_of
+from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -32,7 +32,8 @@ EXAMPLES = {
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
 roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
-roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --short-cutoff 5um
+roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --shortest-wave 5um
+roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --despike filled --short-cutoff 10um
 roughcontact press part.x3p --force 10N --after 100N --materials steel,aluminium --hardness aluminium --out result
 roughcontact press scan.csv --profile line --force 10N/mm --modulus 110GPa --out result
 roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
@@ -41,80 +42,60 @@ roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 
 _DRAWN = 2**22  # cells of a picture: more are not gathered by the one process of a job that draws
 
-Theory = StrEnum("Theory", ["PERSSON"])
-_THEORY = option(
-    "With --out: draw the distribution of the pressure beside that of a theory.",
-    needs_whole=True,
-    rich_help_panel="Answer",
-)
 
-
-def press(
-    reading: options.Reading,
-    *,
-    load: OneLoad,
-    bodies: options.TwoBodies,
-    plastic: AfterLoad,
-    theory: Theory | None = _THEORY,
-    errors: Errors,
-    answer: options.Answer,
-) -> None:
+def press(job: PressJob, *, answer: Answer) -> None:
     """Press a rough surface by one load: pressure map, area, depth and stiffness."""
-    import roughcontact as rc
-
-    file, out = reading.source.file, answer.out
-    with reported(file, out, as_json=answer.json):
-        given, body, ending = load.value(reading.profile), reading.profile, answer.ending
-        errors.check()
-        if theory is not None and out is None:
-            raise UsageError("--theory draws a picture: say where by --out")
-        if theory is not None and body is not None:
-            raise UsageError("--theory is about the pressures of a surface, not of a profile: leave it out")
-        limits: dict[str, Any] = {"tolerance": answer.residual, "hardness": plastic.hardness(bodies)}
-        first = plastic.first(given, body)
-        plastic.check(errors)
-        if body is not None:
-            body.require(conducting=None, areal_units=False, hardness=limits["hardness"] is not None)
-        modulus = bodies.elasticity.reduced_modulus()
+    theory = job.theories.theory
+    if theory is not None and answer.out is None:
+        raise UsageError("--theory draws a picture", "say where by --out", "theories.theory")
+    hardness_of_job(job)
+    with output(answer.out) as folder:
+        known = contact_of(job)
+        surface = known["surface"]
+        require_errors(job.errors, surface)
+        pressed = Pressed.of(surface, known["modulus"], softer_of(job))
+        solution: Solution = best_state(next(job.calls()), known)
+        if (job.plastic.after or job.plastic.flow == "raised") and not (
+            solution.flow is not None and solution.flow.volume
+        ):
+            note("nothing flowed: the contact is elastic")
+        errors = errors_of(job.errors, [solution])
         drawn: tuple[str, ...] = ()
-        with output(out) as folder:
-            surface = reading.surface()
-            errors.check_for(surface)
-            pressed = Pressed.of(surface, modulus, bodies.softer())
-            limits["operator"] = reading.body(surface, modulus)
-            if first is None and not plastic.raises:
-                solution = best_state(rc.press, surface, modulus, **given, **limits)
-            else:
-                solution = plastic.last_of(surface, modulus, given, first, limits)
-                if solution.flow is None or not solution.flow.volume:
-                    note("nothing flowed: the contact is elastic")
-            found = errors.of([solution])
-            budget = {"errors": found[0].to_record() if found else None}
-            with doing("Stiffness, spots and files"):
-                record = _record(solution, file, pressed) | budget
-                [(name, value)] = given.items()
-                control = f"{name} = {value!r} {kinds_of(body)[name].unit}"
-                control += "" if first is None else f" after {first!r}"
-                if out is not None:
-                    drawn = _write(solution, record, folder, _source(solution, control), theory, ending)
-                if folder is not None:
-                    drawn += plastic.draw(surface, solution, folder, ending)
-        per_area = "pressure" in given or all(surface.grid.periodic)
-        _tell(solution, record, pressed, found, json=answer.json, per_area=per_area)
-        pictures = (*(() if theory is None else ("distribution",)), *drawn)
-        note_files(folder, ("press.json", "pressure.nc", *(f"{name}.{ending}" for name in pictures)))
-        if not solution.status.converged:
-            raise typer.Exit(MISSED)
+        with task("Stiffness, spots and files"):
+            record = _record(solution, job, pressed) | {"recipe": carried(job, answer.out)}
+            record["errors"] = errors[0].to_record() if errors else None
+            if answer.out is not None:
+                source = _source(solution, _control(job), record["recipe"])
+                drawn = _write(solution, record, folder, source, theory, answer.ending)
+            if folder is not None and solution.problem.flow is not None:
+                drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
+    per_area = job.load.pressure is not None or all(surface.grid.periodic)
+    _tell(solution, record, pressed, errors, json=answer.json, per_area=per_area)
+    pictures = (*(() if theory is None else ("distribution",)), *drawn)
+    answer.note_files(
+        folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
+    )
+    if not solution.status.converged:
+        raise typer.Exit(MISSED)
 
 
-def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
+def _control(job: PressJob) -> str:
+    """Return what was prescribed, with its unit."""
+    [(name, value)] = job.load.named(job.contact.profile).items()
+    words = f"{name} = {value!r} {kinds_of(job.contact.profile)[name].unit}"
+    [loads] = job.loads().values()
+    return words if job.plastic.after is None else f"{words} after {loads[0]!r}"
+
+
+def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, Any]:
+    from roughcontact.arrays import max_abs
     from roughcontact.contact.dataset import solution_record
 
     surface = solution.problem.surface
     history = list(surface.provenance) if surface is not None else []
     return {
-        "command": "press",
-        "file": plain(str(file)),
+        "command": job.NAME,
+        "file": name_of(job.source),
         "surface": history,
         **pressed.record(),
         **solution_record(solution),
@@ -124,7 +105,7 @@ def _record(solution: Solution, file: Path, pressed: Pressed) -> dict[str, Any]:
     }
 
 
-def _source(solution: Solution, control: str) -> dict[str, Any]:
+def _source(solution: Solution, control: str, recipe: dict[str, Any]) -> dict[str, Any]:
     """Return what files say of where they come from."""
     from roughcontact.files.provenance import provenance
 
@@ -135,6 +116,7 @@ def _source(solution: Solution, control: str) -> dict[str, Any]:
         control=control,
         tolerance=problem.tolerance,
         command=command_line(),
+        recipe=recipe,
     )
 
 
@@ -143,7 +125,7 @@ def _write(
     record: dict[str, Any],
     folder: Path | None,
     source: dict[str, Any],
-    theory: Theory | None,
+    theory: str | None,
     ending: str,
 ) -> tuple[str, ...]:
     """Write a loaded state into the folder that the first process of a job has; return the names of its pictures."""
@@ -163,7 +145,7 @@ def _write(
             if drawn is not None:
                 save(solution_figure(drawn), aside / f"pressure.{ending}")
             if theory is not None:
-                theories = {theory.value: persson_pressures(solution)}
+                theories = {theory: persson_pressures(solution)}
                 save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
             write_json(record, aside / "press.json", source)
 

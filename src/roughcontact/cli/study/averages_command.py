@@ -13,8 +13,10 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_facts, print_table
 from roughcontact.cli.study.study_command import FOLDER, dataset_writer, own_cases, require_results
-from roughcontact.cli.unit_options import parse_number
+from roughcontact.errors import InputError, placed
+from roughcontact.files.quantity import parse_number
 from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.recipe.recipe_fields import check, described, value_of
 
 if TYPE_CHECKING:
     import xarray
@@ -59,31 +61,38 @@ _MOST_DECIMALS = 5  # beyond these a power of ten is shorter
 _LEAST = 3  # forces that make a law, as in statistics.fit
 
 
-@dataclass(frozen=True, slots=True)
-class LawWindow:
-    """Where the power laws are fitted, as the user gave it."""
+def _window(text: str) -> tuple[float, float]:
+    """Return the two ends of a window of forces over E* h L."""
+    parts = text.split(":")
+    if len(parts) != 2:
+        raise InputError(f"{text!r} is no window", "write two forces over E* h L, 1e-3:0.07")
+    low, high = (parse_number(part, "1e-3") for part in parts)
+    if not 0 <= low < high:
+        raise InputError(f"a window goes from a force to a larger one, unlike {text!r}", "exchange the two")
+    return low, high
 
-    window: str | None = option(
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LawWindow:
+    """Where the power laws are fitted."""
+
+    window: str | None = described(
         "Window of F/(E* h L) that power laws are fitted in (default: where the mean stiffness is resolved, up to "
         "0.07).",
         "1e-3:0.07",
+        read=_window,
+        everyday=True,
     )
+
+    def __post_init__(self) -> None:
+        check(self)
 
     def value(self) -> Window | None:
         """Return the window; None where it was left out."""
         from roughcontact.statistics.fit_window import force_window
 
-        if self.window is None:
-            return None
-        parts = self.window.split(":")
-        if len(parts) != 2:
-            raise UsageError(
-                f"--window: {self.window!r} is no window; write two forces over E* h L, 1e-3:0.07"
-            )
-        low, high = (parse_number(part, "--window", "1e-3") for part in parts)
-        if not 0 <= low < high:
-            raise UsageError(f"--window goes from a force to a larger one, not {self.window!r}")
-        return force_window(low, high)
+        ends = value_of(self, "window")
+        return None if ends is None else force_window(*ends)
 
 
 def average(folder: Path = FOLDER, *, out: Path = FILE, window: LawWindow, json: bool = JSON) -> None:
@@ -140,9 +149,10 @@ def table(
 ) -> None:
     """Print one line for each combination of what varies: power laws, or means with their standard errors."""
     with reported(folder, as_json=json), own_cases():
-        force = None if at is None else parse_number(at, "--at", "0.01")
+        with placed("at"):
+            force = None if at is None else parse_number(at, "0.01")
         if force is not None and not force > 0:
-            raise UsageError(f"--at: a force over E* h L is above 0, not {at!r}")
+            raise UsageError(f"a force over E* h L is above 0, not {at!r}", place="--at")
         averaged = _averaged(folder, window.value(), force)
         laws = quantity is None and "exponent" in averaged and force is None
         names = () if laws else _quantities(averaged, quantity, force)
@@ -180,13 +190,15 @@ def _require_between(dataset: xarray.Dataset, force: float) -> None:
     from roughcontact.statistics.power_law import ROUNDING
 
     if "dimensionless_force" not in dataset:
-        raise UsageError("--at: the study has no forces over E* h L; see roughcontact study export")
+        raise UsageError("the study has no forces over E* h L", "see roughcontact study export", place="--at")
     low, high = (
         float(each) for each in (dataset["dimensionless_force"].min(), dataset["dimensionless_force"].max())
     )
     if not low * (1 - ROUNDING) <= force <= high * (1 + ROUNDING):
         raise UsageError(
-            f"--at: the loads go from {low:g} to {high:g}: choose a force between them, not {force:g}"
+            f"the loads go from {low:g} to {high:g}",
+            f"choose a force between them, not {force:g}",
+            place="--at",
         )
 
 
@@ -196,7 +208,9 @@ def _first(averaged: xarray.Dataset) -> str:
     along = [name for name in names if "load" in averaged[f"{name}_mean"].dims and "force" not in name]
     found = [name for name in (_STIFFNESS, *along, *names) if name in names]
     if not found:
-        raise UsageError("nothing in the study differs from sample to sample: see roughcontact study export")
+        raise UsageError(
+            "nothing in the study differs from sample to sample", "see roughcontact study export"
+        )
     return found[0]
 
 
@@ -214,13 +228,17 @@ def _quantities(averaged: xarray.Dataset, asked: str | None, force: float | None
     single = [name for name in _means(averaged) if averaged[f"{name}_mean"].dims == averaged["cases"].dims]
     if asked is None:
         if not single:
-            raise UsageError("all quantities lie along the loads: choose a force by --at, such as --at 0.01")
+            raise UsageError(
+                "all quantities lie along the loads", "choose a force by --at, such as --at 0.01"
+            )
         return tuple(name for name in single if name not in _CERTIFICATES)
     names = tuple(part.strip() for part in asked.split(",") if part.strip())
     for name in names:
         if name not in _means(averaged):
             raise UsageError(
-                f"--quantity: no {name!r} differs between samples: choose of {', '.join(_means(averaged))}"
+                f"no {name!r} differs between samples",
+                f"choose of {', '.join(_means(averaged))}",
+                place="--quantity",
             )
         if name not in single:
             missing = (
@@ -228,7 +246,7 @@ def _quantities(averaged: xarray.Dataset, asked: str | None, force: float | None
                 if force is None
                 else f"choose of {', '.join(single)}"
             )
-            raise UsageError(f"--quantity: {name} lies along {_rest(averaged, name)}: {missing}")
+            raise UsageError(f"{name} lies along {_rest(averaged, name)}: {missing}", place="--quantity")
     return names
 
 

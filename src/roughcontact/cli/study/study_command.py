@@ -17,10 +17,10 @@ from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.output import command_line
+from roughcontact.cli.progress_view import duration
 from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.resumable import resumable
-from roughcontact.cli.study.study_engine import Workplace, working
-from roughcontact.cli.study.study_progress import duration
+from roughcontact.cli.study.study_engine import Workplace
 
 if TYPE_CHECKING:
     import xarray
@@ -78,19 +78,13 @@ def run(
 ) -> None:
     """Compute what is left of a study. Ctrl-C stops it; run again, it goes on."""
     with reported(source, out, as_json=json), own_cases():
-        from roughcontact.cli.study.study_progress import progress
         from roughcontact.study.run import run as run_study
 
         study, folder = _found(source, out)
-        with working():
-            engine = workplace.open()
+        engine = workplace.open()
         again = [*workplace.typed(), *(["--retry"] if retry else [])]
-        with (
-            working(),
-            resumable(_command("run", folder, *again), as_json=json),
-            progress(study.name) as show,
-        ):
-            summary = run_study(study, folder, engine, retry=retry, on_progress=show)
+        with resumable(_command("run", folder, *again), as_json=json):
+            summary = run_study(study, folder, engine, retry=retry)
         _tell(study, folder, summary, as_json=json)
         if summary.failed:
             note(f"{summary.failed} cases failed; why says: {_command('status', folder, '--failed')}")
@@ -134,7 +128,9 @@ def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> 
 
         study, _ = _found(folder, None)
         if samples <= study.samples:
-            raise UsageError(f"--samples: the study has {study.samples} already: give more, not {samples}")
+            raise UsageError(
+                f"the study has {study.samples} already", f"give more, not {samples}", place="--samples"
+            )
         with Store.open(folder, study.with_samples(samples)) as store:
             study, summary = store.study, store.summary()
         _tell(study, folder, summary, as_json=json)
@@ -150,7 +146,7 @@ def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
 
     kind = out.suffix.casefold()
     if kind not in (".nc", ".csv"):
-        raise UsageError(f"--out: cannot write {out}: give a file .nc (NetCDF) or .csv (a table)")
+        raise UsageError(f"cannot write {out}", "give a file .nc (NetCDF) or .csv (a table)", place="--out")
     require_target(out)
     if kind == ".csv":
         return lambda dataset: write_long_csv(dataset, out)
@@ -160,7 +156,7 @@ def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
 def require_results(folder: Path, summary: Summary) -> None:
     """Refuse a folder in which no case is done."""
     if not summary.done:
-        raise UsageError(f"{folder} holds no results yet: {_command('run', folder)}")
+        raise UsageError(f"{folder} holds no results yet", _command("run", folder))
 
 
 def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
@@ -171,9 +167,11 @@ def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
 
     if source.is_dir():
         if out is not None:
-            raise UsageError(f"{source} is the folder of the results itself: leave out --out")
+            raise UsageError(
+                f"{source} is the folder of the results itself", "leave out --out", place="--out"
+            )
         if not (source / STUDY).is_file():
-            raise UsageError(f"there is no {STUDY} in {source}: name the folder that a study was run in")
+            raise UsageError(f"there is no {STUDY} in {source}", "name the folder that a study was run in")
         return Study.read(source / STUDY), source
     study = Study.read(source)
     if out is None and source.name == STUDY and (source.parent / DATABASE).exists():

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -14,7 +12,7 @@ from roughcontact.cli.option_groups import option
 if TYPE_CHECKING:
     from roughcontact.study.task import Executor
 
-__all__ = ["Workplace", "working"]
+__all__ = ["Workplace"]
 
 
 Engine = StrEnum("Engine", ["SERIAL", "PROCESSES", "DASK"])
@@ -40,18 +38,18 @@ class Workplace:
 
         workers, scheduler = self.workers, self.scheduler
         if scheduler is not None and self.executor is not Engine.DASK:
-            raise UsageError("--scheduler: only --executor dask has one")
+            raise UsageError("only --executor dask has one", place="--scheduler")
         match self.executor:
             case Engine.SERIAL:
                 if workers not in (None, 1):
                     raise UsageError(
-                        "--workers: --executor serial computes one case at a time: choose processes"
+                        "--executor serial computes one case at a time", "choose processes", place="--workers"
                     )
                 return executors.Serial()
             case Engine.DASK:
                 if scheduler is not None and workers is not None:
                     raise UsageError(
-                        "--workers: a scheduler has workers of its own: leave out one of the two"
+                        "a scheduler has workers of its own", "leave out one of the two", place="--workers"
                     )
                 return executors.Dask(scheduler, workers=workers)
             case _:
@@ -65,14 +63,3 @@ class Workplace:
             "--scheduler": self.scheduler,
         }
         return [each for name, value in given.items() if value is not None for each in (name, str(value))]
-
-
-@contextmanager
-def working() -> Iterator[None]:
-    """Turn trouble with the workers into an error for the user."""
-    from roughcontact.study.executors.worker import WorkersError
-
-    try:
-        yield
-    except WorkersError as error:
-        raise UsageError(str(error)) from error

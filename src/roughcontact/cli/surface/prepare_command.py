@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from roughcontact.cli import options
-from roughcontact.cli.messages import note, plain, reported
-from roughcontact.cli.report import doing, surface_facts, surface_record, tell
+from roughcontact.cli.contact_of_job import name_of, prepared
+from roughcontact.cli.messages import note, plain
+from roughcontact.cli.options import JSON, OUTPUT
+from roughcontact.cli.output import output
+from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
-from roughcontact.cli.surface.steps import PreparationOptions, steps
+from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.preparation import Preparation
+from roughcontact.recipe.source import File
+
+if TYPE_CHECKING:
+    from roughcontact.surface.surface import Surface
 
 __all__ = ["EXAMPLES", "prepare"]
 
@@ -24,28 +34,37 @@ roughcontact surface prepare rough.npz seen.npz --tip 2um --average 4
 _BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the work of a filter
 
 
-def prepare(
-    source: options.Source,
-    out: Path = options.OUTPUT,
-    *,
-    preparation: PreparationOptions,
-    periodic: bool | None = options.PERIODIC,
-    json: bool = options.JSON,
-) -> None:
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """Where a surface goes: a file. An `Answer` names a folder for it, or none."""
+
+    out: Path = OUTPUT
+    json: bool = JSON
+
+    @property
+    def file(self) -> Path:
+        """The file of the surface."""
+        return self.out
+
+
+def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     """Crop, despike, mask, level, remove form, fill, scan, filter, average, subsample and taper a surface; save it.
 
     In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
     """
-    with reported(source.file, out, as_json=json):
-        require_output(out, source.file)
-        wanted = steps(preparation)
-        surface = source.map_or_line(periodic)
-        require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
-        if not wanted:
-            note("no step is asked for: the surface is written as it was read")
-        for step in wanted:
-            with doing(step.doing):
-                surface = step.apply(surface)
-        save_surface(surface, out)
-        record = {"command": "surface prepare", "file": plain(str(out))} | surface_record(surface)
-        tell(record, surface_facts(surface, record), as_json=json)
+    source = job.source
+    if isinstance(answer, Saved):
+        require_output(answer.file, Path(source.file) if isinstance(source, File) else None)
+    if job.preparation == Preparation():
+        note("no step is asked for: the surface is written as it was read")
+    with nullcontext() if isinstance(answer, Saved) else output(answer.out):
+        surface = prepared(job, _require_memory)["surface"]
+        if answer.file is not None:
+            save_surface(surface, answer.file)
+    file = name_of(source) if answer.file is None else plain(str(answer.file))
+    record = {"command": "surface prepare", "file": file} | surface_record(surface)
+    tell(record, surface_facts(surface, record), as_json=answer.json)
+
+
+def _require_memory(surface: Surface) -> None:
+    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)

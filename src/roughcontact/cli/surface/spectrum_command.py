@@ -6,19 +6,23 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from roughcontact.cli import options
-from roughcontact.cli.messages import UsageError, note, plain, reported
-from roughcontact.cli.option_groups import option
+from roughcontact.cli.contact_of_job import name_of, prepared
+from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
-from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import doing, emit, note_files, print_facts, quantity, size_of
+from roughcontact.cli.report import emit, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.unit_options import LENGTH, parse_positive
+from roughcontact.errors import InputError
+from roughcontact.files.quantity import LENGTH
 from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.progress.events import task
+from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.source import File
+from roughcontact.recipe.texts import Amount, Choice
 
 if TYPE_CHECKING:
     import xarray
@@ -53,83 +57,91 @@ _UNITS = {
 }
 
 
-Limit = StrEnum("Limit", ["AUTO", "NONE", "ROLLOFF", "LONG_CUTOFF"])
-Direction = StrEnum("Direction", ["AUTO", "RING", "X", "Y"])
-
 # The spectrum, the law fitted to it and, of a profile, C2D of the isotropic surface that has such profiles.
 _Found = tuple["PowerSpectrum", "HurstFit", "PowerSpectrum | None"]
 
 
-@dataclass(frozen=True, slots=True)
+_WAVE = Amount(LENGTH, "a wavelength")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Asked:
     """Which spectrum is asked for, and which law in it."""
 
-    PANEL: ClassVar = "Spectrum"
-    direction: Direction = option(
+    TITLE: ClassVar = "Spectrum"
+    direction: str = described(
         "Average over all directions (ring: C2D), or spectrum of the profiles along one (x, y: C1D); "
         "auto: ring of a map, x of a profile.",
-        default=Direction.AUTO,
+        read=Choice(("auto", "ring", "x", "y")),
+        default="auto",
+        everyday=True,
     )
-    limit: Limit = option("How the power law may end toward long waves.", default=Limit.AUTO)
-    longest: str | None = option(
-        "Longest wave that counts (default: a third of a free map's length).", "100um"
+    limit: str = described(
+        "How the power law may end toward long waves.",
+        read=Choice(("auto", "none", "rolloff", "long_cutoff")),
+        default="auto",
+        everyday=True,
     )
-    shortest: str | None = option("Shortest wave that the instrument follows (default: two cells).", "1um")
-    fill: bool = option("Fill missing points smoothly first.", default=False)
+    longest: str | None = described(
+        "Longest wave that counts (default: a third of a free map's length).",
+        "100um",
+        read=_WAVE,
+        everyday=True,
+    )
+    shortest: str | None = described(
+        "Shortest wave that the instrument follows (default: two cells).", "1um", read=_WAVE, everyday=True
+    )
+    level: str | None = described(
+        "What is removed from the heights (default: a least-squares plane).",
+        read=Choice(("plane", "mean", "none")),
+        everyday=True,
+    )
+    fill: bool = described("Fill missing points smoothly first.", default=False, everyday=True)
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.longest and self.shortest and not value_of(self, "longest") > value_of(self, "shortest"):
+            raise InputError(
+                f"the longest wave, {self.longest}, must be longer than the shortest, {self.shortest}",
+                "exchange the two",
+                "longest",
+            )
 
     def band(self) -> dict[str, float]:
         """Return the band that was asked for as wavenumbers [rad/m]."""
-        band = {
-            name: 2 * math.pi / parse_positive(text, LENGTH, f"--{flag}", "a wavelength")
-            for name, flag in (("q_min", "longest"), ("q_max", "shortest"))
-            if (text := getattr(self, flag)) is not None
-        }
-        if len(band) == 2 and not band["q_min"] < band["q_max"]:
-            raise UsageError(f"--longest {self.longest} must be longer than --shortest {self.shortest}")
-        return band
+        ends = {"q_min": value_of(self, "longest"), "q_max": value_of(self, "shortest")}
+        return {name: 2 * math.pi / length for name, length in ends.items() if length is not None}
 
 
-def spectrum(
-    source: options.Source,
-    *,
-    asked: Asked,
-    periodic: bool | None = options.PERIODIC,
-    level: options.Levelling | None = options.LEVEL,
-    out: Path | None = options.OUT,
-    format: PictureFormat | None = FORMAT,
-    json: bool = options.JSON,
-) -> None:
+def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
     """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
     Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
     """
-    with reported(source.file, out, as_json=json):
-        band, ending = asked.band(), picture_ending(format, out)
-        with output(out) as folder:
-            surface = _surface(source, periodic, asked.fill)
-            with doing("Spectrum, law and files"):
-                found, law = _analysed(surface, asked, band, level)
-                record = _record(surface, found, law, source.file)
-                if folder is not None:
-                    isotropic = _isotropic(surface, found, law)
-                    _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder, ending)
-        if json:
-            emit(record)
-        else:
-            print_facts(_facts(surface, record))
-        for line in record["notes"]:
-            note(line)
-        note_files(folder, ("spectrum.csv", f"spectrum.{ending}"))
+    with output(answer.out) as folder:
+        surface = _surface(source, asked.fill)
+        with task("Spectrum, law and files"):
+            found, law = _analysed(surface, asked)
+            record = _record(surface, found, law, name_of(source))
+            if folder is not None:
+                isotropic = _isotropic(surface, found, law)
+                _write((found.rebinned(_COARSE), law, isotropic), record, surface, folder, answer.ending)
+    if answer.json:
+        emit(record)
+    else:
+        print_facts(_facts(surface, record))
+    for line in record["notes"]:
+        note(line)
+    answer.note_files(folder, ("spectrum.csv", f"spectrum.{answer.ending}"))
 
 
-def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surface:
+def _surface(source: File, fill: bool) -> Surface:
     """Return the surface without missing points; its tilt is removed when the spectrum is taken."""
-    surface = source.map_or_line(periodic)
-    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
+    surface: Surface = prepared(SurfaceJob(source=source), _require_memory)["surface"]
     if surface.missing and not fill:
         raise UsageError(
-            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all: add --fill, "
-            "or crop them away by 'roughcontact surface prepare'"
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all",
+            "add --fill, or crop them away by 'roughcontact surface prepare'",
         )
     if surface.missing:
         note(f"{surface.missing} missing points are filled smoothly: the shortest waves are too weak there")
@@ -137,25 +149,27 @@ def _surface(source: options.Source, periodic: bool | None, fill: bool) -> Surfa
     return surface
 
 
-def _analysed(
-    surface: Surface, asked: Asked, band: dict[str, float], level: options.Levelling | None
-) -> tuple[PowerSpectrum, HurstFit]:
+def _require_memory(surface: Surface) -> None:
+    require_memory(_BYTES_PER_POINT * surface.grid.size, surface.grid.shape)
+
+
+def _analysed(surface: Surface, asked: Asked) -> tuple[PowerSpectrum, HurstFit]:
     """Return the spectrum in fine bins, its band set, and the law that fits it."""
     import roughcontact as rc
 
-    # mypy takes the values of an enum for any text.
-    direction: Any = asked.direction.value
-    limit: Any = asked.limit.value
-    taken: Any = "auto" if level is None else level.value
-    if level is None and not all(surface.grid.periodic):
+    direction: Any = asked.direction  # checked: one of the words of the library
+    limit: Any = asked.limit
+    level: Any = asked.level or "auto"
+    band = asked.band()
+    if asked.level is None and not all(surface.grid.periodic):
         trend = "plane" if surface.grid.ndim == 2 else "line"
         note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
-    whole = rc.power_spectrum(surface, direction, level=taken, per_decade=_FINE)
+    whole = rc.power_spectrum(surface, direction, level=level, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
     return whole, rc.fit_spectrum(whole, limit=limit)
 
 
-def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path) -> dict[str, Any]:
+def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: str) -> dict[str, Any]:
     import roughcontact as rc
 
     moments = rc.spectrum_moments(spectrum.rebinned(_COARSE), q_min=spectrum.q_min, q_max=spectrum.q_max)
@@ -174,7 +188,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: Path
         values["isotropic_rms_slope"] = replace(moments, dimension=2).rms_slope
     return {
         "command": "surface spectrum",
-        "file": plain(str(file)),
+        "file": file,
         "kind": spectrum.kind,
         # JSON has no word for what is infinite or unknown.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},

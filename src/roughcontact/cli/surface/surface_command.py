@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.cli import options
+from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, note, plain, reported
-from roughcontact.cli.option_groups import option
-from roughcontact.cli.picture_options import FORMAT, PictureFormat, picture_ending
-from roughcontact.cli.report import doing, print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.options import JSON, OUTPUT, Answer
+from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import require_output, save_surface
-from roughcontact.cli.unit_options import (
-    LENGTH,
-    parse,
-    parse_band,
-    parse_number,
-    parse_points,
-    parse_seed,
-    parse_size,
-)
+from roughcontact.progress.events import task
+from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.source import File, SelfAffine
+from roughcontact.recipe.texts import points
 
 if TYPE_CHECKING:
-    from roughcontact.grid import Grid
     from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
@@ -47,49 +42,44 @@ _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows
 _BYTES_PER_POINT = 47  # of the synthesis 21, of its facts and the file up to 49: measured with NPZ and X3P
 
 
-def info(
-    source: options.Source,
-    *,
-    out: Path | None = options.OUT,
-    format: PictureFormat | None = FORMAT,
-    json: bool = options.JSON,
-) -> None:
+def info(source: File, *, answer: Answer) -> None:
     """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness.
 
     What looks suspicious comes with the option of 'surface prepare' that mends it. With --out a picture of the heights,
     their spikes ringed, and of their distribution.
     """
-    file = source.file
-    with reported(file, out, as_json=json) as beside:
+    with reported(Path(source.file), as_json=answer.json) as beside:
         from roughcontact.files.aside import output_folder
         from roughcontact.files.file_errors import ReadError
         from roughcontact.plot.preparation_warnings import preparation_warnings
 
-        ending = picture_ending(format, out)
-        channels = _channels(file)
+        file, channels = name_of(source), _channels(Path(source.file))
         try:
-            surface = source.map_or_line()
+            surface = prepared(SurfaceJob(source=source), _require_memory)["surface"]
         except ReadError:
             # What the file leaves open, such as its size, does not hide what it holds.
-            beside |= {"file": plain(str(file)), "channels": channels}
-            if not json:
-                print_facts([("file", beside["file"]), *_channel_facts(channels)])
+            beside |= {"file": file, "channels": channels}
+            if not answer.json:
+                print_facts([("file", file), *_channel_facts(channels)])
             raise
-        require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
-        with doing("Looking for spikes, steps and form"):
+        with task("Looking for spikes, steps and form"):
             spikes, warnings = preparation_warnings(surface)
         lines = [str(warning) for warning in warnings]
         found = {"spikes": spikes.count, "spike_cells": int(spikes.mask.sum()), "suspicious": lines}
-        record = {"file": plain(str(file)), "channels": channels} | surface_record(surface) | found
+        record = {"file": file, "channels": channels} | surface_record(surface) | found
         facts = [*_channel_facts(channels), *surface_facts(surface, record)]
         mended = [("mended by", "these options of 'roughcontact surface prepare'")] if lines else []
-        with nullcontext() if out is None else output_folder(out) as folder:
+        with nullcontext() if answer.out is None else output_folder(answer.out) as folder:
             if folder is not None:
-                with doing("Drawing"):
-                    _draw(surface, spikes, folder / f"surface.{ending}")
-        tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=json)
+                with task("Drawing"):
+                    _draw(surface, spikes, folder / f"surface.{answer.ending}")
+        tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=answer.json)
         if folder is not None:
-            note(f"surface.{ending} is in {folder}")
+            note(f"surface.{answer.ending} is in {folder}")
+
+
+def _require_memory(surface: Surface) -> None:
+    require_memory(_BYTES_TO_LOOK * surface.grid.size, surface.grid.shape)
 
 
 def _draw(surface: Surface, spikes: Spikes, path: Path) -> None:
@@ -98,76 +88,26 @@ def _draw(surface: Surface, spikes: Spikes, path: Path) -> None:
     save(surface_figure(surface, spikes), path)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Recipe:
-    """A self-affine surface, as the user described it."""
-
-    hurst: str = option("Hurst exponent, from -1 to 3.", "0.8", default=...)
-    rms: str = option("Root mean square height.", "1um", default=...)
-    rms_band: str | None = option(
-        "Longest and shortest of the waves whose rms height is --rms (all), for one surface on several grids.",
-        "1mm:10um",
-    )
-    size: str = option("Width (cells are square), or height x width.", "1mm", default=...)
-    points: str = option("Points a side, or rows x columns.", "512", default="512")
-    seed: str = option("Seed of the random phases.", "1", default="1")
-    rolloff: str | None = option("Roll-off: the spectrum of longer waves is constant.", "100um")
-    long_cutoff: str | None = option("Longer waves are absent.", "500um")
-    short_cutoff: str | None = option("Shorter waves are absent.", "5um")
-    periodic: bool = option("For a surface that repeats itself.", default=False)
-    nodal: bool = option(
-        "Repeat the first row and column at the end: grids of 2^m + 1 points.", default=False
-    )
-
-
-def make(out: Path = options.OUTPUT, *, recipe: Recipe, json: bool = options.JSON) -> None:
+def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
-    with reported(out, as_json=json):
-        import numpy as np
-
-        import roughcontact as rc
-
-        slabs = slabs_of_job()
-        require_output(out, in_slabs=slabs is not None)
-        grid = _grid(recipe.size, recipe.points, recipe.periodic)
-        share = 1 if slabs is None else slabs.communicator.size
-        require_memory(_BYTES_PER_POINT * grid.size // share, grid.shape)
-        height, exponent = parse(recipe.rms, LENGTH, "--rms"), parse_number(recipe.hurst, "--hurst", "0.8")
-        chosen = parse_seed(recipe.seed, "--seed")
-        waves = {
-            name: parse(text, LENGTH, f"--{name.replace('_', '-')}")
-            for name in ("rolloff", "long_cutoff", "short_cutoff")
-            if (text := getattr(recipe, name)) is not None
-        }
-        band = None if recipe.rms_band is None else parse_band(recipe.rms_band, "--rms-band")
-        with doing("Adding up the waves"):
-            surface = rc.self_affine(
-                grid,
-                exponent,
-                height,
-                np.random.default_rng(chosen),
-                rms_band=band,
-                nodal=recipe.nodal,
-                slabs=slabs,
-                **waves,  # type: ignore[arg-type]
-            )
-        made = ", ".join([f"seed {chosen}", *(f"{name} {length:g} m" for name, length in waves.items())])
-        made = f"made by roughcontact {rc.__version__}: {made}"
-        surface = replace(surface, provenance=(*surface.provenance, made))
-        save_surface(surface, out)
-        record = {"file": plain(str(out)), "seed": chosen} | surface_record(surface)
-        tell(record, surface_facts(surface, record), as_json=json)
-
-
-def _grid(size: str, points: str, periodic: bool) -> Grid:
-    """Return the grid of a new surface; with one length the cells are square."""
     import roughcontact as rc
 
-    shape = parse_points(points, "--points")
-    lengths = parse_size(size, "--size")
-    width = lengths[-1] / shape[1]
-    height = lengths[0] / shape[0] if len(lengths) == 2 else width
-    return rc.Grid(shape, (height, width), periodic=periodic)
+    slabs, shape = slabs_of_job(), points(source.points)
+    require_output(out, in_slabs=slabs is not None)
+    share = 1 if slabs is None else slabs.communicator.size
+    require_memory(_BYTES_PER_POINT * math.prod(shape) // share, shape)
+    surface = prepared(SurfaceJob(source=source))["surface"]
+    waves = [
+        f"{name} {value_of(source, name):g} m"
+        for name in ("rolloff", "long_cutoff", "short_cutoff")
+        if getattr(source, name) is not None
+    ]
+    seed = value_of(source, "seed")
+    made = f"made by roughcontact {rc.__version__}: {', '.join([f'seed {seed}', *waves])}"
+    surface = replace(surface, provenance=(*surface.provenance, made))
+    save_surface(surface, out)
+    record = {"file": plain(str(out)), "seed": seed} | surface_record(surface)
+    tell(record, surface_facts(surface, record), as_json=json)
 
 
 def _channels(file: Path) -> list[dict[str, Any]]:

@@ -12,6 +12,7 @@ from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.material import Solid
+from roughcontact.progress.events import task
 from roughcontact.solver.control import Control
 from roughcontact.solver.loads import Loads
 
@@ -96,8 +97,9 @@ def load_outlook(
             return True
         return pilot is not None and _pressed(problem, control).resolved_from_below
 
-    below = _first(resolved_from_below, controls)
-    near_full = _first(lambda control: _nearly_full(_pressed(rough, control)), controls[below:])
+    with task("Finding which of these loads the grid resolves"):
+        below = _first(resolved_from_below, controls)
+        near_full = _first(lambda control: _nearly_full(_pressed(rough, control)), controls[below:])
     return LoadOutlook(len(controls), below, len(controls) - below - near_full)
 
 

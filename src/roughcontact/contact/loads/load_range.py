@@ -17,10 +17,12 @@ from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
+from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
+from roughcontact.progress.events import task
 from roughcontact.solver.control import Force
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.surface.preparation.spikes import find_spikes
@@ -125,7 +127,7 @@ def load_range(
     whole(count, "count, the number of forces,")
     grid = grid_of(surface)
     if not surface.rms > 0:
-        raise ValueError("a flat surface gives forces no scale: name the forces, depths or pressures")
+        raise InputError("a flat surface gives forces no scale", "name the forces, depths or pressures")
     geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
     length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
     scale = as_modulus(modulus) * surface.rms * length
@@ -136,7 +138,8 @@ def load_range(
         return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
     first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
     problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
-    return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
+    with task("Finding the loads that suit the surface"):
+        return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
 
 
 def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:

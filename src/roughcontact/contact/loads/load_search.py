@@ -22,6 +22,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.progress.events import task
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
@@ -189,10 +190,13 @@ def search_upwards(
     steps = round(STEPS_PER_DECADE * math.log10(most / start)) + (above is None)
     controls: list[Control] = [Force(start * 10 ** (k / STEPS_PER_DECADE)) for k in range(steps)]
     loads: list[SearchedLoad] = []
-    for solution in follow(problem, controls, ActiveSet()):
-        loads.append(SearchedLoad.of(solution, kind, loads))
-        if loads[-1].reason:
-            return LoadSearch(problem, kind, tuple(loads))
+    with task("Searching upwards", unit="loads") as search:
+        for solution in follow(problem, controls, ActiveSet()):
+            loads.append(SearchedLoad.of(solution, kind, loads))
+            if search is not None:
+                search.advance()
+            if loads[-1].reason:
+                return LoadSearch(problem, kind, tuple(loads))
     return LoadSearch(problem, kind, (*loads, *(above.loads if above else ())))
 
 

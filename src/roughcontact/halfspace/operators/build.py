@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.influence.love_singly_periodic import SinglyPeriodicLove
 from roughcontact.halfspace.influence.ring_influence import ring_matrix
@@ -65,9 +66,10 @@ def half_space(
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError(
-            "a half-space needs a grid of two axes; rings have ring(grid, modulus), and a line must name its own "
-            "operator: operator=line(grid, modulus), or foundation(grid, modulus)"
+        raise InputError(
+            "a half-space needs a grid of two axes",
+            "rings have ring(grid, modulus), and a line must name its own "
+            "operator: operator=line(grid, modulus), or foundation(grid, modulus)",
         )
     if all(grid.periodic):
         operator = InfluenceOperator(grid, Tables(Periodic(grid, value), grid.shape), positive=False)
@@ -125,14 +127,14 @@ def singly_periodic(
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 2 or sum(grid.periodic) != 1:
-        raise ValueError(
-            "a row of contacts needs a grid of two axes that is periodic along one of them: "
-            "Grid((ny, nx), spacing, periodic=(True, False))"
+        raise InputError(
+            "a row of contacts needs a grid of two axes that is periodic along one of them",
+            "use Grid((ny, nx), spacing, periodic=(True, False))",
         )
     longest = math.hypot(*(n / 2 if p else n for n, p in zip(grid.lengths, grid.periodic, strict=True)))
     reference = longest if reference_length is None else float(reference_length)
     if not (math.isfinite(reference) and reference >= longest * (1 - 1e-9)):
-        raise ValueError(
+        raise InputError(
             f"the reference length must be finite and at least the longest distance on the grid, {longest:.10g} m, not "
             f"{reference:g}: with a shorter one a load would lift cells far away"
         )
@@ -172,7 +174,7 @@ def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> Dens
     (50, 50)
     """
     if not isinstance(grid, RadialGrid):
-        raise ValueError(f"rings need a RadialGrid, not {type(grid).__name__}")
+        raise InputError(f"rings need a RadialGrid, not {type(grid).__name__}", place="grid")
     value = as_modulus(modulus)
     return DenseOperator(grid, ring_matrix(grid.edges) / (math.pi * value), modulus=value)
 
@@ -192,14 +194,20 @@ def body_on(
         return ring(grid, modulus) if isinstance(grid, RadialGrid) else half_space(grid, modulus)
     # Not `isinstance`, which from Python 3.12 on misses members that `__getattr__` finds.
     if not all(hasattr(operator, name) for name in ("grid", "weights", "apply", "as_matrix", "restrict")):
-        raise ValueError(f"an operator is wanted, such as half_space(grid, modulus), not {shown(operator)}")
+        raise InputError(
+            f"an operator is wanted, such as half_space(grid, modulus), not {shown(operator)}",
+            place="operator",
+        )
     if operator.grid != grid:
-        raise ValueError(
-            f"the operator's grid {operator.grid} is not the surface's {grid}: make the operator on that of the surface"
+        raise InputError(
+            f"the operator's grid {operator.grid} is not the surface's {grid}",
+            "make the operator on that of the surface",
         )
     own, value = capabilities(operator).modulus, as_modulus(modulus)
     if own is not None and not math.isclose(own, value, rel_tol=1e-9):
-        raise ValueError(
-            f"the operator has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for: give both the same"
+        raise about(
+            "the operator",
+            f"has a reduced modulus of {own:.6g} Pa, and {value:.6g} Pa is asked for",
+            "give both the same",
         )
     return operator

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.arrays import namespace, require_floating, require_no_unit, subtract
 from roughcontact.cached import cached_property
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.influence.tables import Love, Periodic, Strip, Tables
@@ -71,11 +72,13 @@ class InfluenceOperator:
         """
         if method not in get_args(Sum):
             names = ", ".join(map(repr, get_args(Sum)))
-            raise ValueError(f"method must be one of {names}, or 'dense' on a plane, not {method!r}")
+            raise about("method", f"must be one of {names}, or 'dense' on a plane, not {method!r}")
         if method == "fft":
             return self
         if any(self.grid.periodic):
-            raise ValueError(f"the method {method!r} is for free grids; a periodic one is summed by 'fft'")
+            raise InputError(
+                f"the method {method!r} is for free grids; a periodic one is summed by 'fft'", place="method"
+            )
         return replace(self, summation=MovingGrid if method == "moving-grid" else Multilevel())
 
     @property

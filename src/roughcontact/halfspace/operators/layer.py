@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionless, OnHalfSpace
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
@@ -76,16 +77,16 @@ def layer(
     '1.000 nm'
     """
     if not isinstance(modulus, Solid) and np.ndim(modulus) != 0:
-        raise ValueError(
-            "a pair of Solids does not say which is the layer: give the layer, and the other as against="
+        raise InputError(
+            "a pair of Solids does not say which is the layer", "give the layer, and the other as against="
         )
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError("a layer needs a grid of two axes: Grid((ny, nx), spacing)")
+        raise InputError("a layer needs a grid of two axes", "use Grid((ny, nx), spacing)")
     if any(grid.periodic) != all(grid.periodic):
-        raise ValueError("a layer is free or periodic along both axes; one periodic axis is not offered")
+        raise InputError("a layer is free or periodic along both axes; one periodic axis is not offered")
     if not (math.isfinite(thickness) and thickness > 0):
-        raise ValueError(f"the thickness must be positive and finite [m], not {thickness}")
+        raise about("the thickness", f"must be positive and finite [m], not {thickness}")
     moderate(thickness, "the thickness [m]")
     partner = 0.0 if against is None else 1 / as_modulus(against)
     stack = Stack(value, float(thickness), _base(modulus, base), partner)
@@ -101,10 +102,11 @@ def _base(modulus: float | Solid, base: str | Solid) -> Base:
     if base == "rigid-frictionless":
         return Frictionless()
     if base != "bonded" and not isinstance(base, Solid):
-        raise ValueError(f"base must be 'rigid-frictionless', 'bonded' or a Solid, not {base!r}")
+        raise about("base", f"must be 'rigid-frictionless', 'bonded' or a Solid, not {base!r}")
     if not isinstance(modulus, Solid):
-        raise ValueError(
-            "a bonded layer answers by its Poisson's ratio too: give Solid(young_modulus, poisson_ratio) for it"
+        raise InputError(
+            "a bonded layer answers by its Poisson's ratio too",
+            "give Solid(young_modulus, poisson_ratio) for it",
         )
     if isinstance(base, Solid) and math.isfinite(base.young_modulus):
         return OnHalfSpace(modulus, base)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Periodic, Strip, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
@@ -147,19 +148,19 @@ def line(
     """
     value = as_modulus(modulus)
     if not isinstance(grid, Grid) or grid.ndim != 1:
-        raise ValueError("a line contact needs a grid of one axis: Grid(n, spacing)")
+        raise InputError("a line contact needs a grid of one axis", "use Grid(n, spacing)")
     plane = _plane(grid)
     if all(grid.periodic):
         if reference_length is not None:
-            raise ValueError(
-                "a periodic line has no reference length: its mean displacement is zero; leave it out"
+            raise InputError(
+                "a periodic line has no reference length: its mean displacement is zero", "leave it out"
             )
         kernel: Periodic | Strip = Periodic(plane, value)
     else:
         length = grid.lengths[0]
         reference = length if reference_length is None else float(reference_length)
         if not (math.isfinite(reference) and reference >= length * (1 - 1e-9)):
-            raise ValueError(
+            raise InputError(
                 f"the reference length must be finite and at least that of the grid, {length:.10g} m, not "
                 f"{reference:g}: with a shorter one a load would lift the far end"
             )

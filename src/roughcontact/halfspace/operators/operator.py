@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.sums.local_inverse import LocalInverse
@@ -198,7 +199,7 @@ def capabilities(operator: object) -> Capabilities:
     """
     stated = getattr(operator, "capabilities", None)
     if not isinstance(stated, Capabilities | None):
-        raise ValueError(
+        raise InputError(
             f"the attribute capabilities of an operator must be a roughcontact.Capabilities, not {stated!r}"
         )
     return Capabilities() if stated is None else stated

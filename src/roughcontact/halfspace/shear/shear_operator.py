@@ -7,6 +7,7 @@ from typing import Literal, Protocol, cast, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.influence.shear_influence import (
     Cerruti,
@@ -142,9 +143,9 @@ def shear_half_space(
     (2, 16, 16)
     """
     if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError("tangential traction needs a grid of two axes; lines and rings are not offered")
+        raise InputError("tangential traction needs a grid of two axes; lines and rings are not offered")
     if any(grid.periodic) != all(grid.periodic):
-        raise ValueError("a half-space is free or periodic along both axes; one periodic axis is not offered")
+        raise InputError("a half-space is free or periodic along both axes; one periodic axis is not offered")
     compliance = shear_compliance(*pair_of(bodies))
     tensor = ShearWaves(grid, compliance) if all(grid.periodic) else Cerruti(grid.spacing, compliance)
     operator = InfluenceOperator(grid, TensorTables(tensor), positive=False)

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.fft
 
 from roughcontact.cached import cached_property
+from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.subsurface.love_field import (
     DISPLACEMENT_PARITY,
@@ -162,10 +163,12 @@ def displacement(pressure: Array, grid: AnyGrid, depth: float | Array, solid: So
         As `stress`, or if the solid is rigid.
     """
     if not (isinstance(solid, Solid) and np.isfinite(solid.young_modulus)):
-        raise ValueError(f"displacements need an elastic Solid(young_modulus, poisson_ratio), not {solid!r}")
+        raise InputError(
+            f"displacements need an elastic Solid(young_modulus, poisson_ratio), not {solid!r}", place="solid"
+        )
     p, plane = _checked(pressure, grid)
     if any(grid.periodic) != all(grid.periodic):
-        raise ValueError("below a row of loads displacements have no bound; stresses have")
+        raise InputError("below a row of loads displacements have no bound; stresses have")
     at = _depths(depth)
     transfers = partial(_displacement_transfers, plane, poisson_ratio=solid.poisson_ratio)
     return Displacement(
@@ -259,30 +262,32 @@ def _transformed(grid: Grid, kernels: Array, parities: Sequence[Parity]) -> Sequ
 
 def _checked(pressure: Array, grid: AnyGrid) -> tuple[Array, Grid]:
     if not isinstance(grid, Grid) or grid.ndim != 2:
-        raise ValueError(
+        raise InputError(
             "fields below the surface need a grid of two axes; a line is a strip of it, "
             "Grid((ny, nx), spacing, periodic=True) with one pressure on each column"
         )
     p = np.asarray(pressure, dtype=np.float64)
     if p.shape != grid.shape:
-        raise ValueError(f"a pressure of shape {p.shape} does not fit the grid of shape {grid.shape}")
+        raise InputError(
+            f"a pressure of shape {p.shape} does not fit the grid of shape {grid.shape}", place="pressure"
+        )
     if not np.isfinite(p).all():
-        raise ValueError("the pressure must be finite [Pa]: zero where nothing touches")
+        raise about("the pressure", "must be finite [Pa]: zero where nothing touches")
     return p, grid
 
 
 def _depths(depth: float | Array) -> float | Array:
     z = np.asarray(depth, dtype=np.float64)
     if z.ndim > 1 or not z.size:
-        raise ValueError(f"depth must be a number or a list of numbers [m], not of shape {z.shape}")
+        raise about("depth", f"must be a number or a list of numbers [m], not of shape {z.shape}")
     if not (np.isfinite(z).all() and (z >= 0).all()):
-        raise ValueError(
-            f"the depth counts from the surface into the body: at least 0 and finite [m], not {depth}"
+        raise about(
+            "the depth", f"counts from the surface into the body: at least 0 and finite [m], not {depth}"
         )
     return z if z.ndim else float(z)
 
 
 def _ratio(poisson_ratio: float) -> float:
     if not -1 < poisson_ratio <= 0.5:
-        raise ValueError(f"poisson_ratio must lie above -1 and at most at 0.5, not {poisson_ratio}")
+        raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {poisson_ratio}")
     return float(poisson_ratio)

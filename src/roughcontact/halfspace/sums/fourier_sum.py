@@ -12,7 +12,7 @@ from roughcontact.arrays import DeviceTable, namespace
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.influence.tables import Periodic
-from roughcontact.transforms import Convolution, fast_even_length, filtered, padded_length
+from roughcontact.transforms import Convolution, fast_even_length, filtered, padded_length, workers_for
 from roughcontact.validation import Array
 
 __all__ = ["Parity", "TensorConvolution", "fourier_sum", "inverse_sum", "padded_lengths", "transfer_function"]
@@ -91,15 +91,16 @@ def transfer_function(table: Array, parity: Parity, lengths: Pair, periodic: Seq
     shape = [m if around else m // 2 + 1 for m, around in zip(lengths, periodic, strict=True)]
     transfer = np.zeros(shape)
     transfer[: table.shape[0], : table.shape[1]] = table
+    workers = workers_for(lengths)
     for axis, (odd, around) in enumerate(zip(parity, periodic, strict=True)):
         if around:
-            waves = scipy.fft.rfft(transfer, axis=axis)
+            waves = scipy.fft.rfft(transfer, axis=axis, workers=workers)
             transfer = -waves.imag if odd else waves.real
         elif not odd:
-            transfer = scipy.fft.dct(transfer, type=1, axis=axis, overwrite_x=True)
+            transfer = scipy.fft.dct(transfer, type=1, axis=axis, overwrite_x=True, workers=workers)
         elif lengths[axis] > 2:  # else nothing is left between the two places that are zero
             inside = (slice(None),) * axis + (slice(1, -1),)
-            transfer[inside] = scipy.fft.dst(transfer[inside], type=1, axis=axis)
+            transfer[inside] = scipy.fft.dst(transfer[inside], type=1, axis=axis, workers=workers)
     return np.ascontiguousarray(transfer)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.arrays import require_numpy
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.shear_influence import Influences
 from roughcontact.halfspace.sums.levels import Kernel, LevelSum
@@ -54,11 +55,12 @@ class Multilevel:
 
     def __post_init__(self) -> None:
         if self.order not in range(2, 17, 2):
-            raise ValueError(f"the order of the interpolation must be even, from 2 to 16, not {self.order}")
+            raise about("the order", f"of the interpolation must be even, from 2 to 16, not {self.order}")
         if self.near < self.order - 1:
-            raise ValueError(
-                f"near must be at least {self.order - 1}, one less than the order, not {self.near}: "
-                "else the stencils of pairs that are not near overlap"
+            raise about(
+                "near",
+                f"must be at least {self.order - 1}, one less than the order, not {self.near}: "
+                "else the stencils of pairs that are not near overlap",
             )
 
     def __call__(self, influence: Influences, grid: Grid) -> MultilevelSum:

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.bodies.disc import sample_radii
@@ -210,8 +211,9 @@ class JKRContact:
         Indentation
         """
         if not 0 < scalar(radius, "contact radius") <= self.profile.radius:
-            raise ValueError(
-                f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}"
+            raise InputError(
+                f"the contact radius must lie between 0 and {self.profile.radius:g} m, not {radius}",
+                place="radius",
             )
         return Indentation(self.profile, self.modulus, float(self.depth(radius)), float(radius))
 
@@ -237,9 +239,10 @@ class JKRContact:
         a, level = control.extrema()
         lowest = int(level.argmin())
         if lowest == len(a) - 1 and not self.profile.edge:
-            raise ValueError(
+            raise InputError(
                 "the contact spreads to the end of the body by itself: its transform must rise faster than the square "
-                f"root of the radius somewhere below {a[-1]:g} m; take more of the body, or cut(radius)"
+                f"root of the radius somewhere below {a[-1]:g} m",
+                "take more of the body, or cut(radius)",
             )
         radius = float(a[lowest])
         return PullOff(float(self.force(radius)), float(self.depth(radius)), radius)
@@ -272,8 +275,9 @@ class Control:
 
     def __post_init__(self) -> None:
         if not scalar(self.machine_stiffness, "stiffness of the machine") >= 0:
-            raise ValueError(
-                f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}"
+            raise InputError(
+                f"the stiffness of the machine must be 0 or above [N/m], not {self.machine_stiffness}",
+                place="machine_stiffness",
             )
 
     @property
@@ -380,5 +384,5 @@ def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: fl
     """
     w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
-        raise ValueError(f"the work of adhesion must be positive [J/m^2], not {w}; without, indent serves")
+        raise about("the work", f"of adhesion must be positive [J/m^2], not {w}; without, indent serves")
     return JKRContact(checked_profile(profile), as_modulus(modulus), w)

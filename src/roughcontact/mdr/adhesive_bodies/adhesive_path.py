@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.adhesive_bodies.adhesion import Control, JKRContact
 from roughcontact.validation import Array, Mask, number, numeric, require, shown
 
@@ -99,17 +100,21 @@ def adhesive_path(
     ([3.155e-05, 4.708e-05, 0.0], [False, False, True])
     """
     if not isinstance(adhesion, JKRContact):
-        raise ValueError(
-            f"a JKRContact is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}"
+        raise InputError(
+            f"a JKRContact is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}",
+            place="adhesion",
         )
     require((depths is None) != (forces is None), "give exactly one history, of depths or of forces")
     if depths is not None and not machine_stiffness > 0:
-        raise ValueError(f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}")
+        raise InputError(
+            f"the stiffness that holds a depth must be positive [N/m], not {machine_stiffness}",
+            place="machine_stiffness",
+        )
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
     history = np.asarray(number(forces if depths is None else depths, "the history"))
     require(history.ndim == 1, f"a history is a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():
-        raise ValueError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
+        raise InputError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
     track = _Track(control, *control.extrema())
     radius, lost = 0.0, 0.0
     states = []
@@ -180,7 +185,7 @@ class _Track:
             return 0.0, loss + torn
         last = float(self.extrema[-1])
         if not self.control.adhesion.profile.edge:
-            raise ValueError(f"the contact spreads beyond {last:g} m, where the body is not known")
+            raise InputError(f"the contact spreads beyond {last:g} m, where the body is not known")
         if a < last:
             loss += self._energy(a, level) - self._energy(last, level)
         return last, loss

@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.units import in_si
 from roughcontact.validation import Array, number, require, scalar, shown
 
@@ -110,7 +111,7 @@ class Profile:
         """
         end = scalar(radius, "the radius of a cut [m]")
         if not (math.isfinite(end) and 0 < end <= self.radius):
-            raise ValueError(f"the radius of a cut must lie between 0 and {self.radius:g} m, not {radius}")
+            raise about("the radius", f"of a cut must lie between 0 and {self.radius:g} m, not {radius}")
         return replace(self, radius=end, edge=True)
 
     def __add__(self, other: Profile) -> Profile:
@@ -130,7 +131,11 @@ class Profile:
         factor = in_si(factor, None, "factor")
         if not isinstance(factor, int | float | np.integer | np.floating):
             return NotImplemented
-        require(math.isfinite(factor), f"a body can be stretched by a finite factor, not by {factor}")
+        require(
+            math.isfinite(factor),
+            f"a body can be stretched by a finite factor, not by {factor}",
+            place="factor",
+        )
         terms = tuple((float(factor) * c, term) for c, term in self.terms)
         return replace(self, terms=terms, rises=self.rises and factor >= 0)
 
@@ -148,8 +153,9 @@ class Profile:
 def checked_profile(profile: Profile) -> Profile:
     """Return a body of revolution, or refuse anything else."""
     if not isinstance(profile, Profile):
-        raise ValueError(
-            f"a body of revolution is wanted, such as indenter.paraboloid(radius), not {shown(profile)}"
+        raise InputError(
+            f"a body of revolution is wanted, such as indenter.paraboloid(radius), not {shown(profile)}",
+            place="profile",
         )
     return profile
 
@@ -157,5 +163,5 @@ def checked_profile(profile: Profile) -> Profile:
 def checked_radii(radii: float | Array) -> Array:
     """Return radii [m] as an array, or refuse negative and missing ones."""
     r = np.asarray(number(radii, "radii [m]"))
-    require(r >= 0, "radii must not be negative or missing [m]", r)
+    require(r >= 0, "radii must not be negative or missing [m]", value=r, place="radii")
     return r

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array
 
 __all__ = ["Panels", "fit", "interpolate"]
@@ -111,13 +112,15 @@ def fit(function: Function, end: float, *, tolerance: float) -> Panels:
     while len(todo):
         count += len(todo)
         if count > 2 * MOST:
-            raise ValueError(
-                f"the function is not piecewise smooth to {tolerance:g}: give samples of it instead (sampled)"
+            raise about(
+                "the function",
+                f"is not piecewise smooth to {tolerance:g}",
+                "give samples of it instead (sampled)",
             )
         own = _each(function, todo, NODES)
         if not np.isfinite(own).all():
             where = todo[~np.isfinite(own).all(axis=1)][0]
-            raise ValueError(f"the function is not finite between {where[0]:g} and {where[1]:g}")
+            raise about("the function", f"is not finite between {where[0]:g} and {where[1]:g}")
         size = np.abs(own).sum(axis=1)
         largest = max(largest, float(size.max()))
         # What lies below the rounding of the largest value is noise of the function itself.
@@ -143,7 +146,8 @@ def _each(function: Function, spans: Array, count: int) -> Array:
     places = np.clip(left + (right - left) * (nodes + 1) / 2, left, right)
     values = np.asarray(function(places.ravel()), dtype=np.float64)
     if values.shape != (places.size,):
-        raise ValueError(
-            f"a function of an array is wanted: {places.size} radii gave an answer of shape {values.shape}"
+        raise InputError(
+            f"a function of an array is wanted: {places.size} radii gave an answer of shape {values.shape}",
+            place="function",
         )
     return np.asarray(values.reshape(places.shape) @ matrix.T)

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.recovery import pressure, surface_displacement
 from roughcontact.theory.tools.roots import bisect
@@ -53,7 +54,7 @@ def disc_radius(
         If the body has no end, or the contact is not one disc; the message says where.
     """
     if not math.isfinite(profile.radius):
-        raise ValueError("the transform of this body may fall: say how far the body goes with cut(radius)")
+        raise InputError("the transform of this body may fall", "say how far the body goes with cut(radius)")
     x = sample_radii(profile, profile.radius)
     transform = profile.transform(x)
     below = value(x) <= target
@@ -70,7 +71,7 @@ def disc_radius(
         if objection is None:
             return float(a)
         objections.append(f"with radius {a:g} m {objection}")
-    raise ValueError("at this load the contact is not one disc: " + "; ".join(objections))
+    raise InputError("at this load the contact is not one disc: " + "; ".join(objections))
 
 
 def _objection(profile: Profile, a: float, d: float) -> str | None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile, checked_radii
 from roughcontact.mdr.bodies.disc import disc_radius
@@ -271,9 +272,9 @@ def indentation_curve(
     name, values = exactly_one(force=forces, depth=depths, contact_radius=contact_radii)
     loads = number(values, name)
     if loads.ndim != 1 or not len(loads):
-        raise ValueError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
+        raise InputError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
     if len(falls := np.nonzero(np.diff(loads) <= 0)[0]):
-        raise ValueError(
+        raise InputError(
             f"loads must increase strictly: {name} goes from {loads[falls[0]]:g} to {loads[falls[0] + 1]:g}"
         )
     return indented(profile, as_modulus(modulus), name, loads)
@@ -312,7 +313,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     """Return depths and contact radii."""
     checked_profile(profile)
     if not (np.isfinite(loads).all() and (loads >= 0).all()):
-        raise ValueError(f"loads must be finite and not negative; {name} is {loads}")
+        raise about("loads", f"must be finite and not negative; {name} is {loads}")
     if name == "contact_radius":
         return _atchecked_radii(profile, loads)
     if name == "force":
@@ -329,9 +330,10 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
             radius[index] = disc_radius(profile, value, goal, _depth_at(profile, name, goal))
     beyond = radius >= profile.radius
     if beyond.any() and not profile.edge:
-        raise ValueError(
+        raise InputError(
             f"under a {name} of {loads[beyond].min():g} the contact reaches {profile.radius:g} m, and the body is not "
-            "known further out: take more of it, or give it an edge there with cut(radius)"
+            "known further out",
+            "take more of it, or give it an edge there with cut(radius)",
         )
     if name == "depth":
         return loads, radius
@@ -342,7 +344,7 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
 
 def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
     if len(wrong := radii[(radii < profile.flat) | (radii > profile.radius)]):
-        raise ValueError(
+        raise InputError(
             f"the contact radius of this body lies between {profile.flat:g} m and {profile.radius:g} m, "
             f"not {wrong[0]:g}"
         )
@@ -351,7 +353,7 @@ def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
         for a, d in zip(radii.tolist(), depths.tolist(), strict=True):
             found = disc_radius(profile, profile.transform, d, _depth_at(profile, "depth", d))
             if not math.isclose(found, a, rel_tol=1e-6):
-                raise ValueError(f"no load makes a contact of radius {a:g} m: at its depth it is {found:g} m")
+                raise InputError(f"no load makes a contact of radius {a:g} m: at its depth it is {found:g} m")
     return depths, radii
 
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.terms import PowerTerm, SphereTerm, ripple_transform
 from roughcontact.mdr.bodies.transform_tables import from_function, from_samples, from_two_functions
@@ -188,9 +189,7 @@ def rounded_cone(slope: float, radius: float) -> Profile:
     >>> round(float(body.height(1e-4)) * 1e6, 6), round(float(body.height(2e-4)) * 1e6, 6)  # [um]
     (5.0, 15.0)
     """
-    positive_scalar(slope, "slope")
-    positive_scalar(radius, "radius")
-    joint = slope * radius
+    joint = positive_scalar(slope, "slope") * positive_scalar(radius, "radius")
     body = paraboloid(radius) - paraboloid(radius, flat=joint) + cone(slope, flat=joint)
     # A slope that does not fall makes a transform that does not fall.
     return replace(body, rises=True)
@@ -228,10 +227,10 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     positive_scalar(wavelength, "wavelength")
     positive_scalar(radius, "radius")
     if radius > MOST_WAVES * wavelength:
-        raise ValueError(
-            f"{radius / wavelength:.4g} waves within the radius of {radius:g} m are more than the {MOST_WAVES} of a "
-            "table: take less of the body, or a longer wavelength"
+        many = (
+            f"{radius / wavelength:.4g} waves within {radius:g} m are more than the {MOST_WAVES} of a table"
         )
+        raise InputError(many, "take less of the body, or a longer wavelength")
     finite(scalar(amplitude, "amplitude"), "amplitude")
     k = 2 * math.pi / wavelength
     # The transform has an extremum between any two quarters of a wavelength.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from roughcontact.errors import InputError, about
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.chebyshev import FINEST, Function, Panels, fit, interpolate
 from roughcontact.mdr.bodies.terms import TableTerm
@@ -21,17 +22,27 @@ def from_function(function: Function, radius: float, *, transformed: bool) -> Pr
     """Return the body whose height, or whose transform, is a function of the radius."""
     scalar(radius, "radius")
     if not (np.isfinite(radius) and radius > 0):
-        raise ValueError(f"say how far the body is known: a radius above 0 [m], not {radius}")
+        raise InputError(
+            f"the body is known to a radius above 0 [m], not {radius}", "say how far", place="radius"
+        )
     if not callable(function):
-        raise ValueError(f"a function of the radius is wanted, not {shown(function)}: sampled takes samples")
+        raise InputError(
+            f"a function of the radius is wanted, not {shown(function)}: sampled takes samples",
+            place="function",
+        )
     try:
         # Two, since a function of single numbers may take an array of one.
         start = float(np.asarray(function(np.zeros(2)), dtype=np.float64).ravel()[0])
     except (TypeError, ValueError) as error:
-        raise ValueError(
-            f"the function must take an array of radii, as np.cosh does and math.cosh does not, but: {error}"
+        raise about(
+            "the function",
+            f"must take an array of radii, as np.cosh does and math.cosh does not, but: {error}",
         ) from error
-    require(np.isfinite(start), f"the function must be finite at its apex, not {start} at radius 0")
+    require(
+        np.isfinite(start),
+        f"the function must be finite at its apex, not {start} at radius 0",
+        place="function",
+    )
     return _profile(fit(lambda x: function(x) - start, radius, tolerance=FUNCTION), transformed)
 
 
@@ -39,11 +50,11 @@ def from_samples(places: Array, values: Array, *, sharp: bool, transformed: bool
     """Return the body whose height, or whose transform, is a cubic spline through samples."""
     x, y = np.asarray(number(places, "places")), np.asarray(number(values, "values"))
     if x.ndim != 1 or x.shape != y.shape or len(x) < 4:
-        raise ValueError(f"at least four radii and as many heights are wanted, not {x.shape} and {y.shape}")
+        raise InputError(f"at least four radii and as many heights are wanted, not {x.shape} and {y.shape}")
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
-        raise ValueError("the samples of a profile must be finite: leave out what was not measured")
+        raise InputError("the samples of a profile must be finite", "leave out what was not measured")
     if x[0] != 0 or (np.diff(x) <= 0).any():
-        raise ValueError(f"the radii must increase strictly from 0 on, not from {x[0]:g}")
+        raise InputError(f"the radii must increase strictly from 0 on, not from {x[0]:g}")
     spline = CubicSpline(x, y - y[0], bc_type=("not-a-knot" if sharp else (1, np.zeros(())), "not-a-knot"))
     return _profile(interpolate(spline, x, 4), transformed)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.moments import Moments
 from roughcontact.validation import Array, positive_scalar, shown
@@ -49,12 +50,13 @@ class LineSpectrum:
 
     def __post_init__(self) -> None:
         if not callable(self.surface):
-            raise ValueError(
+            raise InputError(
                 "a spectrum C2D(q) is wanted, such as a SelfAffineSpectrum or rc.power_spectrum(surface), not "
-                f"{shown(self.surface)}"
+                f"{shown(self.surface)}",
+                place="surface",
             )
         if getattr(self.surface, "dimension", 2) != 2 or getattr(self.surface, "kind", "C2D") != "C2D":
-            raise ValueError(
+            raise InputError(
                 "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
                 "roughcontact.surface_spectrum"
             )
@@ -133,9 +135,11 @@ class TabulatedSpectrum:
 
     def __post_init__(self) -> None:
         if self.spectrum.kind != "C2D":
-            raise ValueError("this is the spectrum of profiles: convert it by roughcontact.surface_spectrum")
+            raise InputError(
+                "this is the spectrum of profiles", "convert it by roughcontact.surface_spectrum"
+            )
         if np.count_nonzero(self.spectrum.within().density) < 2:
-            raise ValueError("two bins with power are needed between q_min and q_max")
+            raise InputError("two bins with power are needed between q_min and q_max")
 
     @property
     def q_min(self) -> float:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy.special import hyp2f1, zeta
 
+from roughcontact.errors import about
 from roughcontact.validation import Array, numeric, scalar, whole
 
 __all__ = ["lambda_rms", "line_sum", "square_sum"]
@@ -169,6 +170,6 @@ def _rings(first: int, last: int) -> Array:
 def _check(hurst: float, modes: int | None) -> None:
     scalar(hurst, "Hurst exponent")
     if not (math.isfinite(hurst) and hurst >= -1):
-        raise ValueError(f"hurst must be finite and at least -1 (white heights), not {hurst}")
+        raise about("hurst", f"must be finite and at least -1 (white heights), not {hurst}")
     if modes is not None:
         whole(modes, "modes, the waves to a side,")

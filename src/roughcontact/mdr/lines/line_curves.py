@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError, about
 from roughcontact.statistics.ensemble_fit import EnsembleFit, fit_ensemble
 from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
@@ -102,7 +103,7 @@ class LineCurves:
                 getattr(other, name) == getattr(first, name) for name in ("modulus", "spacing", "points")
             )
             if not (same and np.array_equal(getattr(other, common), getattr(first, common))):
-                raise ValueError("curves are joined that have the same loads, modulus, spacing and points")
+                raise InputError("curves are joined that have the same loads, modulus, spacing and points")
         found = "depth" if common == "force" else "force"
         names = (found, "springs", "elastic_energy", "rms")
         joined: dict[str, Any] = {name: np.concatenate([getattr(b, name) for b in batches]) for name in names}
@@ -165,7 +166,7 @@ class LineCurves:
             Mean stiffness [N/m], shape (loads,).
         """
         if mean not in ("arithmetic", "geometric"):
-            raise ValueError(f"mean must be 'arithmetic' or 'geometric', not {mean!r}")
+            raise about("mean", f"must be 'arithmetic' or 'geometric', not {mean!r}")
         if mean == "arithmetic":
             springs = self.springs.mean(axis=0)
         else:
@@ -210,8 +211,8 @@ class LineCurves:
             If the depths were given and not the forces, or fewer than three forces lie in the window.
         """
         if self.force.ndim != 1:
-            raise ValueError(
-                "lines are averaged at equal forces: compute the curves with forces=, not depths="
+            raise InputError(
+                "lines are averaged at equal forces", "compute the curves with forces=, not depths="
             )
         if window is None:
             inside = self.resolved(mean) & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
@@ -220,9 +221,10 @@ class LineCurves:
             low, high = low * (1 - ROUNDING), high * (1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high)
         if inside.sum() < 3:
-            raise ValueError(
-                f"a power law needs at least 3 forces in its window, not {int(inside.sum())}: more forces, up to "
-                f"{FORCE_LIMIT * self.force_scale:.3g} N, or lines of more than {self.points} points"
+            raise InputError(
+                f"a power law needs at least 3 forces in its window, not {int(inside.sum())}",
+                f"more forces, up to "
+                f"{FORCE_LIMIT * self.force_scale:.3g} N, or lines of more than {self.points} points",
             )
         return fit_ensemble(
             self.force[inside],

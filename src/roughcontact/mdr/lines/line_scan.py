@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.material import Solid
 from roughcontact.mdr.lines.equivalent_line import LineSpectrum, line_spectrum
@@ -84,7 +85,7 @@ def scan_spectrum(
     -2.6
     """
     if scan.grid.ndim != 1:
-        raise ValueError(
+        raise InputError(
             "a line scan has one axis; a map has a spectrum C2D of its own: line_spectrum(power_spectrum(surface))"
         )
     profile = power_spectrum(scan, "x", window=window, per_decade=per_decade)

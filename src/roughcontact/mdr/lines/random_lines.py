@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.random_phases import (
     Amplitudes,
@@ -178,8 +179,8 @@ def line_heights(
     """
     amplitude = _amplitude(grid, spectrum, rms, rms_band)
     if waves.shape[1:] != amplitude.shape:
-        raise ValueError(
-            f"waves of shape {waves.shape} do not fit the {amplitude.size} wavenumbers of the grid"
+        raise about(
+            "waves", f"of shape {waves.shape} do not fit the {amplitude.size} wavenumbers of the grid"
         )
     return _lines(grid, amplitude, waves)
 
@@ -189,11 +190,14 @@ def _amplitude(
 ) -> Array:
     """Return B [m] at every wavenumber (thesis, eq. 2.11)."""
     if not isinstance(grid, Grid) or grid.ndim != 1:
-        raise ValueError("a line has a grid of one axis: Grid(n, spacing)")
+        raise InputError("a line has a grid of one axis", "use Grid(n, spacing)")
     if rms is not None:
         positive_scalar(rms, "rms")
     if not callable(spectrum):
-        raise ValueError(f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}")
+        raise InputError(
+            f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}",
+            place="spectrum",
+        )
     return wave_amplitudes(spectrum, grid.shape, grid.spacing, rms=rms, rms_band=rms_band)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.lines.line_curves import LineCurves
 from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, require
@@ -190,16 +191,18 @@ def checked_lines(heights: Array) -> Array:
     (1, 2)
     """
     if not hasattr(heights, "__len__"):
-        raise ValueError(
-            f"heights must be an array, not a {type(heights).__name__}: join the curves of batches by LineCurves.joined"
+        raise about(
+            "heights",
+            f"must be an array, not a {type(heights).__name__}",
+            "join the curves of batches by LineCurves.joined",
         )
     lines = np.atleast_2d(number(heights, "heights"))
     if lines.ndim != 2 or lines.size == 0:
-        raise ValueError(f"heights must be one line or a row a line, not of shape {np.shape(heights)}")
+        raise about("heights", f"must be one line or a row a line, not of shape {np.shape(heights)}")
     if not np.isfinite(lines).all():
-        raise ValueError(
-            f"{int((~np.isfinite(lines)).sum())} heights are missing or infinite: springs are independent, so leave "
-            "out the points of a line that have no height"
+        raise InputError(
+            f"{int((~np.isfinite(lines)).sum())} heights are missing or infinite",
+            "springs are independent, so leave out the points of a line that have no height",
         )
     return lines
 
@@ -213,8 +216,12 @@ def _loads(
     unit, least = ("N", "above 0") if by_force else ("m", "at least 0")
     loads = np.atleast_1d(number(values, name))
     if loads.ndim != 1 or not len(loads):
-        raise ValueError(f"{name} must hold at least one number in one row, not shape {loads.shape}")
+        raise InputError(
+            f"{name} must hold at least one number in one row, not shape {loads.shape}", place=name
+        )
     if not (np.isfinite(loads).all() and (loads > 0 if by_force else loads >= 0).all()):
-        raise ValueError(f"{name} must be finite and {least} [{unit}], not {loads[0]:g} to {loads[-1]:g}")
-    require(np.diff(loads) > 0, f"{name} must increase strictly")
+        raise InputError(
+            f"{name} must be finite and {least} [{unit}], not {loads[0]:g} to {loads[-1]:g}", place=name
+        )
+    require(np.diff(loads) > 0, f"{name} must increase strictly", place=name)
     return loads, by_force

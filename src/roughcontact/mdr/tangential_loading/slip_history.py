@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.indentation import indented
@@ -130,7 +131,7 @@ def slip_history(
         goal = load
         if tangential == "force":
             if abs(load) > most * (1 + 1e-9):
-                raise ValueError(
+                raise InputError(
                     f"friction holds at most {most:g} N, and {load:g} N makes the body slide away"
                 )
             goal = _displacement(tau, before, now, load, G=G, mu=mu, start=place, width=width)
@@ -154,12 +155,12 @@ def _histories(
         or len({one.size for one in pair} - {1}) > 1
         or not all(one.size for one in pair)
     ):
-        raise ValueError(
+        raise InputError(
             f"histories are numbers, or lists of one length, not of shapes {pair[0].shape} and {pair[1].shape}"
         )
     loads = np.array(np.broadcast_arrays(*pair))
     if not np.isfinite(loads).all():
-        raise ValueError(f"histories must be finite, not {loads[~np.isfinite(loads)][0]}")
+        raise InputError(f"histories must be finite, not {loads[~np.isfinite(loads)][0]}")
     return "force" if depth is None else "depth", "force" if displacement is None else "displacement", loads
 
 

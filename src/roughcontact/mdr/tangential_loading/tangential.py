@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.bodies.indentation import Indentation, indent
 from roughcontact.validation import Array, exactly_one, positive_scalar, scalar, shown
 
@@ -152,22 +153,23 @@ def partial_slip(
     0.7937
     """
     if not isinstance(indentation, Indentation):
-        raise ValueError(
-            f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}"
+        raise InputError(
+            f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}",
+            place="indentation",
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
         positive_scalar(value, name)
     _, load = exactly_one(force=force, displacement=displacement)
     given = scalar(load, "tangential load")
     if not (math.isfinite(given) and given >= 0):
-        raise ValueError(
+        raise InputError(
             f"a tangential load must be finite and not negative, not {given}: only its size matters"
         )
     profile, modulus = indentation.profile, indentation.modulus
     if force is not None:
         rest = indentation.force - force / friction
         if rest < -1e-12 * indentation.force:
-            raise ValueError(
+            raise InputError(
                 f"friction holds at most {friction * indentation.force:g} N, and {force:g} N makes the body slide away"
             )
         sticking = indent(profile, modulus, force=max(rest, 0.0))

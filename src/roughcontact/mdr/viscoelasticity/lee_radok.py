@@ -16,6 +16,7 @@ from typing import Protocol
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic, checked_history, checked_material
 from roughcontact.theory.tools.computed import LogCubic
 from roughcontact.validation import Array, exactly_one, number, require, shown
@@ -139,9 +140,10 @@ def transfer(
     if missing := [
         name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)
     ]:
-        raise ValueError(
+        raise InputError(
             "an elastic loading curve is wanted, such as rc.loading_curve and indentation_curve return, not "
-            f"{shown(curve)} without {', '.join(missing)}"
+            f"{shown(curve)} without {', '.join(missing)}",
+            place="curve",
         )
     t, load = checked_history(times, np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads)
     require(load >= 0, f"loads must not be negative, but the least is {load.min():g}")
@@ -195,13 +197,13 @@ def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
             elements += -elements * part + moduli * taus * step / h * part
         else:
             if material.dashpot and step > 0:
-                raise ValueError("a dashpot admits no jump of the depth: its force would be infinite")
+                raise InputError("a dashpot admits no jump of the depth: its force would be infinite")
             elements += moduli * step
         before, last = now, value
         force[index] += elements.sum()
     if material.dashpot:
         if len(t) < 3 or (np.diff(t) == 0).any():
-            raise ValueError("a dashpot's force under a given depth wants at least three different times")
+            raise InputError("a dashpot's force under a given depth wants at least three different times")
         # Phi grows; a parabola through the first three points may fall at the first all the same.
         force += material.dashpot * np.maximum(np.gradient(phi, t, edge_order=2), 0.0)
     return force
@@ -210,7 +212,7 @@ def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
 def _growing(t: Array, value: Array, what: str) -> None:
     """Refuse a history in which the contact shrinks."""
     if len(fall := np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]):
-        raise ValueError(
+        raise InputError(
             f"the {what} falls from t = {t[fall[0]]:g} s on: the transfer holds only while no point leaves the contact "
             "(Lee & Radok); for a body of revolution depth_history and force_history go on"
         )
@@ -221,7 +223,7 @@ def _points(curve: ElasticCurve) -> Array:
     rows = np.array([curve.force, curve.depth, curve.contact_area])
     rows = rows[:, (rows > 0).all(axis=0)]
     if rows.shape[1] < 2 or (np.diff(rows[:2], axis=1) <= 0).any():
-        raise ValueError("the elastic curve must have at least two points of increasing force and depth")
+        raise InputError("the elastic curve must have at least two points of increasing force and depth")
     return rows
 
 
@@ -229,8 +231,9 @@ def _look_up(at: Array, of: Array, value: Array, what: str) -> Array:
     """Return one column of a curve where another has the value; 0 at 0."""
     found = np.where(value > 0, LogCubic.of(at, of)(value), 0.0)
     if len(outside := value[np.isnan(found)]):
-        raise ValueError(
+        raise InputError(
             f"the elastic curve goes from {what} {at[0]:g} to {at[-1]:g}, and the history needs "
-            f"{outside.min():g} to {outside.max():g}: compute the curve for more loads"
+            f"{outside.min():g} to {outside.max():g}",
+            "compute the curve for more loads",
         )
     return found

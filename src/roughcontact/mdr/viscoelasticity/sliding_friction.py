@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.material import Solid, as_modulus
 from roughcontact.mdr.lines.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.viscoelasticity.sliding_state import SlidingState, sliding_state
@@ -129,11 +130,11 @@ def sliding_friction(
     stiffness = as_modulus(modulus)
     rates = np.atleast_1d(number(speeds, "speeds [m/s]"))
     if rates.ndim != 1 or not len(rates) or not (np.isfinite(rates).all() and (rates > 0).all()):
-        raise ValueError(f"speeds must be positive and finite [m/s], at least one in one row, not {rates}")
-    require(np.diff(rates) > 0, "speeds must increase strictly")
+        raise about("speeds", f"must be positive and finite [m/s], at least one in one row, not {rates}")
+    require(np.diff(rates) > 0, "speeds must increase strictly", place="speeds")
     positive_scalar(relaxation_time, "relaxation_time")
     if lines.shape[1] < 2 or not (np.ptp(lines, axis=1) > 0).all():
-        raise ValueError("a line without asperities slides without friction: its heights must differ")
+        raise InputError("a line without asperities slides without friction: its heights must differ")
 
     depth = loading_curves(lines, spacing, stiffness, forces=[force]).depth[:, 0]
     separation = lines.max(axis=1, keepdims=True) - lines

@@ -18,6 +18,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, scalar, shown
 
 __all__ = [
@@ -101,7 +102,7 @@ class Viscoelastic:
 
     def __post_init__(self) -> None:
         if len(self.moduli) != len(self.times):
-            raise ValueError(
+            raise InputError(
                 f"each modulus wants its time: {len(self.moduli)} and {len(self.times)} are given"
             )
         for name, values in (("modulus", (self.equilibrium, *self.moduli)), ("time", self.times)):
@@ -109,15 +110,15 @@ class Viscoelastic:
                 scalar(value, f"{name} of a viscoelastic material")
         scalar(self.dashpot, "viscosity")
         if not all(math.isfinite(v) and v >= 0 for v in (self.equilibrium, self.dashpot)):
-            raise ValueError(
-                f"moduli and viscosities must not be negative: {self.equilibrium}, {self.dashpot}"
-            )
+            raise about("moduli", f"and viscosities must not be negative: {self.equilibrium}, {self.dashpot}")
         if not all(math.isfinite(v) and v > 0 for v in (*self.moduli, *self.times)):
-            raise ValueError(f"moduli {self.moduli} and times {self.times} of elements must be positive")
+            raise InputError(
+                f"moduli {self.moduli} and times {self.times} of elements must be positive", place="moduli"
+            )
         if len(set(self.times)) != len(self.times):
-            raise ValueError(f"elements of one relaxation time are one element: {self.times}")
+            raise InputError(f"elements of one relaxation time are one element: {self.times}")
         if self.equilibrium == 0 and self.dashpot == 0 and not self.moduli:
-            raise ValueError("a material without modulus and viscosity resists nothing")
+            raise InputError("a material without modulus and viscosity resists nothing")
 
     @property
     def instantaneous(self) -> float:
@@ -267,7 +268,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     [10.0, 4.3109, 1.0]
     """
     if not 0 < scalar(equilibrium, "equilibrium modulus") < scalar(instantaneous, "instantaneous modulus"):
-        raise ValueError(
+        raise InputError(
             f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
             f"not to {equilibrium} Pa"
         )
@@ -299,9 +300,10 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
     """
     lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
     if any(values.ndim != 1 for values in lists):
-        raise ValueError(
-            "moduli and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
-            f"not {shown(moduli)} and {shown(times)}"
+        raise about(
+            "moduli",
+            "and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
+            f"not {shown(moduli)} and {shown(times)}",
         )
     E, tau = (tuple(values.tolist()) for values in lists)
     return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
@@ -326,9 +328,10 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
     (100000000.0,)
     """
     if not isinstance(material, Viscoelastic):
-        raise ValueError(
+        raise InputError(
             "a viscoelastic material is wanted, such as standard_solid(equilibrium, instantaneous, relaxation_time), "
-            f"not {shown(material)}"
+            f"not {shown(material)}",
+            place="material",
         )
     return material
 
@@ -361,19 +364,19 @@ def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Arr
     """
     t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
     if t.ndim != 1 or t.shape != load.shape or not len(t):
-        raise ValueError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
+        raise InputError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
     for name, values in (("times", t), ("loads", load)):
         if (wrong := values[~np.isfinite(values)]).size:
-            raise ValueError(f"{name} must be finite, not {wrong[0]}")
+            raise InputError(f"{name} must be finite, not {wrong[0]}", place=name)
     if (back := np.nonzero(np.diff(t) < 0)[0]).size:
-        raise ValueError(f"times must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
+        raise about("times", f"must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
     return t, load
 
 
 def _times(time: float | Array) -> Array:
     t = np.asarray(number(time, "time [s]"))
     if not (t >= 0).all():
-        raise ValueError(
+        raise InputError(
             f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: nothing responds before the load"
         )
     return t

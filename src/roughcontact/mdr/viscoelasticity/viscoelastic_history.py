@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from roughcontact.errors import about
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.indentation import Indentation, indent
 from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic, checked_history, checked_material
@@ -161,8 +162,8 @@ def force_history(
     checked_material(material)
     t, F = checked_history(times, forces)
     if (F < 0).any() or not F.any():
-        raise ValueError(
-            f"forces must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"
+        raise about(
+            "forces", f"must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"
         )
     # No history up to this force can reach a larger contact than the force itself, all the time.
     most = float(F.max()) * float(material.creep()(t[-1] - t[0]))

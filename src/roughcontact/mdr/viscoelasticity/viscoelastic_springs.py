@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, Mask
@@ -104,8 +105,8 @@ class ViscoelasticFoundation:
         if m.dashpot:
             rounding = 1e-12 * float(np.abs(body).max())
             if (body > place + rounding).any():
-                raise ValueError(
-                    "a dashpot admits no jump of the depth: its force would be infinite; let the depth rise"
+                raise InputError(
+                    "a dashpot admits no jump of the depth: its force would be infinite", "let the depth rise"
                 )
             on = springs.on & (body >= place - rounding)
         else:

@@ -1,69 +1,77 @@
-"""What a page shows of a curve: points as they come, a power law at the end, theories beside them."""
+"""What a page shows of a curve: points as they come, its law, jumps or flow at the end, theories beside it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
-from roughcontact.page.jobs.conducting import conductors_of
-from roughcontact.page.jobs.curve_point import columns, point_of
-from roughcontact.page.jobs.session_cache import SessionCache, hardness_of, modulus_of
-from roughcontact.page.recipe import PageLoads, PageRecipe
-from roughcontact.page.server.page_request import PageRequest, Send
-from roughcontact.page.statement import stated
+from roughcontact.page.jobs.curve_point import columns_of, point_of
+from roughcontact.page.jobs.followed import Followed, collected
+from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.jobs.shown_curve import shown_curve
+from roughcontact.page.refusal import on_the_page
+from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.stopping import Stopped
+from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.jobs import Job, known_names
+from roughcontact.recipe.library_calls import performed
+from roughcontact.recipe.recipe_fields import given
 
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
-    from roughcontact.contact.curve import Curve
-    from roughcontact.contact.solution import Solution
     from roughcontact.theory.law import LoadingLaw
 
-__all__ = ["compared", "curve", "theories", "whole_curve"]
+__all__ = ["compared", "curve", "theories"]
 
 
 def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the loads, every point when it is there, and what the curve says as a whole."""
-    recipe = replace(request.recipe, load=None, loads=request.recipe.loads or PageLoads())
-    if recipe.loads is not None and recipe.loads.ends is None and recipe.loads.values is None:
-        send({"type": "doing", "words": "Looking for the loads that suit this surface"})
-    loads, notes = cache.loads(recipe, request.files)
-    conductors = conductors_of(recipe.bodies)
-    send({"type": "loads", "count": len(loads.values), "notes": notes, "columns": columns(conductors)})
-    send(_statement(recipe, request))
+    job, done, stopped = request.job, 0, False
+    path = cache.followed(job)
+    loads = path.loads.values
+    send({"type": "loads", "count": path.count, "notes": path.notes, "columns": columns_of(job)})
+    send({"type": "stated", **request.statement})
 
-    def watched(path: Iterator[Solution]) -> Iterator[Solution]:
-        done = 0
+    def watched() -> Iterator[Any]:
+        nonlocal done, stopped
         try:
-            for solution in path:
-                send(
-                    {
-                        "type": "point",
-                        "load": float(loads.values[done]),
-                        **point_of(solution, conductors),
-                        **_judged(solution),
-                    }
-                )
+            for state in path.states:
+                send({"type": "point", "load": float(loads[done]), **_point(state, job, path, done)})
                 done += 1
-                yield solution
+                yield state
         except Stopped:
-            if not done:  # nothing to keep
+            if not done or not path.parts:  # nothing to keep
                 raise
+            stopped = True
 
-    computed = _collected(watched(cache.path(recipe, loads, request.files)))
-    cache.keep_curve(recipe, loads, computed)
-    send({"type": "curve", **_whole(computed), "stopped": len(computed) < len(loads.values)})
+    found = collected(replace(path, states=watched()))
+    reached, part = _as_far(job, path, done) if stopped else (job, {})
+    if reached is not None:
+        cache.keep_curve(reached, found)
+    import numpy as np
+
+    answer = shown_curve(found)
+    send({"type": "curve", **answer.shown(), "stopped": stopped, "part": part, "again": reached is not None})
+    if answer.heights is not None:
+        place: dict[str, Any] = {
+            "lengths": answer.heights.grid.lengths,
+            "periodic": list(answer.heights.grid.periodic),
+        }
+        field = answer.heights.heights - np.nanmean(answer.heights.heights)
+        send_map(send, "flattened", field, request.whole("pixels", 1024, 4096), unit="m", **place)
 
 
 def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
-    loads = request.recipe.loads or PageLoads()
-    found, refused = compared(request, cache)
-    for name, why in refused.items():
-        send({"type": "theory", "name": name, "refused": why})
+    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
+    for name in request.more.get("theories") or ():
+        try:
+            found |= compared(_with_theories(request.job, [name]), cache)
+        except InputError as error:
+            send({"type": "theory", "name": name, "refused": on_the_page(str(error))})
     for name, (_, comparison) in found.items():
         send(
             {
@@ -74,95 +82,49 @@ def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "predicted": {key: plain_values(values) for key, values in comparison.predicted.items()},
             }
         )
-    apply = replace(loads, theories=tuple(found))
-    send(_statement(replace(request.recipe, load=None, loads=apply), request))
+    shown = replace(request, shown=_with_theories(request.shown, list(found)))
+    send({"type": "stated", **shown.statement})
 
 
-def compared(
-    request: PageRequest, cache: SessionCache
-) -> tuple[dict[str, tuple[LoadingLaw, Comparison]], dict[str, str]]:
-    """Return each theory that the recipe names beside the curve, and why others do not apply."""
-    computed, loads = whole_curve(request, cache), request.recipe.loads or PageLoads()
-    found: dict[str, tuple[LoadingLaw, Comparison]] = {}
-    refused: dict[str, str] = {}
-    for name in loads.theories:
-        try:
-            law = _law(name, request, cache)
-            found[name] = law, computed.compare(law)
-        except ValueError as error:
-            if not is_ours(error):
-                raise
-            refused[name] = str(error)
-    return found, refused
+def compared(job: CurveJob, cache: SessionCache) -> dict[str, tuple[LoadingLaw, Comparison]]:
+    """Return each theory that a job names, beside its curve.
+
+    Raises
+    ------
+    InputError
+        If one does not apply.
+    """
+    computed = cache.curve(job)
+    computed = getattr(computed, "loading", computed)
+    known = performed(job.bodies.calls(), known_names() | {"surface": cache.surface(job)})
+    asked = [call for call in job.calls() if call.result == "theories"]
+    laws = performed(asked, known)["theories"] if asked else []
+    return {name: (law, computed.compare(law)) for name, law in zip(job.theories.names(), laws, strict=True)}
 
 
-def whole_curve(request: PageRequest, cache: SessionCache) -> Curve:
-    """Return the curve that the page has, as far as it came; computed again if this worker has not seen it."""
-    loads, _ = cache.loads(request.recipe, request.files)
-    kept = cache.curve(request.recipe, loads)
-    if kept is not None:
-        return kept
-    computed = _collected(cache.path(request.recipe, loads, request.files))
-    cache.keep_curve(request.recipe, loads, computed)
-    return computed
+def _with_theories(job: Job, names: Sequence[str]) -> CurveJob:
+    """Return a job of a curve beside which these theories stand."""
+    assert isinstance(job, CurveJob)
+    theory = {"theory": ",".join(names)} if names else {}
+    return replace(job, theories=type(job.theories)(**(given(job.theories) | theory)))
 
 
-def _law(name: str, request: PageRequest, cache: SessionCache) -> LoadingLaw:
-    import roughcontact as rc
-    from roughcontact.theory.laws import LAWS
-
-    bodies = request.recipe.bodies
-    hardness = hardness_of(bodies)
-    if hardness is None and name in LAWS and "hardness" in LAWS[name].needs:
-        raise ValueError(
-            "it is about spots that flow: give the hardness of the softer body, and start the curve again"
-        )
-    known: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
-    [law] = rc.loading_laws(cache.surface(request.recipe, request.files), modulus_of(bodies), name, **known)
-    return law
+def _as_far(job: Job, path: Followed, done: int) -> tuple[Job | None, dict[str, Any]]:
+    """Return the job of the loads that were reached, and its part that differs; None where no job has these alone."""
+    name = next((name for name in ("loads", "retreat") if is_dataclass(getattr(job, name, None))), None)
+    if name is None:
+        return None, {}
+    text = ",".join(map(repr, path.loads.values[:done].tolist()))
+    part = {f"{path.loads.kind.replace(' ', '_')}s": text}
+    changed: Any = {name: type(getattr(job, name))(**part)}
+    return replace(job, **changed), {name: part}
 
 
-def _statement(recipe: PageRecipe, request: PageRequest) -> Mapping[str, Any]:
-    statement = stated(recipe, request.file)
-    return {"type": "stated", "command": statement.command, "python": statement.python}
-
-
-def _collected(path: Iterator[Solution]) -> Curve:
-    from roughcontact.contact.curve import collect
-
-    return collect(path)
-
-
-def _judged(solution: Solution) -> dict[str, Any]:
-    converged = solution.status.converged
-    return {"resolved": bool(solution.resolved and converged), "status": solution.status.value}
-
-
-def _whole(computed: Curve) -> dict[str, Any]:
-    from roughcontact.contact.curve import REMEDY
-    from roughcontact.plot.facts import bend_words, curve_facts
-
-    resolved = int(computed.resolved.sum())
-    try:
-        law = computed.fit()
-    except ValueError as error:
-        if not is_ours(error):
-            raise
-        why = str(error).replace(REMEDY, "take loads that suit the surface, or a finer map")
-        return {
-            "facts": curve_facts(computed, None),
-            "notes": [f"No power law: {why}."],
-            "resolved": resolved,
-        }
-    inside = (computed.force >= law.window[0]) & (computed.force <= law.window[1])
-    force = computed.force[inside]
+def _point(state: Any, job: Job, path: Followed, at: int) -> dict[str, Any]:
+    converged = state.status.converged
     return {
-        "facts": curve_facts(computed, law),
-        "notes": [] if law.straight else [f"There is {bend_words(law)}."],
-        "resolved": resolved,
-        "fit": {
-            "exponent": float(law.exponent),
-            "force": force.tolist(),
-            "stiffness": law.stiffness(force).tolist(),
-        },
+        **point_of(state, job),
+        "branch": path.branches[at] if path.branches else "",
+        "resolved": bool(getattr(state, "resolved", True) and converged),
+        "status": state.status.value,
     }

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tempfile
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from roughcontact.page.jobs.conducting import conductors_of
-from roughcontact.page.jobs.curve_jobs import compared, whole_curve
-from roughcontact.page.jobs.session_cache import SessionCache, modulus_of
-from roughcontact.page.recipe import FileSource, PageLoads
+import tomli_w
+
+from roughcontact.errors import InputError
+from roughcontact.page.jobs.curve_jobs import compared
+from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.server.page_request import PageRequest, Send
-from roughcontact.page.statement import Statement, stated
+from roughcontact.progress.events import task
+from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
+from roughcontact.recipe.jobs import calls_of, contact_calls, known_names
+from roughcontact.recipe.library_calls import Call, python_of
+from roughcontact.recipe.recipe_fields import given
+from roughcontact.recipe.source import File
 
 if TYPE_CHECKING:
-    from roughcontact.contact.solution import Solution
+    from matplotlib.figure import Figure
 
 __all__ = ["export"]
 
@@ -28,136 +36,169 @@ _KINDS = ("csv", "nc", "png", "svg", "zip")
 
 
 def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send a file of the load or the curve that the recipe states, or an archive of all that belongs to it."""
+    """Send a file of the answer to a job, or an archive of all that belongs to it."""
     kind = request.more.get("kind")
     if kind not in _KINDS:
-        raise ValueError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}")
-    send({"type": "doing", "words": "Writing files"})
-    statement = stated(request.recipe, request.file)
-    with tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
+        raise InputError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}", "choose one of them")
+    with task("Writing files"), tempfile.TemporaryDirectory(prefix="roughcontact-") as name:
         folder = Path(name)
         if kind == "zip":
-            _everything(request, cache, statement, folder)
+            _everything(request, cache, folder)
             send({"type": "file", "name": _name(request, "contact", kind)}, _zipped(folder))
             return
-        load, loads = request.recipe.load, request.recipe.loads
-        if request.more.get("of") == "curve" and loads is not None:
-            written, what = _curve_files(request, cache, statement), f"curve-{loads.control}"
-        elif request.more.get("of") == "load" and load is not None:
-            written = _load_files(cache.solution(request.recipe, request.files), request, statement)
-            what = f"{load.control}-{load.text}"
-        else:
-            raise ValueError("there is nothing to export yet: press the surface, or start the curve")
-        file = folder / next(file for file in written if file.endswith(f".{kind}"))
-        written[file.name](file)
-        send({"type": "file", "name": _name(request, what, kind)}, file.read_bytes())
+        if isinstance(request.job, SurfaceJob):
+            raise InputError("there is nothing to export yet", "press the surface, or start the curve")
+        written = _files(request, cache)
+        file = next(file for file in written if file.endswith(f".{kind}"))
+        written[file](folder / file)
+        send({"type": "file", "name": _name(request, _what(request), kind)}, (folder / file).read_bytes())
+
+
+def _what(request: PageRequest) -> str:
+    """Return the load of one state, or what another job is called."""
+    if isinstance(request.job, PressJob):
+        [(name, text)] = given(request.job.load).items()
+        return f"{name}-{text}"
+    return request.job.NAME.replace(" ", "-")
 
 
 def _name(request: PageRequest, what: str, ending: str) -> str:
     """Return the name of a file that tells of what surface it is and what it holds."""
-    stem = Path(request.file).stem if isinstance(request.recipe.source, FileSource) else "made-surface"
+    source = request.shown.source
+    stem = Path(source.file).stem if isinstance(source, File) else "made-surface"
     return re.sub(r"[^\w.-]+", "", f"{stem}-{what}") + f".{ending}"
 
 
-def _everything(request: PageRequest, cache: SessionCache, statement: Statement, folder: Path) -> None:
-    """Write the surface, the load, the curve, and what makes them again, as far as the recipe states them."""
+def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None:
+    """Write the surface, the answers to the jobs, and what makes them again."""
     import roughcontact as rc
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json
     from roughcontact.plot.canvas import save, surface_figure
 
-    recipe = request.recipe
-    surface = cache.surface(recipe, request.files)
+    surface = cache.surface(request.job)
     rc.write(surface, folder / "surface.npz")
     save(surface_figure(surface), folder / "surface.png")
-    written: Writers = {}
-    if recipe.load is not None:
-        written |= _load_files(cache.solution(recipe, request.files), request, statement)
-    if recipe.loads is not None:
-        written |= _curve_files(request, cache, statement)
-    for file, write in written.items():
-        write(folder / file)
-    (folder / "commands.sh").write_text(statement.command + "\n", encoding="utf-8")
-    (folder / "same.py").write_text(statement.python, encoding="utf-8")
-    modulus = modulus_of(recipe.bodies) if written else None
-    source = provenance(surface, modulus=modulus, command=statement.command)
-    write_json({"file": request.file}, folder / "provenance.json", source)
+    asked = [request, *([request.beside] if request.beside is not None else [])]
+    for each in asked:
+        for file, write in ({} if isinstance(each.job, SurfaceJob) else _files(each, cache)).items():
+            write(folder / file)
+        name = each.job.NAME.replace(" ", "-")
+        (folder / f"{name}-job.toml").write_text(tomli_w.dumps(each.recipe), encoding="utf-8")
+    # What makes the surface stands once.
+    commands = dict.fromkeys(line for each in asked for line in each.statement["command"].splitlines())
+    (folder / "commands.sh").write_text("\n".join(commands) + "\n", encoding="utf-8")
+    calls = [*calls_of(request.shown), *(call for each in asked[1:] for call in contact_calls(each.shown))]
+    (folder / "same.py").write_text(python_of(calls), encoding="utf-8")
+    file = request.shown.source.file if isinstance(request.shown.source, File) else ""
+    source = provenance(surface, command="\n".join(commands))
+    write_json({"file": file}, folder / "provenance.json", source)
 
 
-def _load_files(solution: Solution, request: PageRequest, statement: Statement) -> Writers:
-    """Return how the files of a load are written, by their names."""
+def _files(request: PageRequest, cache: SessionCache) -> Writers:
+    """Return how the files of an answer are written, by their names."""
+    return _load_files(request, cache) if isinstance(request.job, PressJob) else _curve_files(request, cache)
+
+
+def _load_files(request: PageRequest, cache: SessionCache) -> Writers:
     from roughcontact.contact.dataset import solution_dataset, solution_record
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.canvas import save, solution_figure
+    from roughcontact.plot.canvas import solution_figure
 
-    problem, load = solution.problem, request.recipe.load
-    source = provenance(
-        problem.surface,
-        modulus=problem.modulus,
-        control="" if load is None else f"{load.control} = {load.value!r} {load.unit}",
-        tolerance=problem.tolerance,
-        command=statement.command,
+    assert isinstance(request.job, PressJob)
+    solution = cache.solution(request.job)
+    [(name, value)] = request.job.load.named(request.job.contact.profile).items()
+    dataset = solution_dataset(solution)
+    numbers = dataset[[name for name, values in dataset.items() if not values.dims]]
+    scales = solution.problem.modulus, solution.problem.tolerance
+    source = _provenance(request, cache, f"{name} = {value!r}", *scales)
+    return _writers(
+        "pressure",
+        dataset,
+        solution_record(solution),
+        lambda: solution_figure(solution),
+        source,
+        "press",
+        numbers,
     )
 
-    def scalars(path: Path) -> None:
-        dataset = solution_dataset(solution)
-        write_csv(dataset[[name for name, values in dataset.items() if not values.dims]], path, source)
 
-    return {
-        "press.csv": scalars,
-        "pressure.nc": lambda path: write_netcdf(solution_dataset(solution), path, source),
-        "pressure.png": lambda path: save(solution_figure(solution), path),
-        "pressure.svg": lambda path: save(solution_figure(solution), path),
-        "press.json": lambda path: write_json(solution_record(solution), path, source),
-    }
+def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
+    found = cache.curve(request.job)
+    source = _provenance(request, cache, request.job.NAME, getattr(found, "loading", found).modulus, 1e-8)
+    stem = request.job.NAME.replace(" ", "-")
+    if (figure := shown_curve(found).figure) is not None:
+        record = found.to_record()
+        if (loading := getattr(found, "loading", None)) is not None:  # a loop, as the command writes it
+            record = loading.to_record() | {"loop": record}
+        return _writers(stem, found.to_dataset(), record, figure, source)
+    return _writers(stem, *_beside(request, cache), source)
 
 
-def _curve_files(request: PageRequest, cache: SessionCache, statement: Statement) -> Writers:
-    """Return how the files of a curve and of what was asked for beside it are written, by their names."""
+def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, Any], Callable[[], Figure]]:
+    """Return a curve of rising loads with its theories and what it conducts: as data, as a record and as a picture."""
     from roughcontact.contact.compare import with_theories
     from roughcontact.contact.dataset import curve_dataset, curve_record
-    from roughcontact.evaluation.conduction import with_conductance
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-    from roughcontact.plot.canvas import areal_figure, curve_figure, save
+    from roughcontact.evaluation.conduction import Conductors, with_conductance
+    from roughcontact.plot.canvas import areal_figure, curve_figure
 
-    curve, loads = whole_curve(request, cache), request.recipe.loads or PageLoads()
-    theories, _ = compared(request, cache)
+    job = request.job
+    assert isinstance(job, CurveJob)
+    curve = cache.curve(job)
+    theories = compared(job, cache)
     comparisons = {name: comparison for name, (_, comparison) in theories.items()}
     dataset = with_theories(curve_dataset(curve), comparisons)
-    conductors = conductors_of(request.recipe.bodies) if loads.conducting else None
-    if conductors is not None:
-        dataset = with_conductance(dataset, conductors)
-    source = provenance(
-        cache.surface(request.recipe, request.files),
-        modulus=curve.modulus,
-        control=f"{len(curve)} {loads.control}s",
-        tolerance=1e-8,
-        command=statement.command,
-    )
+    if named := job.conduction.named():
+        conductors = Call("made", (), named).value(known_names() | {"made": Conductors})
+        dataset = with_conductance(dataset, conductors, job.conduction.of)
+    record = curve_record(curve) | {
+        "theories": {name: each.to_record() for name, each in comparisons.items()}
+    }
 
-    def picture(path: Path) -> None:
+    def drawn() -> Figure:
         try:
             law = curve.fit()
-        except ValueError:
+        except InputError:
             law = None
         laws = [
             replace(theory, quantities={key: theory.quantities[key] for key in comparison.predicted})
             for theory, comparison in theories.values()
         ]
-        per_area = loads.control == "pressure" or all(curve.periodic)
-        save((areal_figure if per_area else curve_figure)(curve, law, laws), path)
+        per_area = job.loads.pressures is not None or all(curve.periodic)
+        return (areal_figure if per_area else curve_figure)(curve, law, laws)
 
-    record = curve_record(curve) | {
-        "theories": {name: each.to_record() for name, each in comparisons.items()}
-    }
+    return dataset, record, drawn
+
+
+def _provenance(
+    request: PageRequest, cache: SessionCache, control: str, modulus: float, tolerance: float
+) -> Mapping[str, Any]:
+    from roughcontact.files.provenance import provenance
+
+    command = request.statement["command"]
+    given: dict[str, Any] = {"control": control, "command": command, "recipe": request.recipe}
+    return provenance(cache.surface(request.job), modulus=modulus, tolerance=tolerance, **given)
+
+
+def _writers(
+    stem: str,
+    dataset: Any,
+    record: dict[str, Any],
+    figure: Callable[[], Figure],
+    source: Mapping[str, Any],
+    table: str = "",
+    numbers: Any = None,
+) -> Writers:
+    """Return how an answer is written in every form; of one state the table holds the numbers alone."""
+    from roughcontact.files.write import write_csv, write_json, write_netcdf
+    from roughcontact.plot.canvas import save
+
+    recipe = {"recipe": json.loads(source["recipe"])}
     return {
-        "curve.csv": lambda path: write_csv(dataset, path, source),
-        "curve.nc": lambda path: write_netcdf(dataset, path, source),
-        "curve.png": picture,
-        "curve.svg": picture,
-        "curve.json": lambda path: write_json(record, path, source),
+        f"{table or stem}.csv": lambda path: write_csv(dataset if numbers is None else numbers, path, source),
+        f"{stem}.nc": lambda path: write_netcdf(dataset, path, source),
+        f"{stem}.png": lambda path: save(figure(), path),
+        f"{stem}.svg": lambda path: save(figure(), path),
+        f"{table or stem}.json": lambda path: write_json(record | recipe, path, source),
     }
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.labels.labelled import plain_values
-from roughcontact.page.jobs.conducting import conductors_of
 from roughcontact.page.jobs.curve_point import point_of
 from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
-from roughcontact.page.statement import stated
+from roughcontact.recipe.elastic_jobs import PressJob
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -23,12 +22,10 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
     from roughcontact.plot.facts import solution_facts
 
-    span = cache.span(request.recipe, request.files)
-    send({"type": "span", **span})
-    if request.recipe.load is None:  # the page does not know yet which loads suit the surface
+    send({"type": "span", **cache.span(request.job)})
+    if not isinstance(request.job, PressJob):  # the page does not know yet which loads suit the surface
         return
-    send({"type": "doing", "words": "Pressing"})
-    solution = cache.solution(request.recipe, request.files)
+    solution = cache.solution(request.job)
     grid = solution.problem.grid
     most = request.whole("pixels", 1024, 4096)
     place: dict[str, Any] = {"lengths": grid.lengths, "periodic": list(grid.periodic)}
@@ -45,15 +42,13 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "warning": _warning(solution),
         }
     )
-    statement = stated(request.recipe, request.file)
     send(
         {
             "type": "numbers",
             "facts": solution_facts(solution),
-            "point": point_of(solution, conductors_of(request.recipe.bodies)),
+            "point": point_of(solution),
             "notes": solution.notes,
-            "command": statement.command,
-            "python": statement.python,
+            **request.statement,
         }
     )
     if solution.contact.any():
@@ -66,7 +61,7 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send one row or column: the surface before the load and under it, and the pressure."""
     import numpy as np
 
-    solution = cache.solution(request.recipe, request.files)
+    solution = cache.solution(request.job)
     problem, along_row = solution.problem, request.more.get("axis") != "column"
     count = problem.grid.shape[0 if along_row else 1]
     at = min(request.whole("place", 1, count), count) - 1

@@ -1,33 +1,29 @@
-"""What the recipes of a page stand for: surfaces, loads and curves, of which the last few are kept."""
+"""What the jobs of a page give: surfaces, loads and curves, of which the last few are kept."""
 
 from __future__ import annotations
 
-import math
 import warnings
-from collections.abc import Callable, Hashable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Callable, Hashable, Iterable
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from roughcontact.errors import InputError
 from roughcontact.files.file_errors import SurfaceWarning
-from roughcontact.files.length_units import length_factor
-from roughcontact.files.quantity import LENGTH, Kind, parse, parse_number, parse_with_unit
-from roughcontact.page.field_error import at_field
-from roughcontact.page.preparation_calls import calls_of
-from roughcontact.page.recipe import Bodies, FileSource, MadeSource, PageLoads, PageRecipe
+from roughcontact.page.jobs.followed import Followed, collected, follow, up_to_path
+from roughcontact.recipe.jobs import Job, contact_calls, known_names, surface_calls
+from roughcontact.recipe.library_calls import Call, performed
+from roughcontact.recipe.source import SelfAffine, SmoothBody
+from roughcontact.recipe.texts import points
 
 if TYPE_CHECKING:
-    from roughcontact.contact.curve import Curve
     from roughcontact.contact.solution import Solution
-    from roughcontact.material import Solid
-    from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
 
-__all__ = ["SessionCache", "UploadedFile", "hardness_of", "modulus_of", "without_loads"]
+__all__ = ["SessionCache", "UploadedFile"]
 
 T = TypeVar("T")
 _KEPT = 2  # of each: the one that is looked at, and the one before it
-_MODULUS, _HARDNESS = Kind("a modulus", "Pa", "100GPa"), Kind("a hardness", "Pa", "2GPa")
 _MOST_POINTS = 4096  # a side of a surface that is made: more is for the command line
 
 
@@ -41,68 +37,75 @@ class UploadedFile:
 
 @dataclass(frozen=True, slots=True)
 class SessionCache:
-    """What was computed last, by what it follows from; all of it can be computed again."""
+    """What was computed last, by the calls that compute it; all of it can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
 
-    def read(
-        self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
-    ) -> tuple[Surface, list[str]]:
+    def read(self, job: Job) -> tuple[Surface, list[str]]:
         """Return the surface as the file holds it, or as it is made, and what the reader warns of."""
-        return self._once("read", source, lambda: _read(source, files))
+        calls = _calls_of_source(job)
 
-    def surface(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Surface:
-        """Return the surface after its preparation."""
+        def made() -> tuple[Surface, list[str]]:
+            if (
+                isinstance(job.source, SelfAffine | SmoothBody)
+                and max(points(job.source.points)) > _MOST_POINTS
+            ):
+                raise InputError(
+                    f"a surface has up to {_MOST_POINTS} points a side here, not {job.source.points}",
+                    "give fewer, or use the command line",
+                    "source.points",
+                )
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("ignore")
+                warnings.simplefilter("always", SurfaceWarning)
+                found = performed(calls, known_names())["surface"]
+            return found, [str(each.message) for each in said]
+
+        return self._once("read", _key(calls), made)
+
+    def surface(self, job: Job) -> Surface:
+        """Return the surface after its preparation; a step that is added begins with what is kept."""
+        calls, first = list(surface_calls(job)), len(_calls_of_source(job))
+        shelf = self.kept.setdefault("surface", {})
 
         def prepared() -> Surface:
-            surface, _ = self.read(recipe.source, files)
-            for call in calls_of(recipe.preparation):
-                surface = call.apply(surface)
-            return surface
+            done = next((n for n in range(len(calls), first, -1) if _key(calls[:n]) in shelf), first)
+            begun = self.read(job)[0] if done == first else shelf[_key(calls[:done])]
+            found: Surface = performed(calls[done:], {"surface": begun})["surface"]
+            return found
 
-        return self._once("surface", (recipe.source, recipe.preparation), prepared)
+        return self._once("surface", _key(calls), prepared)
 
-    def warnings(
-        self, source: FileSource | MadeSource, files: Mapping[str, UploadedFile]
-    ) -> list[dict[str, Any]]:
+    def warnings(self, job: Job) -> list[dict[str, Any]]:
         """Return what looks suspicious in the heights before any preparation."""
 
-        def made() -> list[dict[str, Any]]:
+        def found() -> list[dict[str, Any]]:
             from roughcontact.plot.preparation_warnings import preparation_warnings
 
-            _, found = preparation_warnings(self.read(source, files)[0])
-            return [asdict(warning) for warning in found]
+            return [asdict(warning) for warning in preparation_warnings(self.read(job)[0])[1]]
 
-        return self._once("warnings", source, made)
+        return self._once("warnings", _key(_calls_of_source(job)), found)
 
-    def solution(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> Solution:
+    def solution(self, job: Job) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""
         import roughcontact as rc
 
-        load = recipe.load
-        if load is None:
-            raise ValueError("no load is given")
-
         def pressed() -> Solution:
-            surface = self.surface(recipe, files)
-            modulus, hardness = modulus_of(recipe.bodies), hardness_of(recipe.bodies)
-            with at_field("load"):
-                given: dict[str, Any] = {load.control: load.value}
-                try:
-                    return rc.press(surface, modulus, **given, hardness=hardness)
-                except rc.ConvergenceError as error:
-                    best: Solution = error.solution
-                    return best
+            try:
+                found: Solution = performed(contact_calls(job), self._known(job))["solution"]
+            except rc.ConvergenceError as error:
+                found = error.solution
+            return found
 
-        return self._once("solution", replace(recipe, loads=None), pressed)
+        return self._once("solution", _key([*surface_calls(job), *contact_calls(job)]), pressed)
 
-    def span(
-        self, recipe: PageRecipe, files: Mapping[str, UploadedFile]
-    ) -> dict[str, tuple[float, float, float]]:
+    def span(self, job: Job) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
-        surface = self.surface(recipe, files)
-        slope = self._once("slope", (recipe.source, recipe.preparation), lambda: _slope(surface))
-        stress, height = modulus_of(recipe.bodies) * slope, surface.rms
+        surface, bodies = self.surface(job), getattr(job, "bodies", None)
+        if bodies is None:
+            return {}
+        slope = self._once("slope", _key(surface_calls(job)), lambda: _slope(surface))
+        stress, height = performed(bodies.calls(), known_names())["modulus"] * slope, surface.rms
         if not (stress > 0 and height > 0):
             return {}
         pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)
@@ -114,42 +117,20 @@ class SessionCache:
             "depth": (1e-3 * height, 10 * height, height),
         }
 
-    def path(self, recipe: PageRecipe, loads: Loads, files: Mapping[str, UploadedFile]) -> Iterator[Solution]:
-        """Return the states of rising loads, each of which is computed when it is asked for."""
-        from roughcontact.contact.loading import solutions_along
+    def followed(self, job: Job) -> Followed:
+        """Return the states of a job of many loads, each of which is computed when it is asked for."""
+        return follow(contact_calls(job), self._known(job))
 
-        hardness = hardness_of(recipe.bodies)
-        surface, modulus = self.surface(recipe, files), modulus_of(recipe.bodies)
-        return solutions_along(surface, modulus, loads, hardness=hardness)
+    def keep_curve(self, job: Job, curve: object) -> None:
+        """Keep a curve for what is asked of it next."""
+        self._keep("curve", _key_of_curve(job), curve)
 
-    def loads(self, recipe: PageRecipe, files: Mapping[str, UploadedFile]) -> tuple[Loads, tuple[str, ...]]:
-        """Return the loads of a curve in SI, found where they are not given, and what a reader should know of them."""
-        import numpy as np
+    def curve(self, job: Job) -> Any:
+        """Return the curve, the loop or the path of a job; computed again if this worker has not seen it."""
+        return self._once("curve", _key_of_curve(job), lambda: collected(self.followed(job)))
 
-        import roughcontact as rc
-        from roughcontact.solver.loads import Loads
-
-        wanted = recipe.loads or PageLoads()
-        if wanted.values is not None:
-            return Loads(wanted.control, np.array(wanted.values)), ()
-        if wanted.ends is not None:
-            return Loads(wanted.control, np.geomspace(*wanted.ends, wanted.count)), ()
-
-        def found() -> tuple[Loads, tuple[str, ...]]:
-            suitable = rc.load_range(
-                self.surface(recipe, files), modulus_of(recipe.bodies), hardness=hardness_of(recipe.bodies)
-            )
-            return Loads("force", suitable.forces), suitable.notes
-
-        return self._once("loads", without_loads(recipe), found)
-
-    def keep_curve(self, recipe: PageRecipe, loads: Loads, curve: Curve) -> None:
-        """Keep a curve, which may have ended early, for what is asked of it next."""
-        self._keep("curve", (without_loads(recipe), loads.kind, tuple(loads.values[: len(curve)])), curve)
-
-    def curve(self, recipe: PageRecipe, loads: Loads) -> Curve | None:
-        """Return the curve of a surface, its bodies and loads, if it is kept."""
-        return self.kept.get("curve", {}).get((without_loads(recipe), loads.kind, tuple(loads.values)))
+    def _known(self, job: Job) -> dict[str, Any]:
+        return known_names() | {"surface": self.surface(job)}
 
     def _once(self, kind: str, key: Hashable, make: Callable[[], T]) -> T:
         shelf = self.kept.setdefault(kind, {})
@@ -166,52 +147,19 @@ class SessionCache:
             del shelf[next(iter(shelf))]
 
 
-def without_loads(recipe: PageRecipe) -> PageRecipe:
-    """Return what a curve follows from but for its loads."""
-    return replace(recipe, load=None, loads=None)
+def _calls_of_source(job: Job) -> list[Call]:
+    steps = [call for call in surface_calls(job) if call.place.startswith("preparation")]
+    calls = list(surface_calls(job))
+    return calls[: len(calls) - len(steps)]
 
 
-def modulus_of(bodies: Bodies) -> float:
-    """Return the reduced modulus [Pa]."""
-    import roughcontact as rc
-
-    if bodies.materials is not None:
-        rigid = rc.Solid(math.inf, 0.0)
-        first, second = (rigid if name == "rigid" else rc.handbook(name).solid for name in bodies.materials)
-        with at_field("second"):
-            return rc.reduced_modulus(first, second)
-    if bodies.modulus is not None:
-        return _stiff(bodies.modulus, "modulus")
-    first = _solid(bodies.young, bodies.poisson, "")
-    if bodies.young2 is None and bodies.poisson2 is None:
-        return rc.reduced_modulus(first)
-    return rc.reduced_modulus(first, _solid(bodies.young2, bodies.poisson2, "2"))
+def _key(calls: Iterable[Call]) -> tuple[str, ...]:
+    return tuple(map(str, calls))
 
 
-def hardness_of(bodies: Bodies) -> float | None:
-    """Return the hardness [Pa], if one is given: a number, or the name of a material."""
-    import roughcontact as rc
-
-    if bodies.hardness is None:
-        return None
-    if bodies.hardness[:1].isalpha():
-        with at_field("hardness"):
-            return rc.handbook(bodies.hardness).hardness
-    return _stiff(bodies.hardness, "hardness")
-
-
-def _solid(young: str | None, poisson: str | None, which: str) -> Solid:
-    """Return the elastic constants of a body that the user wrote."""
-    import roughcontact as rc
-
-    with at_field(f"young{which}"):
-        if young is None:
-            raise ValueError("give Young's modulus of the body, such as 210 GPa")
-    modulus = _stiff(young, f"young{which}")
-    with at_field(f"poisson{which}"):
-        if poisson is None:
-            raise ValueError("give Poisson's ratio of the body, such as 0.3")
-        return rc.Solid(modulus, parse_number(poisson, "0.3"))
+def _key_of_curve(job: Job) -> tuple[str, ...]:
+    """Return what a curve follows from: theories and tables beside it are not among it."""
+    return _key([*surface_calls(job), *up_to_path(contact_calls(job))])
 
 
 def _slope(surface: Surface) -> float:
@@ -220,62 +168,5 @@ def _slope(surface: Surface) -> float:
 
     try:
         return float(rc.surface_moments(surface).rms_slope)
-    except ValueError:
+    except InputError:
         return 0.0
-
-
-def _stiff(text: str, field: str) -> float:
-    """Return the modulus or hardness [Pa] of a field."""
-    with at_field(field):
-        kind = _HARDNESS if field == "hardness" else _MODULUS
-        value = parse_with_unit(text, kind)
-        if value <= 0:
-            raise ValueError(
-                f"{text!r} is not positive: write {kind.name} above zero, such as {kind.example}"
-            )
-        return value
-
-
-def _read(source: FileSource | MadeSource, files: Mapping[str, UploadedFile]) -> tuple[Surface, list[str]]:
-    import roughcontact as rc
-
-    if isinstance(source, MadeSource):
-        return _made(source), []
-    if source.file not in files:
-        raise ValueError("the server has no such file any more: drop it again")
-    with at_field("unit"):
-        if source.heights_in is not None:
-            length_factor(source.heights_in)
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("ignore")
-        warnings.simplefilter("always", SurfaceWarning)
-        surface = rc.read(
-            files[source.file].path,
-            channel=source.channel,
-            unit=source.heights_in,
-            size=source.size,
-            periodic=source.periodic,
-        )
-    return surface, [str(each.message) for each in said]
-
-
-def _made(source: MadeSource) -> Surface:
-    """Return a self-affine surface, the one that ``surface make`` makes."""
-    import numpy as np
-
-    import roughcontact as rc
-
-    if not 3 <= source.points <= _MOST_POINTS:  # of two a side no wave is free
-        raise ValueError(f"a surface has 3 to {_MOST_POINTS} points a side here, not {source.points}")
-    if source.seed < 0:
-        raise ValueError(f"the seed must be a whole number from 0 up, not {source.seed}")
-    grid = rc.Grid(
-        (source.points, source.points), parse(source.size, LENGTH) / source.points, periodic=source.periodic
-    )
-    return rc.self_affine(
-        grid,
-        parse_number(source.hurst, "0.8"),
-        parse(source.rms, LENGTH),
-        np.random.default_rng(source.seed),
-        rolloff=None if source.rolloff is None else parse(source.rolloff, LENGTH),
-    )

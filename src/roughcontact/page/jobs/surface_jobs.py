@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.files.own_errors import is_ours
+from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.session_cache import SessionCache
-from roughcontact.page.recipe import FileSource
+from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
-from roughcontact.page.statement import stated
 from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.plot.facts import surface_facts, surface_record
+from roughcontact.recipe.source import File
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -40,23 +41,20 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
     import numpy as np
 
-    source = request.recipe.source
-    if isinstance(source, FileSource):
-        send({"type": "channels", "channels": _channels(request)})
-    raw, warned = cache.read(source, request.files)
-    surface = cache.surface(request.recipe, request.files)
+    source = request.job.source
+    if isinstance(source, File):
+        send({"type": "channels", "channels": _channels(source)})
+    raw, warned = cache.read(request.job)
+    surface = cache.surface(request.job)
     heights = surface.heights - np.nanmean(surface.heights)
     send_map(send, "heights", heights, request.whole("pixels", 1024, 4096), **_place(surface))
-    statement = stated(request.recipe, request.file)
     send(
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": [_on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
-            "missing": surface.missing,
-            "raw": {**_place(raw), "shape": raw.grid.shape, "missing": raw.missing},
-            "command": statement.command,
-            "python": statement.python,
+            "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
+            "raw": {**_place(raw), "shape": raw.grid.shape},
+            **request.statement,
         }
     )
 
@@ -67,7 +65,7 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
     import roughcontact as rc
 
-    surface = cache.surface(request.recipe, request.files)
+    surface = cache.surface(request.job)
     rough = surface.rms > 0
     if rough:
         histogram = rc.height_histogram(surface, bins=80)
@@ -79,7 +77,7 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
-    send({"type": "warnings", "warnings": cache.warnings(request.recipe.source, request.files)})
+    send({"type": "warnings", "warnings": cache.warnings(request.job)})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0
@@ -95,26 +93,11 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
         send({"type": "roughness", "facts": _roughness(surface)})
 
 
-# What readers advise as calls of Python, as the fields of the page.
-_ADVICE = {
-    "pass channel= for another": "choose another under Channel",
-    "take them out by masked()": "crop them away",
-    "unit=": "the unit of the heights",
-    "size=": "the width",
-}
-
-
-def _on_the_page(line: str) -> str:
-    for call, words in _ADVICE.items():
-        line = line.replace(call, words)
-    return line
-
-
-def _channels(request: PageRequest) -> list[dict[str, Any]]:
+def _channels(source: File) -> list[dict[str, Any]]:
     from roughcontact.files.read import channels
 
     found = []
-    for channel in channels(request.path):
+    for channel in channels(Path(source.file)):
         words = asdict(channel)
         found.append(
             {name: plain_values(words[name]) for name in ("name", "shape", "unit", "size", "is_height")}
@@ -139,8 +122,6 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     facts.append(("Nayak's parameter", "m0 m4 / m2²", written(moments.nayak, "", 4)))
     try:
         exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
-    except ValueError as error:
-        if not is_ours(error):
-            raise
+    except InputError as error:
         exponent, words = "none", str(error)
     return [*facts, ("Hurst exponent", words, exponent)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncGenerator, Awaitable, Callable
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
@@ -17,15 +17,9 @@ from starlette.responses import JSONResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from roughcontact.page.frames import packed
-from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import HEADERS, Guard, Refused
-from roughcontact.page.server.server_folder import SCRATCH
-from roughcontact.page.server.session import Session
-from roughcontact.page.server.sessions import GIVEN, MOST_SESSIONS, Sessions
 from roughcontact.page.server.uploads import LARGEST, TooLargeError, TooSlowError, store
-from roughcontact.page.server.worker_pool import WorkerPool
-from roughcontact.page.server.worker_process import WorkerEndedError
+from roughcontact.page.server.workers import GIVEN, MOST_SESSIONS, Session, Sessions
 
 __all__ = ["PageServer", "application"]
 
@@ -57,66 +51,60 @@ class PageServer:
     closing: asyncio.Event = field(default_factory=asyncio.Event)
     opened: bool = False
 
-    @classmethod
-    def of(cls, guard: Guard, folder: Path, given: UploadedFile | None = None) -> PageServer:
-        """Return a server without sessions, whose files and those of its workers lie in a folder."""
-        scratch = folder / SCRATCH
-        scratch.mkdir(mode=0o700)
-        return cls(guard, Sessions(WorkerPool(scratch), folder, given))
-
     async def begin(self, _: Request) -> Response:
         """Open a session, for a tab that has none."""
         key = await self.sessions.begin()
         if key is None:
             words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
-            return JSONResponse({"message": words}, 503)
+            return _refusal(503, words)
         file = self.sessions.given
         given = None if file is None else {"file": GIVEN, "name": file.name}
         return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
 
-    async def upload(self, request: Request) -> Response:
+    def in_session(self, answer: Callable[[Session, Request], Awaitable[ASGIApp]]) -> Callable[..., Any]:
+        """Return the endpoint of a route that answers only for a session that is open."""
+
+        async def endpoint(request: Request) -> ASGIApp:
+            session = self.sessions.find(request.query_params.get("session", ""))
+            if session is None:
+                return _refusal(410, "The server does not know this tab: load the page again.")
+            return await answer(session, request)
+
+        return endpoint
+
+    async def upload(self, session: Session, request: Request) -> Response:
         """Take a file."""
-        session = self._session(request)
-        if session is None:
-            return _no_session()
         stated = request.headers.get("content-length", "")
         name = request.query_params.get("name", "file")
         try:
             size = int(stated) if stated.isascii() and stated.isdigit() else None
             key, file = await store(session.folder, name, size, request.stream())
         except TooLargeError as error:
-            return JSONResponse({"message": str(error)}, 413, {"Connection": "close"})
+            return _refusal(413, str(error))
         except TooSlowError as error:
-            return JSONResponse({"message": str(error)}, 408, {"Connection": "close"})
+            return _refusal(408, str(error))
         except ClientDisconnect:
             return Response(status_code=400)
         except OSError as error:
-            words = f"The server cannot keep the file: {error.strerror or error}."
-            return JSONResponse({"message": words}, 507, {"Connection": "close"})
+            return _refusal(507, f"The server cannot keep the file: {error.strerror or error}.")
         session.files[key] = file
         return JSONResponse({"file": key, "name": file.name})
 
-    async def perform(self, request: Request) -> Response | ASGIApp:
+    async def perform(self, session: Session, request: Request) -> ASGIApp:
         """Answer a request, message by message."""
-        session = self._session(request)
-        if session is None:
-            return _no_session()
         body = b""
         async for part in request.stream():
             body += part
             if len(body) > _LONGEST_REQUEST:
-                return JSONResponse({"message": "No request is that long."}, 413, {"Connection": "close"})
+                return _refusal(413, "No request is that long.")
         asked = _asked(body)
         if asked is None:
-            return JSONResponse({"message": "A request is an object of JSON."}, 400)
+            return _refusal(400, "A request is an object of JSON.")
         return _Streamed(session.perform(asked), self.closing)
 
-    async def stop(self, request: Request) -> Response:
+    async def stop(self, session: Session, request: Request) -> Response:
         """Stop a request."""
-        session = self._session(request)
-        if session is None:
-            return _no_session()
-        await session.stop(*(request.query_params.get(name, "") for name in ("queue", "key")))
+        await session.queue(request.query_params.get("queue")).stop(request.query_params.get("key", ""))
         return JSONResponse({})
 
     async def end(self, request: Request) -> Response:
@@ -124,23 +112,9 @@ class PageServer:
         await self.sessions.end(request.query_params.get("session", ""))
         return JSONResponse({})
 
-    async def alive(self, request: Request) -> Response:
-        """Note that a tab is still there."""
-        return _no_session() if self._session(request) is None else JSONResponse({})
-
-    @contextlib.asynccontextmanager
-    async def lifespan(self, _: object) -> AsyncIterator[None]:
-        """Have a worker ready from the start, and none left at the end."""
-        self.sessions.pool.prepare()
-        watching = asyncio.create_task(self.sessions.watch())
-        try:
-            yield
-        finally:
-            watching.cancel()
-            await self.sessions.pool.end()
-
-    def _session(self, request: Request) -> Session | None:
-        return self.sessions.find(request.query_params.get("session", ""))
+    async def alive(self, session: Session, request: Request) -> Response:
+        """Answer a tab that says that it is still there: a session whose tab is silent is ended."""
+        return JSONResponse({})
 
 
 def application(server: PageServer) -> ASGIApp:
@@ -167,24 +141,13 @@ def application(server: PageServer) -> ASGIApp:
         Route("/", page),
         *(Route(path, file) for path in files),
         Route("/session", server.begin, methods=["POST"]),
-        Route("/file", server.upload, methods=["PUT"]),
-        Route("/request", _Endpoint(server.perform), methods=["POST"]),
-        Route("/stop", server.stop, methods=["POST"]),
-        Route("/alive", server.alive, methods=["POST"]),
+        Route("/file", server.in_session(server.upload), methods=["PUT"]),
+        Route("/request", server.in_session(server.perform), methods=["POST"]),
+        Route("/stop", server.in_session(server.stop), methods=["POST"]),
+        Route("/alive", server.in_session(server.alive), methods=["POST"]),
         Route("/end", server.end, methods=["POST"]),
     ]
-    return _Guarded(Starlette(routes=routes, lifespan=server.lifespan), server.guard)
-
-
-@dataclass(frozen=True, slots=True)
-class _Endpoint:
-    """A route whose answer may be an application of its own."""
-
-    answer: Callable[[Request], Awaitable[Response | ASGIApp]]
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        response = await self.answer(Request(scope, receive))
-        await response(scope, receive, send)
+    return _Guarded(Starlette(routes=routes, lifespan=lambda _: server.sessions.running()), server.guard)
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +184,7 @@ def _hung_up(refused: Refused) -> Response:
 class _Streamed:
     """Messages as they come; where the browser goes away, or the server is to end, no more are asked for."""
 
-    messages: AsyncIterator[bytes]
+    messages: AsyncGenerator[bytes]
     closing: asyncio.Event
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -239,13 +202,9 @@ class _Streamed:
         await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     async def _send(self, send: Send) -> None:
-        async with contextlib.aclosing(self.messages) as messages:  # type: ignore[type-var]
-            try:
-                async for message in messages:
-                    await send({"type": "http.response.body", "body": message, "more_body": True})
-            except WorkerEndedError as error:
-                end = packed({"type": "end", "how": "died", "message": str(error)})
-                await send({"type": "http.response.body", "body": end, "more_body": True})
+        async with contextlib.aclosing(self.messages) as messages:
+            async for message in messages:
+                await send({"type": "http.response.body", "body": message, "more_body": True})
 
 
 async def _left(receive: Receive) -> None:
@@ -264,27 +223,19 @@ def _asked(body: bytes) -> dict[str, Any] | None:
     return asked if plain else None
 
 
-def _no_session() -> Response:
-    return JSONResponse({"message": "The server does not know this tab: load the page again."}, 410)
+def _refusal(status: int, words: str) -> Response:
+    """Return why a request is refused; the connection is closed, since the rest of a body may be on its way."""
+    return JSONResponse({"message": words}, status, {"Connection": "close"})
 
 
 def _choices() -> dict[str, Any]:
     """Return what can be chosen by name."""
-    from roughcontact.materials import MATERIALS
+    from roughcontact.page.forms import forms
     from roughcontact.theory.laws import LAWS
 
     given = {"hardness", "radius"}  # what no surface shows
     laws = {name: law.about for name, law in LAWS.items() if not given & {*law.needs} - {"hardness"}}
-    materials = {
-        name: {
-            "grade": each.grade,
-            "young": each.solid.young_modulus,
-            "poisson": each.solid.poisson_ratio,
-            "hardness": each.hardness,
-        }
-        for name, each in MATERIALS.items()
-    }
-    return {"materials": materials, "theories": laws}
+    return {"forms": forms(), "theories": laws}
 
 
 def _files() -> list[tuple[str, bytes]]:

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
+from roughcontact.errors import InputError
+from roughcontact.files.fingerprint import fingerprint
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
-from roughcontact.page.recipe import PageRecipe
+from roughcontact.recipe.command import command_of
+from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.jobs import Job, calls_of
+from roughcontact.recipe.library_calls import python_of
+from roughcontact.recipe.source import File
+from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
-__all__ = ["Job", "PageRequest", "Send", "send_map"]
+__all__ = ["PageJob", "PageRequest", "Send", "send_map"]
 
 
 class Send(Protocol):
@@ -29,36 +36,64 @@ class PageRequest:
 
     Parameters
     ----------
-    recipe : PageRecipe
-    files : mapping of str to UploadedFile
-        By the names under which the server keeps them.
+    job : Job
+        Its files where the server keeps them.
+    shown : Job
+        The same, its files as their user calls them.
+    beside : PageRequest or None
+        Of an archive that holds two answers, the other one.
     more : mapping
-        What else the job needs to know.
+        What else the worker needs to know.
     """
 
-    recipe: PageRecipe
-    files: Mapping[str, UploadedFile]
+    job: Job
+    shown: Job
+    beside: PageRequest | None
     more: Mapping[str, Any]
 
-    @property
-    def file(self) -> str:
-        """How the user calls the measured file."""
-        name = getattr(self.recipe.source, "file", "")
-        return self.files[name].name if name in self.files else "FILE"
-
-    @property
-    def path(self) -> Path:
-        """Where the measured file lies.
+    @classmethod
+    def of(cls, plain: Any, files: Mapping[str, UploadedFile], more: Mapping[str, Any]) -> PageRequest:
+        """Return the request of a job in plain values, whose files are named as the server calls them.
 
         Raises
         ------
-        ValueError
-            If the server has none of that name.
+        InputError
+            If the values state no job, or the server has no such file.
         """
-        name = getattr(self.recipe.source, "file", "")
-        if name not in self.files:
-            raise ValueError("the server has no such file any more: drop it again")
-        return self.files[name].path
+
+        def known(file: File) -> UploadedFile:
+            if file.file not in files:
+                raise InputError("the server has no such file any more", "drop it again", "source.file")
+            return files[file.file]
+
+        job = _explicit(from_plain(plain))
+        if not isinstance(job, SurfaceJob) and job.contact.profile is not None:
+            raise InputError("a page presses maps", "press a profile by the command line", "contact.profile")
+        beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
+        return cls(
+            with_files(job, lambda file: replace(file, file=str(known(file).path))),
+            with_files(job, lambda file: replace(file, file=known(file).name)),
+            beside,
+            more,
+        )
+
+    @property
+    def statement(self) -> dict[str, str]:
+        """The job as commands for a shell, one a line, and as a program in Python."""
+        recipe = f"{self.job.NAME.replace(' ', '-')}-job.toml"
+        return {"command": command_of(self.shown, recipe), "python": python_of(calls_of(self.shown))}
+
+    @property
+    def recipe(self) -> dict[str, Any]:
+        """The job as a file carries it: its files as their user calls them, with their fingerprints."""
+        found: list[str] = []
+
+        def kept(file: File) -> File:
+            found.append(fingerprint(Path(file.file)))
+            return file
+
+        with_files(self.job, kept)
+        return to_plain(with_files(self.shown, lambda file: replace(file, sha256=found.pop(0))))
 
     def whole(self, name: str, usual: int, most: int) -> int:
         """Return a whole number that the page states, between 1 and `most`."""
@@ -66,7 +101,14 @@ class PageRequest:
         return min(max(given, 1), most) if isinstance(given, int) else usual
 
 
-Job = Callable[[PageRequest, SessionCache, Send], None]
+PageJob = Callable[[PageRequest, SessionCache, Send], None]
+
+
+def _explicit(job: Job) -> Job:
+    """Return a job that says how its heights are levelled: a page shows the heights that it presses."""
+    if job.preparation.level is not None:
+        return job
+    return replace(job, preparation=replace(job.preparation, level="none"))
 
 
 def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = False, **more: Any) -> None:

@@ -20,6 +20,7 @@ from roughcontact.page.jobs.session_cache import UploadedFile
 from roughcontact.page.server.guard import Guard
 from roughcontact.page.server.page_app import PageServer, application
 from roughcontact.page.server.server_folder import server_folder
+from roughcontact.page.server.workers import Sessions
 
 __all__ = ["serve"]
 
@@ -49,7 +50,7 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
     with _bound(port) as listening, server_folder() as folder:
         guard = Guard(listening.getsockname()[1], secrets.token_urlsafe(24), secrets.token_urlsafe(24))
         given = None if file is None else UploadedFile(file.resolve(), str(file))
-        server = PageServer.of(guard, folder, given)
+        server = PageServer(guard, Sessions(folder, given))
         listening.listen(64)
         opened(*(f"http://{_LOOPBACK}:{guard.port}/?token={token}" for token in (guard.token, guard.once)))
         with _closed_terminal_ends():

@@ -14,9 +14,7 @@ from roughcontact.kernels.disk import private
 
 __all__ = ["SCRATCH", "server_folder"]
 
-SCRATCH = (
-    "scratch"  # of a server's folder: made when the folder is locked, for the temporary files of workers
-)
+SCRATCH = "scratch"  # of a server's folder: made when it is locked, for the temporary files of workers
 _PREFIX = "roughcontact-page-"
 # Somebody else holds it, it cannot be made, or there are no locks in this place.
 _UNLOCKABLE = (Timeout, OSError, NotImplementedError)
@@ -32,6 +30,7 @@ def server_folder() -> Iterator[Path]:
         with contextlib.ExitStack() as held:
             with contextlib.suppress(*_UNLOCKABLE):
                 held.enter_context(_lock(folder))
+            (folder / SCRATCH).mkdir(mode=0o700)
             yield folder
 
 

@@ -9,6 +9,7 @@ import shutil
 from collections.abc import AsyncIterator
 from pathlib import Path
 
+from roughcontact.errors import InputError
 from roughcontact.page.jobs.session_cache import UploadedFile
 
 __all__ = ["LARGEST", "TooLargeError", "TooSlowError", "safe_name", "shown_name", "store"]
@@ -17,15 +18,19 @@ LARGEST = 512 * 2**20  # bytes: a map of 8000 x 8000 cells in double precision
 _TOGETHER = (
     4 * LARGEST
 )  # bytes of all that a tab has dropped: where temporary files lie in memory, it is limited
+_TOO_LARGE = (
+    f"The file is larger than {LARGEST // 2**20} MB",
+    "crop it where it was measured, or use the command line.",
+)
 _LONGEST = 120  # bytes of a name
 _PATIENCE = 60.0  # seconds in which something of the file must come
 
 
-class TooLargeError(ValueError):
+class TooLargeError(InputError):
     """A file beyond `LARGEST`, or one too many."""
 
 
-class TooSlowError(ValueError):
+class TooSlowError(InputError):
     """A file of which nothing comes any more."""
 
 
@@ -44,10 +49,10 @@ async def store(
         If the disk does not take it, or the folder is gone; nothing is left of it.
     """
     if stated is not None and stated > LARGEST:
-        raise TooLargeError(_words())
+        raise TooLargeError(*_TOO_LARGE)
     if sum(each.stat().st_size for each in folder.glob("*/*")) > _TOGETHER - LARGEST:
         raise TooLargeError(
-            "This tab holds many large files already: load the page again, and drop this one."
+            "This tab holds many large files already", "load the page again, and drop this one."
         )
     key = secrets.token_hex(8)
     place = folder / key
@@ -59,7 +64,7 @@ async def store(
             async for part in _steady(parts):
                 size += len(part)
                 if size > LARGEST:
-                    raise TooLargeError(_words())
+                    raise TooLargeError(*_TOO_LARGE)
                 out.write(part)
     except BaseException:
         shutil.rmtree(place, ignore_errors=True)
@@ -76,7 +81,7 @@ async def _steady(parts: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
         except StopAsyncIteration:
             return
         except TimeoutError:
-            raise TooSlowError("The file no longer comes: drop it again.") from None
+            raise TooSlowError("The file no longer comes", "drop it again.") from None
         yield part
 
 
@@ -91,7 +96,3 @@ def shown_name(name: str) -> str:
     """Return a file name as one word of a command: no folder, no letter that breaks a line, no dash that begins it."""
     last = "".join(each if each.isprintable() else "_" for each in re.split(r"[/\\]", name)[-1])[-_LONGEST:]
     return f"./{last}" if last.startswith("-") else last or "file"
-
-
-def _words() -> str:
-    return f"The file is larger than {LARGEST // 2**20} MB: crop it where it was measured, or use the command line."

@@ -81,8 +81,8 @@ function draw(root) {
     legend: { show: false },
     cursor: { drag: { x: false, y: false }, points: { size: 8 } },
     scales: {
-      x: { time: false, ...(x.log ? { distr: 3 } : {}) },
-      y: { ...(y.log ? { distr: 3 } : {}), ...(zero ? { range: (_, low, high) => [Math.min(0, low), high * 1.05 || 1] } : {}) },
+      x: { time: false, ...(x.log ? { distr: 3 } : { range: (_, low, high) => apart(low, high) }) },
+      y: y.log ? { distr: 3 } : { range: (_, low, high) => (zero ? [Math.min(0, low), high * 1.05 || 1] : uPlot.rangeNum(...apart(low, high), 0.1, true)) },
     },
     axes: [
       { ...axis(x, scaleX), size: 2.5 * em },
@@ -102,6 +102,12 @@ function draw(root) {
   });
 }
 
+// The ends of an axis: values that differ by rounding alone have no ticks between them.
+function apart(low, high) {
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  return high - low > 1e-6 * size ? [low, high] : [low - (0.05 * size || 1), high + (0.05 * size || 1)];
+}
+
 // What lies under the cursor, in words.
 function pointed(root, plot, readout, units) {
   const { idx, left } = plot.cursor;
@@ -119,7 +125,9 @@ function pointed(root, plot, readout, units) {
 
 function legend(series) {
   const list = Object.assign(document.createElement("ul"), { className: "legend" });
-  for (const each of series) {
+  // Of several pieces of one thing, the one with marks speaks for all.
+  const named = new Map([...series].reverse().sort((a, b) => Boolean(b.silent) - Boolean(a.silent)).map((each) => [each.label, each]));
+  for (const each of series.filter((one) => named.get(one.label) === one)) {
     const item = document.createElement("li");
     const swatch = document.createElement("span");
     swatch.className = `swatch ${each.kind}${each.dash ? " dashed" : ""}`;
@@ -157,17 +165,18 @@ function lone(plot, series) {
   return values.map((_, k) => k).filter((k) => there(k) && !there(k - 1) && !there(k + 1));
 }
 
-// All series on one axis, as uPlot wants them; what a logarithm cannot show is left out.
+// All series on one axis, as uPlot wants them; what a logarithm cannot show is left out, and what is mere rounding on it.
 function together(series, factorX, factorY, logX, logY) {
   const places = new Set();
   for (const each of series) for (const value of each.x) if (!logX || value > 0) places.add(value);
   const sorted = [...places].sort((a, b) => a - b);
   const index = new Map(sorted.map((value, k) => [value, k]));
+  const least = logY ? 1e-12 * Math.max(0, ...series.flatMap((each) => [...each.y]).filter(Number.isFinite)) : -Infinity;
   const columns = series.map((each) => {
     const column = new Array(sorted.length).fill(undefined);
     each.x.forEach((value, k) => {
       const height = each.y[k];
-      const there = Number.isFinite(height) && (!logY || height > 0);
+      const there = Number.isFinite(height) && height > least;
       const at = index.get(value);
       if (at !== undefined) column[at] = there ? height * factorY : null;
     });

@@ -14,7 +14,7 @@ function view(name) {
   return made;
 }
 
-export function comparison({ recipe, map, failed, changed, curveFacts }) {
+export function comparison({ recipe, jobOf, map, failed, changed, curveFacts }) {
   const [before, now] = [view("kept"), view("other")];
   [before.state.beside, now.state.beside] = [now, before];
   let kept = null;
@@ -30,7 +30,7 @@ export function comparison({ recipe, map, failed, changed, curveFacts }) {
     asked = text;
     let end = {};
     try {
-      end = await request("back", "press", { ...held.recipe, load }, { pixels: 512 }, (header, data) => {
+      end = await request("back", "press", jobOf({ ...held.recipe, load }), { pixels: 512 }, (header, data) => {
         if (held !== kept) return;
         if (header.type === "map") before.set(header.map, header, data);
         else if (header.type === "numbers") held.facts = header.facts;
@@ -41,7 +41,7 @@ export function comparison({ recipe, map, failed, changed, curveFacts }) {
     asked = null;
     held.answered = text;
     if (held === kept) {
-      by("kept_said").textContent = end.message ? `${held.name}: ${end.message}` : "";
+      by("kept_said").textContent = end.message ? [`${held.name}: ${end.message}`, end.remedy].filter(Boolean).join(" ") : "";
       show();
       follow();
     }

@@ -5,12 +5,16 @@ import { digits, scaleFor } from "./words.js";
 
 const COLUMNS = ["force", "nominal_pressure", "depth", "stiffness", "contact_fraction", "mean_gap", "spots", "residual"];
 
+// Without `chosen` no row leads anywhere.
 export function curveTable(root, { columns, points }, current, chosen) {
+  const clickable = Boolean(chosen);
   // The keys stay where they are.
   const focused = [...root.querySelectorAll("button")].indexOf(document.activeElement);
-  const shown = COLUMNS.map((name) => columns.find((each) => each.name === name));
+  const shown = COLUMNS.map((name) => columns.find((each) => each.name === name)).filter(Boolean);
+  const branched = points.some(({ branch }) => branch);
   const scales = shown.map(({ name, unit }) => scaleFor(points.map((point) => point[name]), unit));
   const head = element("tr", "");
+  if (branched) head.append(Object.assign(element("th", "branch"), { scope: "col" }));
   for (const [k, { label }] of shown.entries()) {
     const cell = element("th", scales[k].unit ? `${label} [${scales[k].unit}]` : label);
     cell.scope = "col";
@@ -19,9 +23,10 @@ export function curveTable(root, { columns, points }, current, chosen) {
   const body = document.createElement("tbody");
   for (const point of points) {
     const row = element("tr", "");
+    if (branched) row.append(element("td", point.branch));
     for (const [k, { name }] of shown.entries()) {
       const value = point[name] === null ? "∞" : digits(point[name] * scales[k].factor, name === "residual" ? 2 : 4);
-      if (k) {
+      if (k || !clickable || !["", "loading"].includes(point.branch)) {
         row.append(element("td", value));
         continue;
       }
@@ -39,6 +44,6 @@ export function curveTable(root, { columns, points }, current, chosen) {
   }
   const top = document.createElement("thead");
   top.append(head);
-  root.replaceChildren(element("caption", "A row shows its contact; open circles are not resolved by the grid."), top, body);
+  root.replaceChildren(...(clickable ? [element("caption", "A row shows its contact; open circles are not resolved by the grid.")] : []), top, body);
   if (focused >= 0) body.querySelectorAll("button")[focused]?.focus({ preventScroll: true });
 }

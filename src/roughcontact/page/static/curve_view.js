@@ -1,9 +1,12 @@
-// The curve: its loads chosen, its points as they come, what stands beside it.
+// The curve: rising loads, a loop, or surfaces that stick; its points as they come, what stands beside it.
 
 import { chart, clear } from "./charts.js";
 import { curveTable } from "./curve_table.js";
+import { form, rest } from "./form.js";
 import { UNITS } from "./load_bar.js";
 import { facts, list } from "./numbers.js";
+import { progressBar } from "./progress.js";
+import { jobOf } from "./recipe.js";
 import { statement } from "./statement.js";
 import { theoryList } from "./theory_list.js";
 import { trouble } from "./trouble.js";
@@ -13,31 +16,42 @@ import { loadText } from "./words.js";
 const ALONG = { force: "force", pressure: "nominal_pressure", depth: "depth" };
 // What follows from the predictions of a theory by a fixed factor.
 const OVER_AREA = { interfacial_stiffness_per_area: "interfacial_stiffness", contact_fraction: "contact_area" };
+const COLOURS = { unloading: "--second", reloading: "--third", retreat: "--second", jump: "--ink-soft", "pull-off force": "--mark" };
+const DASHES = { jump: [3, 3], "pull-off force": [8, 4] };
 const by = (id) => document.getElementById(id);
 
-export function curveView({ recipe, known, usual, failed, ended }) {
+export function curveView({ recipe, forms, known, usual, failed, ended, flattened }) {
   let running = null;
-  let current = null; // { loads, columns, points, end }
+  let current = null; // { job, columns, points, end }
   let kept = null;
   let state = null; // the load under the hand, and its numbers
+  let shape = ""; // of the curve whose quantities are offered
+  let own = { kind: null, parts: [] }; // the forms of what this kind of curve has beside a load
   const [command, python] = [statement(by("curve_command")), statement(by("curve_python"))];
   const theories = theoryList(by("theories"), known, beside);
   const say = (text) => (by("curve_said").textContent = text);
+  const search = progressBar(by("progress"), by("curve_said")); // for the loads: of those, every point counts
+  const sticks = (run) => run.job.job !== "curve";
+  // The kind of load that is prescribed.
+  const controlOf = ({ job }) => (Object.keys(job.loads || {})[0] || "forces").slice(0, -1);
+  const along = (run) => (sticks(run) ? "depth" : ALONG[controlOf(run)]);
 
-  // What the user wants of the loads, as the server takes it.
+  // The job that the user wants; theories are asked for when the points are there.
   function wanted() {
-    const control = by("loads").value;
-    if (!control) return { control: "force" };
-    return { control, start: by("from").value, end: by("to").value, count: by("count").valueAsNumber || 0 };
+    const { theories: _, ...job } = jobOf(recipe.now.kind, recipe.now, forms);
+    const { materials } = job.bodies;
+    if (job.conduction && !Object.keys(job.conduction).length && materials && !materials.includes("rigid")) {
+      job.conduction = { resistivity: materials, conductivity: materials };
+    }
+    return job;
   }
 
   async function start() {
-    const loads = wanted();
-    const run = { points: [], loads, columns: [], end: null, theories: [] };
+    const run = { points: [], job: wanted(), columns: [], end: null };
     forget();
     current = run;
     show();
-    const sent = request("back", "curve", { ...recipe.now, load: null, loads }, {}, (header) => run === current && heard(run, header));
+    const sent = request("back", "curve", run.job, {}, (header, data) => run === current && heard(run, header, data));
     running = { sent, run };
     show();
     try {
@@ -45,24 +59,25 @@ export function curveView({ recipe, known, usual, failed, ended }) {
       const field = run === current && trouble("curve", end);
       if (field) say("");
       else if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
-      else if (run === current && end.how === "stopped") say("Stopped before the first point.");
+      else if (run === current && end.how === "stopped") say("Stopped before there was an answer.");
     } catch (error) {
       failed(error);
     }
     if (running && running.run === run) running = null;
-    if (run === current && run.points.length) await beside();
+    if (run === current && run.end && !sticks(run)) await beside();
     show();
   }
 
-  function heard(run, header) {
-    if (header.type === "doing") say(`${header.words} …`);
+  function heard(run, header, data) {
+    if (header.type === "progress") return run.columns.length || search.heard(header);
+    if (header.type === "map") flattened(header, data);
     else if (header.type === "stated") {
       command(header.command);
       python(header.python);
     } else if (header.type === "loads") {
       Object.assign(run, header);
       list(by("curve_notes"), header.notes);
-      offer(header.columns);
+      offer(run);
       show();
       say("");
     } else if (header.type === "point") {
@@ -80,53 +95,77 @@ export function curveView({ recipe, known, usual, failed, ended }) {
 
   function progress(run) {
     const done = run.points.length;
-    [by("progress").max, by("progress").value] = [run.count || 1, done];
-    if (!run.count || !done) return;
+    if (run.count) [by("progress").max, by("progress").value] = [run.count, done];
+    else by("progress").removeAttribute("value");
+    if (!done) return;
     const open = run.points.filter((each) => !each.resolved).length;
     const stopped = run.end && run.end.stopped ? "Stopped: " : "";
-    say(`${stopped}${done} of ${run.count} points${open ? `, ${open} of them not resolved by the grid (open circles)` : ""}.`);
+    say(`${stopped}${done}${run.count ? ` of ${run.count}` : ""} points${open ? `, ${open} of them not resolved by the grid (open circles)` : ""}.`);
   }
 
-  // The quantities that can be shown.
-  function offer(columns) {
-    const before = by("quantity").value || "stiffness";
-    by("quantity").replaceChildren(...columns.filter(({ name }) => !["force", "nominal_pressure", "residual"].includes(name))
-      .map(({ name, label }) => new Option(label, name)));
-    by("quantity").value = columns.some(({ name }) => name === before) ? before : "stiffness";
+  // The quantities that can be shown: by usage the stiffness, of a loop the depth, of surfaces that stick the force.
+  function offer(run) {
+    const looped = Boolean(run.job.plastic && run.job.plastic.loop);
+    const usually = sticks(run) ? "force" : looped ? "depth" : "stiffness";
+    const before = shape === `${run.job.job} ${looped}` && by("quantity").value;
+    shape = `${run.job.job} ${looped}`;
+    const some = run.columns.filter(({ name }) => !["nominal_pressure", "residual", along(run), ...(sticks(run) ? [] : ["force"])].includes(name));
+    by("quantity").replaceChildren(...some.map(({ name, label }) => new Option(label, name)));
+    by("quantity").value = some.some(({ name }) => name === before) ? before : usually;
+    by("axes").value = sticks(run) || looped ? "linear" : "logarithmic";
+    by("beside").hidden = sticks(run);
   }
 
-  // Theories are asked for when the points are there, and what the command needs to give the same columns.
+  // Theories are asked for when the points are there.
   async function beside() {
     const run = current;
-    if (!run || running || !run.points.length) return;
-    run.theories = theories.chosen;
+    if (!run || running || !job()) return;
     try {
-      const sent = request("back", "theories", { ...recipe.now, load: null, loads: loads() }, {}, (header) => run === current && heard(run, header));
+      const { theories: _, ...plain } = job();
+      const sent = request("back", "theories", plain, { theories: theories.chosen }, (header) => run === current && heard(run, header));
       const end = await sent.ended;
       if (end.message && run === current) say(end.message);
-      run.theories = theories.chosen;
     } catch (error) {
       failed(error);
     }
     draw();
   }
 
-  // The loads of the curve as far as they are computed, and what stands beside them.
-  function loads() {
-    if (!current || !current.points.length) return undefined;
-    const { control } = current.loads;
-    const whole = current.end && !current.end.stopped;
-    const more = { theories: current.theories, conducting: by("quantity").value.includes("conductance") };
-    return whole ? { ...current.loads, ...more } : { control, values: current.points.map((each) => each.load), ...more };
+  // The job of the curve as far as it is computed, with what stands beside it.
+  function job() {
+    if (!current || !current.end || !current.end.again) return undefined;
+    const theory = theories.chosen.join(",");
+    return { ...current.job, ...current.end.part, ...(sticks(current) || !theory ? {} : { theories: { theory } }) };
+  }
+
+  // Points that follow one another on one branch.
+  function runs(points) {
+    const found = [];
+    for (const point of points) {
+      const last = found[found.length - 1];
+      if (last && last[0].branch === point.branch) last.push(point);
+      else found.push([point]);
+    }
+    return found;
   }
 
   function lines(run, colour, name) {
-    const along = ALONG[current.loads.control];
-    const of = (resolved, kind, label) => {
-      const some = run.points.filter((each) => each.resolved === resolved);
-      return { x: some.map((each) => each[along]), y: some.map((each) => each[by("quantity").value]), kind, colour, label };
-    };
-    return [of(true, "points", name), of(false, "rings", `${name}, not resolved`)].filter(({ x }) => x.length);
+    const quantity = by("quantity").value;
+    const place = (points, more) => ({ x: points.map((each) => each[along(current)]), y: points.map((each) => each[quantity]), ...more });
+    const series = [];
+    const drawn = run.end && run.end.lines && quantity === "force" ? run.end.lines : null;
+    for (const part of runs(run.points)) {
+      const { branch } = part[0];
+      const own = COLOURS[branch] || colour;
+      const label = branch || name;
+      if (branch && !drawn) series.push(place(part, { kind: "line", colour: own, label, silent: true }));
+      for (const [resolved, kind, words] of [[true, "points", label], [false, "rings", branch ? "not resolved" : `${label}, not resolved`]]) {
+        const some = part.filter((each) => each.resolved === resolved);
+        if (some.length) series.push(place(some, { kind, colour: own, label: words }));
+      }
+    }
+    for (const { label, x, y } of drawn || []) series.push({ x, y, label, kind: "line", colour: COLOURS[label] || colour, dash: DASHES[label], silent: true });
+    return series;
   }
 
   function draw() {
@@ -134,34 +173,52 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     const name = by("quantity").value;
     const log = by("axes").value === "logarithmic";
     const column = (wanted) => current.columns.find((each) => each.name === wanted);
-    const along = ALONG[current.loads.control];
+    const [at, clickable] = [along(current), !sticks(current)];
     const series = lines(current, "--accent", kept ? "this surface" : "computed");
-    if (kept) series.push(...lines(kept.curve, "--second", `kept: ${kept.name}`));
-    const x = current.points.map((each) => each[along]);
+    if (kept && kept.curve.points.length && sticks(kept.curve) === sticks(current)) series.push(...lines(kept.curve, "--second", `kept: ${kept.name}`));
+    const first = current.points.filter(({ branch }) => !branch || branch === "loading");
+    const x = first.map((each) => each[at]);
     const { fit } = current.end || {};
-    if (fit && name === "stiffness" && along === "force") {
+    if (fit && name === "stiffness" && at === "force") {
       series.push({ x: fit.force, y: fit.stiffness, label: `power law, exponent ${fit.exponent.toFixed(3)}`, kind: "line", colour: "--ink-soft" });
     }
-    for (const line of theories.lines(OVER_AREA[name] || name)) {
-      const scale = OVER_AREA[name] ? current.points[0][name] / current.points[0][OVER_AREA[name]] : 1;
+    for (const line of clickable ? theories.lines(OVER_AREA[name] || name) : []) {
+      const scale = OVER_AREA[name] ? first[0][name] / first[0][OVER_AREA[name]] : 1;
       series.push({ ...line, x, y: line.y.map((value) => (value === null ? null : value * scale)), kind: "line" });
     }
-    if (state && Number.isFinite(state[name]) && state[along] > 0) {
-      series.push({ x: [state[along]], y: [state[name]], label: "the load shown", kind: "mark", colour: "--mark" });
+    if (clickable && state && Number.isFinite(state[name]) && state[at] > 0) {
+      series.push({ x: [state[at]], y: [state[name]], label: "the load shown", kind: "mark", colour: "--mark" });
     }
-    chart(by("curve"), { x: { ...column(along), log }, y: { ...column(name), log }, count: current.points.length, series, clicked: (place) => {
-      const near = (each) => Math.abs(Math.log(each[along] / place));
-      choose([...current.points].sort((a, b) => near(a) - near(b))[0]);
-    } });
-    curveTable(by("points"), current, state, choose);
+    chart(by("curve"), { x: { ...column(at), log }, y: { ...column(name), log }, count: current.points.length, series, clicked: clickable ? (place) => {
+      const near = (each) => Math.abs(Math.log(each[at] / place));
+      choose([...first].sort((a, b) => near(a) - near(b))[0]);
+    } : null });
+    curveTable(by("points"), current, clickable ? state : null, clickable ? choose : null);
   }
 
   function choose(point) {
-    const { control } = current.loads;
-    recipe.change((next) => (next.load = { control, text: loadText(point.load, UNITS[control], 6) }));
+    const control = controlOf(current);
+    recipe.change((next) => (next.load = { [control]: loadText(point.load, UNITS[control], 6) }));
+  }
+
+  // Loads of a range that suits the surface, as the command line takes them.
+  function range(name) {
+    const control = name.slice(0, -1);
+    if (!usual(control)) return undefined;
+    const [, high, start] = usual(control);
+    return [start / 30, Math.min(30 * start, high)].map((end) => loadText(end, UNITS[control], 1)).join(":") + ":12";
   }
 
   function show() {
+    const { kind } = recipe.now;
+    if (own.kind !== kind) {
+      const parts = Object.entries(forms.jobs[kind]).filter(([part]) => part !== "theories").map(([part, all]) => [part, rest(all, forms.jobs.press[part])]);
+      own = { kind, parts: parts.filter(([, { fields }]) => fields.length).map(([part, some]) => form(recipe, part, some, { usual: kind === "curve" ? range : undefined, alone: true })) };
+      by("curve_forms").replaceChildren(...own.parts.map(({ root }) => root));
+      by("kind").value = kind;
+      by("kind_said").textContent = forms.about[kind];
+    }
+    for (const each of own.parts) each.show();
     const ready = Boolean(usual("force") && recipe.now.load);
     [by("start").disabled, by("stop").disabled] = [Boolean(running) || !ready, !running];
     by("progress").hidden = !running;
@@ -175,29 +232,25 @@ export function curveView({ recipe, known, usual, failed, ended }) {
     theories.forget();
     clear(by("curve"));
     for (const id of ["curve_facts", "curve_notes", "points"]) by(id).replaceChildren();
-    say("Start presses the surface by rising loads.");
+    say("Start presses the surface by one load after the other.");
   }
 
+  for (const [name, parts] of Object.entries(forms.jobs)) if (["loads", "turn", "retreat"].some((part) => part in parts)) by("kind").add(new Option(name));
+  by("kind").onchange = ({ target }) => recipe.change((next) => Object.assign(next, { kind: target.value, loads: {} }));
   by("start").onclick = start;
   by("stop").onclick = () => running && running.sent.stop().catch(failed);
   by("axes").onchange = draw;
-  by("quantity").onchange = () => { draw(); beside(); };
-  by("loads").onchange = ({ target: { value: control } }) => {
-    by("range").hidden = !control;
-    if (!control || !usual(control)) return;
-    const [, high, start] = usual(control);
-    [by("from").value, by("to").value] = [loadText(start / 30, UNITS[control], 1), loadText(Math.min(30 * start, high), UNITS[control], 1)];
-  };
+  by("quantity").onchange = draw;
 
   return {
     show,
     forget,
-    loads,
+    job,
     get facts() {
       return current && current.end ? current.end.facts : [];
     },
     get kept() {
-      return current && current.points.length ? structuredClone(current) : { points: [], loads: { control: "force" }, columns: [] };
+      return current && current.points.length ? structuredClone(current) : { points: [], job: { job: "curve" }, columns: [] };
     },
     keep(other) {
       kept = other;

@@ -4,8 +4,8 @@ import { request } from "./wire.js";
 
 const KINDS = { csv: "CSV", nc: "NetCDF", png: "PNG", svg: "SVG" };
 
-// `wanted()` gives the recipe with the loads of a curve, if there is one.
-export function exports(root, { wanted, say, failed }) {
+// `load()` and `curve()` give the jobs of what is shown.
+export function exports(root, { load, curve, source, say, failed }) {
   const group = (label, of) => {
     const made = Object.assign(document.createElement("optgroup"), { label });
     made.append(...Object.entries(KINDS).map(([kind, name]) => new Option(name, of === "load" ? kind : `${of} ${kind}`)));
@@ -17,12 +17,13 @@ export function exports(root, { wanted, say, failed }) {
     const [kind, of] = target.value.split(" ").reverse();
     target.value = "";
     if (!kind) return;
-    const recipe = wanted();
-    if (!recipe.source) return say("There is nothing to export yet: drop a file, or choose an example.");
+    if (!source()) return say("There is nothing to export yet: drop a file, or choose an example.");
     // What is under the hand is known in front; the curve behind.
     const queue = kind === "zip" || of === "curve" ? "back" : "front";
-    const sent = request(queue, "export", recipe, { kind, of: of || "load" }, (header, data) => {
-      if (header.type === "doing") say(`${header.words} …`);
+    if (of === "curve" && !curve()) return say("There is no curve to export yet: start it.");
+    const [job, beside] = of === "curve" ? [curve()] : [load(), kind === "zip" ? curve() : null];
+    const sent = request(queue, "export", job, { kind, beside }, (header, data) => {
+      if (header.type === "progress" && header.state === "started") say(`${header.task} …`);
       if (header.type !== "file") return;
       const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([data])), download: header.name });
       link.click();

@@ -14,14 +14,15 @@ export function loadBar(recipe) {
 
   function show() {
     const { load } = recipe.now;
+    const [[control, text]] = Object.entries(load || { pressure: "" });
     for (const name of ["slider", "load"]) by(name).disabled = !spans || !load;
     if (!load) return;
-    by("control").value = load.control;
-    put(by("load"), load.text);
-    by("slider").setAttribute("aria-valuetext", load.text);
-    const value = loadValue(load.text, UNITS[load.control]);
+    by("control").value = control;
+    put(by("load"), text);
+    by("slider").setAttribute("aria-valuetext", text);
+    const value = loadValue(text, UNITS[control]);
     if (!spans || !(value > 0) || dragged) return;
-    const [low, high] = spans[load.control];
+    const [low, high] = spans[control];
     by("slider").value = String((STEPS * Math.log(value / low)) / Math.log(high / low));
   }
 
@@ -29,15 +30,15 @@ export function loadBar(recipe) {
     if (!spans) return;
     // The same state in other words, where it is known.
     const text = state ? loadText(state[control], UNITS[control], 4) : loadText(spans[control][2], UNITS[control]);
-    recipe.change((next) => (next.load = { control, text }));
+    recipe.change((next) => (next.load = { [control]: text }));
   };
-  by("load").onchange = ({ target }) => recipe.change((next) => (next.load.text = target.value));
+  by("load").onchange = ({ target }) => recipe.change((next) => (next.load = { [by("control").value]: target.value }));
   by("slider").oninput = ({ target }) => {
     dragged = dragged || structuredClone(recipe.now);
-    const { control } = recipe.now.load;
+    const { value: control } = by("control");
     const [low, high] = spans[control];
     const text = loadText(low * (high / low) ** (target.value / STEPS), UNITS[control]);
-    recipe.change((next) => (next.load.text = text), false);
+    recipe.change((next) => (next.load = { [control]: text }), false);
   };
   by("slider").onchange = () => {
     const before = dragged;
@@ -57,7 +58,7 @@ export function loadBar(recipe) {
     spanned({ pressure, force, depth }) {
       spans = pressure ? { pressure, force, depth } : null;
       if (spans && !recipe.now.load) {
-        recipe.change((next) => (next.load = { control: "pressure", text: loadText(pressure[2], "Pa") }), false);
+        recipe.change((next) => (next.load = { pressure: loadText(pressure[2], "Pa") }), false);
       }
       show();
       return Boolean(spans);

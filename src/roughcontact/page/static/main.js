@@ -1,52 +1,67 @@
 // The page: what the user does changes the recipe, and the recipe says what is to be computed.
 
-import { bodyFields } from "./bodies.js";
 import { comparison } from "./comparison.js";
-import { cropFields } from "./crop.js";
+import { dragged } from "./crop.js";
 import { curveView } from "./curve_view.js";
 import { cutView } from "./cut_view.js";
 import { exports } from "./exports.js";
+import { form, helpLine } from "./form.js";
 import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
-import { numbersView } from "./numbers.js";
-import { BLANK, EXAMPLES, example, fresh, history, titleOf } from "./recipe.js";
-import { settings } from "./settings.js";
+import { element, list, numbersView } from "./numbers.js";
+import { progressBar } from "./progress.js";
+import { examplesOf, fresh, history, jobOf, partsOf, titleOf } from "./recipe.js";
 import { shortcuts } from "./shortcuts.js";
 import { surfaceView } from "./surface_view.js";
 import { trouble } from "./trouble.js";
 import { begin, request, upload } from "./wire.js";
 import { welcome } from "./welcome.js";
+import { written } from "./words.js";
 
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
 const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
 const LULL = 250; // milliseconds without another wish, before what takes longer is begun
-// What an answer follows from; a load that moves on meanwhile still shows its maps.
-const BASES = { look: ["source", "preparation"], study: ["source", "preparation"], bodies: ["bodies"] };
+const BLANK = { kind: "example", example: "ground" }; // stands for a surface in questions that are about none
 const by = (id) => document.getElementById(id);
 let largest = Infinity;
 let front = null;
 let lull = null;
-let bodies = null; // when the server has said which materials it knows
-let curve = null; // and which theories
+let forms = null; // what the server tells of the fields
+let curve = null;
+let raw = null; // the surface before its preparation
+let same = {}; // the bodies in other words
+let examples = [];
+let place = null;
+const shown = { source: null }; // the forms that are on the page, by their parts
 const names = {}; // of files, by what the server calls them
 const wanted = { look: false, press: false, cut: false, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
+const working = progressBar(by("working"), by("said"));
 const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
-  crop: (part) => { by("crop").click(); crop.dragged(part); },
+  crop(part) {
+    by("crop").click();
+    recipe.change(({ preparation }) => (preparation.crop = dragged(part, preparation.crop, raw.shape, map.state.fields.heights.cells)));
+  },
   small: () => say("A crop holds at least 4 × 4 cells: drag further, or type rows and columns under Preparation."),
   cut: (axis, place) => cut.at(axis, place),
 });
 const recipe = history(changed);
-const crop = cropFields(recipe);
-const fields = settings(recipe);
-const surfaceCard = surfaceView(recipe, crop);
+const surfaceCard = surfaceView(recipe);
 const load = loadBar(recipe);
 const numbers = numbersView();
 const cut = cutView(map, () => { wanted.cut = true; pump(); });
-const compare = comparison({ recipe, map, failed, changed: (kept) => curve.keep(kept), curveFacts: () => curve.facts });
-const place = welcome(EXAMPLES, (each) => source(example(each)));
+const compare = comparison({ recipe, jobOf: (state) => jobOf("press", state, forms), map, failed, changed: (kept) => curve.keep(kept), curveFacts: () => curve.facts });
+
+// Which job of the recipe a question is about.
+const JOBS = { look: "surface", study: "surface", bodies: "curve", press: "press", cut: "press" };
+function asked(question) {
+  const { now } = recipe;
+  if (question === "bodies") return { job: "curve", source: BLANK, bodies: now.bodies, plastic: jobOf("curve", now, forms).plastic };
+  if (question === "press" && !now.load) return { job: "curve", source: now.source, preparation: now.preparation, bodies: now.bodies };
+  return jobOf(JOBS[question], now, forms);
+}
 
 function changed(now, before) {
   const differs = (name) => JSON.stringify(now[name]) !== JSON.stringify(before[name]);
@@ -59,15 +74,17 @@ function changed(now, before) {
     numbers.forget(differs("source"));
   }
   if (differs("source")) {
-    crop.of(null);
-    fields.forget();
     surfaceCard.forget();
-    place.of(titleOf(now.source, names));
+    place.of(titleOf(now.source, names, examples));
     by("keep").disabled = true;
   }
-  if (differs("bodies")) wanted.bodies = true;
-  if (["source", "preparation", "bodies"].some(differs)) curve.forget();
-  if (["source", "preparation", "bodies", "load"].some(differs)) wanted.press = Boolean(now.source);
+  const pressed = partsOf("press", forms).some(differs);
+  if (differs("bodies") || differs("plastic")) wanted.bodies = true;
+  if (differs("kind") || partsOf("press", forms).some((part) => part !== "load" && differs(part))) {
+    curve.forget();
+    map.clear("flattened");
+  }
+  if (pressed) wanted.press = Boolean(now.source);
   show();
   pump();
 }
@@ -75,10 +92,17 @@ function changed(now, before) {
 function show() {
   const { source } = recipe.now;
   [by("undo").disabled, by("redo").disabled] = [!recipe.can.undo, !recipe.can.redo];
-  const title = titleOf(source, names);
+  const title = titleOf(source, names, examples);
   by("name").textContent = title;
   document.title = title ? `${title} – roughcontact` : "roughcontact";
-  for (const each of [fields, crop, bodies, surfaceCard, load, curve]) each.show();
+  if (source && shown.kind !== source.kind) {
+    shown.kind = source.kind;
+    shown.source = form(recipe, "source", forms.sources[source.kind]);
+    by("source_form").replaceChildren(shown.source.root);
+  }
+  by("flattened").hidden = !map.has("flattened");
+  for (const part of ["source", "preparation", "bodies", "plastic", "contact"]) if (shown[part]) shown[part].show();
+  for (const each of [surfaceCard, load, curve]) each.show();
 }
 
 function failed(error) {
@@ -88,7 +112,7 @@ function failed(error) {
 function ended(end, job) {
   const field = trouble(job, end);
   // A file that leaves something open asks for it.
-  if (field && end.lacking && document.activeElement === document.body) field.focus();
+  if (field && field.id.startsWith("source.") && document.activeElement === document.body) field.focus();
   if (end.message) say(field === by("load") ? "" : [end.message, end.remedy].filter(Boolean).join(" "));
   return end.how === "done";
 }
@@ -113,11 +137,11 @@ async function perform(job) {
   const more = job === "cut" ? cut.wanted : { pixels: map.pixels() };
   wanted[job] = false;
   if (!more) return pump();
-  const basis = () => JSON.stringify(job in BASES ? BASES[job].map((name) => recipe.now[name]) : recipe.now);
-  const asked = basis();
-  const sent = request("front", job, { ...recipe.now, source: recipe.now.source || BLANK }, more, (header, data) => {
+  const basis = () => JSON.stringify(asked(job));
+  const before = basis();
+  const sent = request("front", job, asked(job), more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
-    if ((wanted.look && !(job in BASES)) || (asked !== basis() && !load.dragged)) return;
+    if ((wanted.look && JOBS[job] === "press") || (before !== basis() && !load.dragged)) return;
     heard(header, data);
   });
   front = { job, sent, timer: null };
@@ -129,13 +153,14 @@ async function perform(job) {
   }
   clearTimeout(front.timer);
   front = null;
+  working.end();
   ended(end, job);
   if (job === "look" && end.how !== "done" && !wanted.look) {
     wanted.press = wanted.study = false;
     surfaceCard.refused();
   }
-  if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names));
-  if (job === "press" && end.how === "done") wanted.cut = true;
+  if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names, examples));
+  if (job === "press" && end.how === "done" && recipe.now.load) wanted.cut = true;
   if (job === "study" && !wanted.study) {
     if (end.how === "stopped") wanted.study = true;
     else surfaceCard.done();
@@ -145,10 +170,10 @@ async function perform(job) {
 
 function heard(header, data) {
   if (header.type === "map") { map.set(header.map, header, data); place.done(); }
-  else if (header.type === "doing") say(`${header.words} …`);
-  else if (header.type === "channels") { fields.channels(header.channels); surfaceCard.channels(header.channels); }
+  else if (header.type === "progress") working.heard(header);
+  else if (header.type === "channels") { channels(header.channels); surfaceCard.channels(header.channels); }
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
-  else if (header.type === "bodies") bodies.say(header);
+  else if (header.type === "bodies") told(header);
   else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
   else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
@@ -166,9 +191,21 @@ function answered(header) {
 }
 
 function surface(header) {
-  crop.of(header.raw);
-  fields.of(header.raw);
+  raw = header.raw;
+  shown.source.hint("size", raw.lengths.map((side) => written(side, "m", 4)).join(" x "));
   surfaceCard.surface(header);
+}
+
+function channels(found) {
+  const shownAs = ({ name, is_height }) => [name, is_height ? name : `${name} (no heights)`];
+  shown.source.offer("channel", found.map(shownAs));
+  const { unit } = found.find(({ name }) => name === recipe.now.source.channel) || found.find(({ is_height }) => is_height) || {};
+  shown.source.hint("unit", typeof unit === "number" ? `${unit} m` : unit);
+}
+
+function told(header) {
+  same = header.same;
+  list(by("bodies_said"), header.lines);
 }
 
 async function opened(file) {
@@ -187,7 +224,7 @@ function given({ file, name }) {
 }
 
 function source(found) {
-  recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(), load: null }));
+  recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(found), load: null }));
 }
 
 function listen() {
@@ -196,8 +233,8 @@ function listen() {
   addEventListener("dragover", (event) => { event.preventDefault(); dragging(true); });
   addEventListener("dragleave", (event) => event.relatedTarget || dragging(false));
   addEventListener("drop", (event) => { event.preventDefault(); dragging(false); if (event.dataTransfer.files[0]) opened(event.dataTransfer.files[0]); });
-  EXAMPLES.forEach((each, k) => by("example").add(new Option(`${each.name}: ${each.about}`, k)));
-  by("example").onchange = ({ target }) => { if (target.value) source(example(EXAMPLES[target.value])); target.value = ""; };
+  examples.forEach((each, k) => by("example").add(new Option(`${each.name}: ${each.about}`, k)));
+  by("example").onchange = ({ target }) => { if (target.value) source(examples[target.value].source); target.value = ""; };
   for (const button of document.querySelectorAll("[data-map]")) button.onclick = () => {
     map.state.which = button.dataset.map;
     for (const each of document.querySelectorAll("[data-map]")) each.setAttribute("aria-pressed", String(each === button));
@@ -208,17 +245,34 @@ function listen() {
   by("colours").onchange = ({ target }) => { map.state.colours = target.value; map.paint(); compare.show(); };
   [by("undo").onclick, by("redo").onclick] = [recipe.undo, recipe.redo];
   by("keep").onclick = () => compare.keep(curve.kept);
-  exports(by("export"), { wanted: () => ({ ...recipe.now, loads: curve.loads() }), say, failed });
+  exports(by("export"), { load: () => (recipe.now.load ? asked("press") : asked("look")), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
+  helpLine(by("help"));
   shortcuts({ ...recipe, leave: () => map.state.mode === "crop" && by("crop").click() });
   new MutationObserver(() => { map.paint(); compare.show(); }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
-  for (const each of document.querySelectorAll("#settings .group, #curves details[open]")) each.open = innerWidth >= 760;
+  for (const each of document.querySelectorAll("#settings .group[open], #curves details[open]")) each.open = innerWidth >= 760;
+}
+
+// What is done before a surface is pressed: a group of its own for each part, by its title.
+function groups() {
+  for (const part of ["preparation", "bodies", "plastic", "contact"]) {
+    const made = forms.jobs.press[part];
+    shown[part] = form(recipe, part, made, { usual: (name) => (part === "bodies" ? same[name] : undefined) });
+    const group = Object.assign(element("details", ""), { className: "group", open: part === "preparation" || part === "bodies" });
+    const summary = element("summary", "");
+    summary.append(element("h2", made.title));
+    group.append(summary, shown[part].root);
+    if (part === "bodies") group.append(by("bodies_said"));
+    by("groups").append(group);
+  }
 }
 
 try {
   const begun = await begin();
-  largest = begun.largest;
-  bodies = bodyFields(recipe, begun.materials);
-  curve = curveView({ recipe, known: begun.theories, usual: load.usual, failed, ended: compare.show });
+  ({ largest, forms } = begun);
+  examples = examplesOf(forms);
+  place = welcome(examples.slice(0, 4), (each) => source(each.source));
+  groups();
+  curve = curveView({ recipe, forms, known: begun.theories, usual: load.usual, failed, ended: compare.show, flattened: (header, data) => { map.set("flattened", header, data); show(); } });
   listen();
   document.querySelector("main").inert = false; // before, nobody would answer
   show();

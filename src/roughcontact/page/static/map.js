@@ -39,7 +39,7 @@ export function mapView(canvas, bar, heard) {
   }
 
   function ownEnds(field) {
-    if (kind() === "heights") return { low: field.ends[0], high: field.ends[1], beyond: false };
+    if (["heights", "flattened"].includes(kind())) return { low: field.ends[0], high: field.ends[1], beyond: false };
     if (kind() === "gap") return { low: 0, high: Math.max(field.ends[1], 1e-300), beyond: false };
     const some = [];
     const stride = Math.max(1, Math.floor(field.values.length / 250000));

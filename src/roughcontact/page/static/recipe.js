@@ -1,25 +1,26 @@
-// What the user has asked for, as plain values: the page sends all of it with every request. Undo and redo go through it.
+// What the user has asked for: the parts of a job, as texts. Undo and redo go through it.
 
-const START = {
-  source: null,
-  preparation: {
-    crop: null, despike: null, level: "plane", form: null, fill: false,
-    short_cutoff: null, long_cutoff: null, downsample: null,
-  },
-  bodies: { materials: ["steel", "aluminium"] },
-  load: null,
-};
+const BEGIN = { source: null, preparation: {}, bodies: { materials: "steel,aluminium" }, load: null, kind: "curve" };
 
-export const EXAMPLES = [
-  { name: "Fractal patch", about: "H = 0.8, 256 × 256 cells, free", hurst: "0.8", rms: "1um", size: "1mm", points: 256 },
-  { name: "Joint face", about: "periodic, roll-off, 512 × 512", hurst: "0.8", rms: "0.5um", size: "1mm", points: 512,
-    rolloff: "150um", periodic: true },
-  { name: "Rugged patch", about: "H = 0.4, 512 × 512 cells", hurst: "0.4", rms: "0.2um", size: "1mm", points: 512, seed: 3 },
-  { name: "Large map", about: "H = 0.7, 1024 × 1024 cells", hurst: "0.7", rms: "1um", size: "2mm", points: 1024, seed: 2 },
+const fractal = (name, about, hurst, rms, size, points, more = {}) => ({
+  name, about, source: { kind: "self-affine", hurst, rms, size, points, seed: "1", ...more },
+});
+const PATCHES = [
+  fractal("Fractal patch", "H = 0.8, 256 × 256 cells, free", "0.8", "1um", "1mm", "256"),
+  fractal("Joint face", "periodic, roll-off, 512 × 512", "0.8", "0.5um", "1mm", "512", { rolloff: "150um", periodic: true }),
+  fractal("Rugged patch", "H = 0.4, 512 × 512 cells", "0.4", "0.2um", "1mm", "512", { seed: "3" }),
+  fractal("Large map", "H = 0.7, 1024 × 1024 cells", "0.7", "1um", "2mm", "1024", { seed: "2" }),
+];
+const BALL = { name: "Ball", about: "a sphere, 256 × 256 cells", source: { kind: "shape", shape: "sphere", radius: "5mm", size: "0.2mm", points: "256" } };
+
+// What the page begins with where there is no file: with the maps that come with the package.
+export const examplesOf = ({ sources }) => [
+  ...PATCHES, BALL,
+  ...sources.example.fields[0].choices.map((example) => ({ name: `Example ${example}`, about: "a map that comes with the package", source: { kind: "example", example } })),
 ];
 
 export function history(changed) {
-  let now = structuredClone(START);
+  let now = structuredClone(BEGIN);
   const past = [];
   const future = [];
 
@@ -66,17 +67,26 @@ export function history(changed) {
   };
 }
 
-// How the user calls a source: a file by its name, an example by its own.
-export function titleOf(source, names) {
-  if (!source) return "";
-  if (source.kind === "file") return names[source.file] || "";
-  const same = (each) => ["hurst", "rms", "size", "points"].every((key) => each[key] === source[key]);
-  return (EXAMPLES.find(same) || { name: "Made surface" }).name;
+// A job as the server takes it: of each of its parts the fields that it has.
+export function jobOf(name, state, { jobs }) {
+  const job = { job: name, source: state.source };
+  for (const [part, { fields }] of Object.entries(jobs[name])) {
+    const given = Object.entries(state[part] || {}).filter(([field]) => fields.some((each) => each.name === field));
+    job[part] = Object.fromEntries(given);
+  }
+  return job;
 }
 
-// Stands for a surface in questions that are about none.
-export const BLANK = { kind: "made", hurst: "0.8", rms: "1um", size: "1mm", points: 2 };
+// The parts of a state on which an answer of a kind depends.
+export const partsOf = (name, { jobs }) => ["source", ...Object.keys(jobs[name])];
 
-export const example = ({ name, about, ...made }) => ({ kind: "made", seed: 1, ...made });
+// How the user calls a source: a file by its name, an example by its own.
+export function titleOf(source, names, examples) {
+  if (!source) return "";
+  if (source.kind === "file") return names[source.file] || "";
+  const same = examples.find((each) => JSON.stringify(each.source) === JSON.stringify(source));
+  return same ? same.name : "Made surface";
+}
 
-export const fresh = () => structuredClone(START.preparation);
+// Preparation of a new source: measured heights are levelled, a shape is as it is.
+export const fresh = ({ kind }) => (kind === "shape" ? {} : { level: "plane" });

@@ -18,18 +18,17 @@ function element(kind, text, more = {}) {
   return Object.assign(document.createElement(kind), { textContent: text }, more);
 }
 
-export function surfaceView(recipe, crop) {
+export function surfaceView(recipe) {
   let warnings = [];
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
   function mended([step]) {
     const value = recipe.now.preparation[step];
-    return step === "level" ? value !== "none" && value !== "mean" : Boolean(value);
+    return step === "level" ? value === "plane" || value === "quadratic" : Boolean(value);
   }
 
   function mend([step, value]) {
-    if (step === "crop") return crop.written(value);
-    return recipe.change((next) => (next.preparation[step] = step === "fill" ? true : value));
+    return recipe.change((next) => (next.preparation[step] = value || true));
   }
 
   function showWarnings() {

@@ -1,13 +1,19 @@
 // What is wrong with a field, in a sentence beside it; each job takes back what it said itself.
 
-// The server's names of fields, where those of the page differ.
-const PLACES = { size: "width", crop: "crop_top" };
 const said = new Map();
 
-function show(id, text) {
-  const field = document.getElementById(id);
-  if (!field) return;
-  const place = `${id}_trouble`;
+// The field of a place such as "preparation.crop": it, or else the first of its part that is there.
+function fieldOf(place) {
+  for (let name = place; name; name = name.includes(".") ? name.slice(0, name.lastIndexOf(".")) : "") {
+    const field = document.getElementById(name);
+    if (field && !field.closest("[hidden]")) return field;
+  }
+  const [part] = place.split(".");
+  return [...document.querySelectorAll(`[id^="${part}."]`)].find((each) => !each.closest("[hidden]") && each.matches("input, select, textarea")) || null;
+}
+
+function show(field, text) {
+  const place = `${field.id}_trouble`;
   let line = document.getElementById(place);
   if (!text) {
     field.removeAttribute("aria-invalid");
@@ -17,19 +23,19 @@ function show(id, text) {
   }
   if (!line) {
     line = Object.assign(document.createElement("p"), { className: "trouble", id: place, role: "alert" });
-    (field.closest("[data-field]") || field.closest("label") || field).after(line);
+    (field.closest("label") || field).after(line);
   }
+  for (let folded = field.closest("details"); folded; folded = folded.parentElement.closest("details")) folded.open = true;
   line.textContent = text;
   field.setAttribute("aria-invalid", "true");
   field.setAttribute("aria-errormessage", place);
 }
 
 // Show how a job ended beside the fields that it names; return the first of them.
-export function trouble(job, { field, lacking = [], message = "", remedy = "" }) {
-  for (const id of said.get(job) || []) show(id, "");
-  const names = field ? [field] : lacking;
-  const ids = names.map((name) => PLACES[name] || name);
-  said.set(job, ids);
-  ids.forEach((id, k) => show(id, k ? "This is needed as well." : [message, remedy].filter(Boolean).join(" ")));
-  return ids.length ? document.getElementById(ids[0]) : null;
+export function trouble(job, { places = [], message = "", remedy = "" }) {
+  for (const field of said.get(job) || []) show(field, "");
+  const fields = [...new Set(places.map(fieldOf).filter(Boolean))];
+  said.set(job, fields);
+  fields.forEach((field, k) => show(field, k ? "This is needed as well." : [message, remedy].filter(Boolean).join(" ")));
+  return fields[0] || null;
 }

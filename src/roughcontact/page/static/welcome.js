@@ -22,7 +22,7 @@ export function welcome(examples, open) {
   return {
     // There is a source, or none any more.
     of: (title) => (title ? show(`Reading ${title} …`, "") : show(...BEGIN, true)),
-    refused: ({ message, remedy = "", lacking = [] }, title) => show(lacking.length ? `${title} leaves something open` : `${title} cannot be shown`, `${message} ${remedy}`),
+    refused: ({ message, remedy = "", places = [] }, title) => show(places.some((place) => place.startsWith("source.")) ? `${title} leaves something open` : `${title} cannot be shown`, `${message} ${remedy}`),
     done: () => (by("welcome").hidden = true),
   };
 }

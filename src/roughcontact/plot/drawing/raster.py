@@ -10,6 +10,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
 from matplotlib.image import AxesImage
 
+from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.engineering_units import Scale, scale, written
@@ -49,7 +50,7 @@ def part(grid: AnyGrid, window: Window | None) -> Window:
         If the grid has one axis: there is no map of it.
     """
     if grid.ndim != 2:
-        raise ValueError("a map shows a surface of two axes; draw the profile of a line or of rings")
+        raise InputError("a map shows a surface of two axes", "draw the profile of a line or of rings")
     return (slice(0, grid.shape[0]), slice(0, grid.shape[1])) if window is None else window
 
 

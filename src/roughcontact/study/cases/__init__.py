@@ -17,6 +17,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
         asperities_case,  # noqa: F401
         cells_case,  # noqa: F401
         curve_case,  # noqa: F401
+        job_case,  # noqa: F401
         lines_case,  # noqa: F401
         loop_case,  # noqa: F401
         patch_case,  # noqa: F401
@@ -27,7 +28,7 @@ if TYPE_CHECKING:  # bundlers of programs read this
 __all__ = ["CASES", "find_case"]
 
 # A case is opened when it is first asked for.
-_NAMES = ("adhesion", "asperities", "cells", "curve", "lines", "loop", "patch", "slip", "yielding")
+_NAMES = ("adhesion", "asperities", "cells", "curve", "job", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "a case of your own is named as module:attribute"
 
@@ -58,12 +59,14 @@ def find_case(name: str) -> Case:
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:
-        raise StudyError(f"there is no case {name!r}: {expected(name, CASES)}; {_OWN}")
+        raise StudyError(f"there is no case {name!r}: {expected(name, CASES)}; {_OWN}", place="case")
     module, _, attribute = place.partition(":")
     found = getattr(_module(module, name), attribute, None)
     if not isinstance(found, Case):
         raise StudyError(
-            f"the case {name!r} is not there: {module} has no Case named {attribute!r}, such as {attribute} = Case(...)"
+            f"the case {name!r} is not there: {module} has no Case named {attribute!r}, such as "
+            f"{attribute} = Case(...)",
+            place="case",
         )
     return found
 
@@ -74,12 +77,15 @@ def _module(module: str, name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         top = module.partition(".")[0]
         if error.name is None or error.name.partition(".")[0] != top:
-            raise StudyError(f"the case {name!r} needs the module {error.name}: install it") from error
+            raise StudyError(
+                f"the case {name!r} needs the module {error.name}", "install it", "case"
+            ) from error
         raise StudyError(
-            f"the case {name!r} is not there: no module {error.name} is found; run where {top} lies, or put the folder "
-            "that holds it on PYTHONPATH"
+            f"the case {name!r} is not there: no module {error.name} is found",
+            f"run where {top} lies, or put the folder that holds it on PYTHONPATH",
         ) from error
     except Exception as error:  # importing a module of the user's runs it: anything may come of that
         raise StudyError(
-            f"the module of the case {name!r} cannot be imported: {type(error).__name__}: {error}"
+            f"the module of the case {name!r} cannot be imported: {type(error).__name__}: {error}",
+            place="case",
         ) from error

@@ -11,12 +11,10 @@ from roughcontact.adhesion.adhesive_loop import adhesive_loop
 from roughcontact.adhesion.attraction import Adhesion, Law
 from roughcontact.labels.labelled import described, variable
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.study.case import Case, EnergyPerArea, Length, Positive, Pressure
+from roughcontact.study.case import Case, EnergyPerArea, Length, Positive, Record
 from roughcontact.study.cases.shared_parameters import RoughSquare
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.validation import Array
 
@@ -31,10 +29,8 @@ class AdhesionParameters(RoughSquare):
 
     Parameters
     ----------
-    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius, modulus
         See `RoughSquare`.
-    modulus : float
-        Reduced modulus E* [Pa].
     work : float
         Work of adhesion w [J/m^2].
     range : float
@@ -47,21 +43,17 @@ class AdhesionParameters(RoughSquare):
         Depth at which the loop turns, over the rms height.
     loads : int
         Depths of the approach, from ten ranges of the attraction apart, in even steps.
-    tolerance : float
-        Of the certificate of every state.
     """
 
-    modulus: Positive[Pressure]
     work: Positive[EnergyPerArea]
     range: Positive[Length]
     law: Law = "exponential"
     allow_unresolved: bool = False
     turn: float = Field(default=1.0, gt=0)
     loads: int = Field(default=20, ge=2)
-    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
 
 
-def run(parameters: AdhesionParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: AdhesionParameters, rng: np.random.Generator) -> Record:
     """Return the loop of one sample.
 
     Returns

@@ -9,15 +9,13 @@ from pydantic import Field
 
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.shared_parameters import ForceRange
 from roughcontact.surface.analysis.summits import find_summits
 from roughcontact.surface.generation.fourier import self_affine
 from roughcontact.theory.asperity_models.asperities import Asperities, press
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughcontact.surface.surface import Surface
 
 __all__ = ["CASE", "AsperityParameters", "run", "summits_of"]
@@ -43,7 +41,7 @@ class AsperityParameters(ForceRange):
     loads: int = Field(default=25, ge=2)
 
 
-def run(parameters: AsperityParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: AsperityParameters, rng: np.random.Generator) -> Record:
     """Return the stiffness of the discrete asperity model at every force (thesis, figs 31 to 33).
 
     Returns

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from copy import deepcopy
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.labels.labelled import described
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.curve_case import CurveParameters, run as loading_curve
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["CASE", "CellsParameters", "run"]
 
@@ -32,7 +28,7 @@ class CellsParameters(CurveParameters):
         return max(1, round(1 / longest))
 
 
-def run(parameters: CellsParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: CellsParameters, rng: np.random.Generator) -> Record:
     """Return the loading curve of one sample, and how far the maxima of its cells lie below the highest.
 
     Returns

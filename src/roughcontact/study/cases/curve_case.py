@@ -16,13 +16,11 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
 from roughcontact.surface.moments import Moments, surface_moments
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughcontact.surface.surface import Surface
 
 __all__ = ["CASE", "CurveParameters", "curve_of", "moments_of", "run"]
@@ -46,17 +44,14 @@ class CurveParameters(PressedSquare, ForceRange):
         See `PressedSquare`.
     lowest_force, highest_force, loads
         See `ForceRange`; by default from the first cells in contact to the end of the power law.
-    tolerance : float
-        Of the certificate of every load.
     """
 
     lowest_force: float = Field(default=1e-4, gt=0)
     highest_force: float = Field(default=0.07, gt=0)
     loads: int = Field(default=30, ge=2)
-    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
 
 
-def run(parameters: CurveParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: CurveParameters, rng: np.random.Generator) -> Record:
     """Return the loading curve of one sample.
 
     Returns
@@ -76,7 +71,7 @@ def moments_of(roughness: Surface) -> Moments:
     return surface_moments(roughness, derivative="spectral")
 
 
-def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) -> xarray.Dataset:
+def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) -> Record:
     """Return the record of a roughness on the body of the parameters; see `run`."""
     forces = parameters.forces
     path = loading_path(

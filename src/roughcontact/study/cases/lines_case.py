@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from pydantic import Field
 
@@ -11,12 +9,9 @@ from roughcontact.grid import Grid
 from roughcontact.labels.labelled import described
 from roughcontact.mdr.lines.random_lines import rough_lines
 from roughcontact.mdr.lines.rough_line import loading_curves
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.shared_parameters import ForceRange
 from roughcontact.surface.generation.spectrum import SelfAffineSpectrum
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["CASE", "LineParameters", "run"]
 
@@ -44,7 +39,7 @@ class LineParameters(ForceRange):
     loads: int = Field(default=97, ge=2)
 
 
-def run(parameters: LineParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: LineParameters, rng: np.random.Generator) -> Record:
     """Return the stiffness of every line at every force (thesis, section 4.5.2).
 
     The answer is exact: there is no residual. Lines have random phases and the power spectrum of the law exactly, and

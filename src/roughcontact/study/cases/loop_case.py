@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Self
+from typing import Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from roughcontact.contact.curve import CURVE_POINTS
 from roughcontact.contact.loop import loading_loop
+from roughcontact.errors import InputError
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import FLOW
 from roughcontact.labels.labelled import variable
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.study.case import Case
-from roughcontact.study.cases.shared_parameters import ForceRange, PressedSquare
-from roughcontact.surface.moments import surface_moments
-
-if TYPE_CHECKING:
-    import xarray
+from roughcontact.study.case import Case, Record
+from roughcontact.study.cases.curve_case import CurveParameters, moments_of
 
 __all__ = ["CASE", "LoopParameters", "run"]
 
@@ -27,7 +24,7 @@ _ON_UNLOADING = ("depth", "stiffness", "interfacial_stiffness", "contact_area", 
 _SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
 
 
-class LoopParameters(PressedSquare, ForceRange):
+class LoopParameters(CurveParameters):
     """A rough surface under a hardness, pressed by growing forces, unloaded by the same and pressed again.
 
     Parameters
@@ -40,24 +37,19 @@ class LoopParameters(PressedSquare, ForceRange):
         See `ForceRange`; by default from the first cells in contact to the end of the power law.
     flow : {"removed", "raised"}
         Where material that flows goes.
-    tolerance : float
-        Of the certificate of every load.
     """
 
-    lowest_force: float = Field(default=1e-4, gt=0)
-    highest_force: float = Field(default=0.07, gt=0)
     loads: int = Field(default=12, ge=2)
     flow: Literal["removed", "raised"] = "removed"
-    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
 
     @model_validator(mode="after")
     def _some_hardness(self) -> Self:
         if self.hardness is None and self.relative_hardness is None:
-            raise ValueError("give hardness or relative_hardness: without one nothing flows")
+            raise InputError("without a hardness nothing flows", "give hardness or relative_hardness")
         return self
 
 
-def run(parameters: LoopParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     """Return the loop of one sample.
 
     Returns
@@ -69,11 +61,10 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> xarray.Dataset:
         ``dissipated_work``, ``hardness``, and ``rms`` of the roughness.
     """
     roughness = parameters.roughness(rng)
-    slope = surface_moments(roughness, derivative="spectral").rms_slope  # made of waves: exact
     loop = loading_loop(
         parameters.on_body(roughness),
         parameters.modulus,
-        hardness=parameters.hardness_on(slope),  # type: ignore[arg-type]  # there is one
+        hardness=parameters.hardness_on(moments_of(roughness).rms_slope),  # type: ignore[arg-type]  # there is one
         forces=parameters.forces * (parameters.modulus * parameters.size * parameters.rms),
         flow=parameters.flow,
         tolerance=parameters.tolerance,

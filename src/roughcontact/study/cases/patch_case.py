@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.curve_case import CurveParameters, curve_of, moments_of
 from roughcontact.surface.surface import Surface
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["CASE", "PatchParameters", "run"]
 
@@ -35,7 +33,7 @@ class PatchParameters(CurveParameters):
     @model_validator(mode="after")
     def _free(self) -> Self:
         if self.periodic:
-            raise ValueError("a patch does not repeat itself: leave periodic out, or take the case curve")
+            raise InputError("a patch does not repeat itself", "leave periodic out, or take the case curve")
         return self
 
     @property
@@ -45,7 +43,7 @@ class PatchParameters(CurveParameters):
         return Grid((points, points), self.size / self.points, periodic=True)
 
 
-def run(parameters: PatchParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: PatchParameters, rng: np.random.Generator) -> Record:
     """Return the loading curve of the patch of one sample.
 
     Returns

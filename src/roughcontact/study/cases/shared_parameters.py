@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, model_validator
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.study.case import Length, Parameters, Positive, Pressure
 from roughcontact.surface.generation.fourier import self_affine
@@ -16,6 +17,9 @@ from roughcontact.surface.surface import Surface
 from roughcontact.validation import require
 
 __all__ = ["ForceRange", "PressedSquare", "RoughSquare", "require_rising"]
+
+
+_LIMITS = ("rolloff", "long_cutoff", "short_cutoff")
 
 
 def require_rising(parameters: Any, what: str) -> None:
@@ -78,10 +82,15 @@ class RoughSquare(Parameters):
         Whether the body repeats itself.
     radius : float, optional
         Radius of curvature of a paraboloid under the roughness, its apex in the middle [m].
+    modulus : float
+        Reduced modulus E* [Pa].
+    tolerance : float
+        Of the certificate of every state.
     """
 
     points: int = Field(ge=4)
     size: Positive[Length]
+    modulus: Positive[Pressure]
     hurst: float = Field(ge=-1, le=3)
     rms: Positive[Length]
     rms_band: tuple[Positive[float], Positive[float]] | None = None
@@ -91,15 +100,17 @@ class RoughSquare(Parameters):
     amplitudes: Literal["exact", "gaussian"] = "exact"
     periodic: bool = False
     radius: Positive[Length] | None = None
+    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
 
     @model_validator(mode="after")
     def _band_on_grid(self) -> Self:
         if self.rms_band is not None:
             longest, shortest = self.rms_band
             if not longest >= shortest > 2 / self.points:
-                raise ValueError(
-                    f"rms_band must go from its longest wave down to one above two cells, {2 / self.points:g} on "
-                    f"{self.points} points, not from {longest:g} to {shortest:g}"
+                raise about(
+                    "rms_band",
+                    f"must go from its longest wave down to one above two cells, {2 / self.points:g} on "
+                    f"{self.points} points, not from {longest:g} to {shortest:g}",
                 )
         return self
 
@@ -114,24 +125,14 @@ class RoughSquare(Parameters):
 
     def roughness_on(self, grid: Grid, rng: np.random.Generator) -> Surface:
         """Return the roughness on a grid of other sides, its limits the same lengths."""
-        return self_affine(
-            grid,
-            self.hurst,
-            self.rms,
-            rng,
-            rms_band=self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size),
-            rolloff=self._length(self.rolloff),
-            long_cutoff=self._length(self.long_cutoff),
-            short_cutoff=self._length(self.short_cutoff),
-            amplitudes=self.amplitudes,
-        )
+        limits = {name: (part := getattr(self, name)) and part * self.size for name in _LIMITS}
+        band = self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size)
+        spectrum = {"amplitudes": self.amplitudes, "rms_band": band, **limits}
+        return self_affine(grid, self.hurst, self.rms, rng, **spectrum)
 
     def on_body(self, roughness: Surface) -> Surface:
         """Return a roughness on the body that it belongs to."""
         return roughness if self.radius is None else paraboloid(self.grid, self.radius) + roughness
-
-    def _length(self, part: float | None) -> float | None:
-        return None if part is None else part * self.size
 
 
 class PressedSquare(RoughSquare):
@@ -139,22 +140,19 @@ class PressedSquare(RoughSquare):
 
     Parameters
     ----------
-    modulus : float
-        Reduced modulus E* [Pa].
     hardness : float, optional
         Pressure that no cell exceeds [Pa].
     relative_hardness : float, optional
         The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
     """
 
-    modulus: Positive[Pressure]
     hardness: Positive[Pressure] | None = None
     relative_hardness: float | None = Field(default=None, gt=0)
 
     @model_validator(mode="after")
     def _one_hardness(self) -> Self:
         if self.hardness is not None and self.relative_hardness is not None:
-            raise ValueError("give hardness or relative_hardness, not both")
+            raise InputError("two hardnesses are given", "give hardness or relative_hardness, not both")
         return self
 
     def hardness_on(self, rms_slope: float) -> float | None:

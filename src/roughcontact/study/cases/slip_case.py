@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from pydantic import Field
 
@@ -15,11 +13,8 @@ from roughcontact.friction.tangential_stiffness import tangential_stiffness
 from roughcontact.labels.labelled import described, variable
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
-from roughcontact.study.case import Case, Positive, Pressure
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.shared_parameters import ForceRange, RoughSquare
-
-if TYPE_CHECKING:
-    import xarray
 
 __all__ = ["CASE", "SlipParameters", "run"]
 
@@ -32,10 +27,8 @@ class SlipParameters(RoughSquare, ForceRange):
 
     Parameters
     ----------
-    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius
+    points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius, modulus
         See `RoughSquare`.
-    modulus : float
-        Reduced modulus E* of both bodies together [Pa].
     poisson_ratio : float
         Poisson's ratio nu of both. That they are equal is what keeps normal and tangential displacements apart.
     friction : float
@@ -48,7 +41,6 @@ class SlipParameters(RoughSquare, ForceRange):
         Of the certificates of pressure and traction.
     """
 
-    modulus: Positive[Pressure]
     poisson_ratio: float = Field(default=0.3, gt=-1, le=0.5)
     friction: float = Field(default=0.3, gt=0)
     lowest_force: float = Field(default=3e-3, gt=0)
@@ -64,7 +56,7 @@ class SlipParameters(RoughSquare, ForceRange):
         return one, one
 
 
-def run(parameters: SlipParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: SlipParameters, rng: np.random.Generator) -> Record:
     """Return normal and tangential stiffness, and the path to gross slip, of one sample.
 
     Returns

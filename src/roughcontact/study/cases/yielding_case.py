@@ -12,13 +12,11 @@ from roughcontact.contact.curve import collect
 from roughcontact.contact.loading import loading_path
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.labels.labelled import described, variable
-from roughcontact.study.case import Case
+from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.shared_parameters import PressedSquare, require_rising
 from roughcontact.surface.moments import surface_moments
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughcontact.contact.solution import Solution
 
 __all__ = ["CASE", "YieldingParameters", "run"]
@@ -56,7 +54,7 @@ class YieldingParameters(PressedSquare):
         return self
 
 
-def run(parameters: YieldingParameters, rng: np.random.Generator) -> xarray.Dataset:
+def run(parameters: YieldingParameters, rng: np.random.Generator) -> Record:
     """Return what one sample bears at growing depth.
 
     Returns

@@ -11,6 +11,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.errors import InputError, about
 from roughcontact.study.executors.keys import NO_PAGES, require_keys
 from roughcontact.study.executors.processes import usable_cores
 from roughcontact.study.executors.submission import Cluster, connected, submitted
@@ -66,9 +67,9 @@ class Dask:
         self, address: str | None = None, *, workers: int | None = None, cluster: Any = None
     ) -> None:
         if sum(given is not None for given in (address, workers, cluster)) > 1:
-            raise ValueError("give one of address, workers and cluster: a scheduler has workers of its own")
+            raise InputError("a scheduler has workers of its own", "give one of address, workers and cluster")
         if workers is not None and workers < 1:
-            raise ValueError(f"workers is {workers}; at least one is needed")
+            raise about("workers", f"is {workers}; at least one is needed")
         require_cluster("distributed", "Dask")
         self._target = cluster if address is None else address
         if self._target is None:

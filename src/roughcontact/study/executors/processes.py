@@ -11,6 +11,7 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from roughcontact.errors import about
 from roughcontact.study.executors.process import Attempt, Worker
 from roughcontact.study.executors.worker import TRIES, WorkersError, cannot_load, lost, pickled
 from roughcontact.study.task import Result, RunTask, Task
@@ -44,7 +45,7 @@ class Processes:
     def __init__(self, workers: int | None = None) -> None:
         self._workers = usable_cores() if workers is None else workers
         if self._workers < 1:
-            raise ValueError(f"workers is {workers}; at least one is needed")
+            raise about("workers", f"is {workers}; at least one is needed")
 
     def __repr__(self) -> str:
         return f"Processes({self.workers})"

@@ -29,7 +29,7 @@ __all__ = ["Cluster", "connected", "submitted"]
 ANSWER = 20.0  # [s] for a scheduler to answer
 MOMENT = 5.0  # [s] between two looks at the workers
 Compute = Callable[[bytes, list[str], str], bytes | str]
-GONE = "the scheduler is gone; start it again, and run the study again to go on"
+GONE = "the scheduler is gone", "start it again, and run the study again to go on"
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +138,7 @@ class _Submission:
         try:
             count = sum(self.client.nthreads().values())
         except OSError as error:
-            raise WorkersError(GONE) from error
+            raise WorkersError(*GONE) from error
         # As many again are ready at the scheduler when a worker comes to its end.
         self.room = 2 * count + 2
         if count:
@@ -161,7 +161,7 @@ class _Submission:
             except TimeoutError:  # it died before the result was fetched: the task is being computed again
                 self._look()
             except CancelledError as error:
-                raise WorkersError(GONE) from error
+                raise WorkersError(*GONE) from error
             else:
                 break
         if isinstance(answer, str):

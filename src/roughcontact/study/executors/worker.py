@@ -6,6 +6,7 @@ import pickle
 import sys
 from importlib import import_module
 
+from roughcontact.errors import InputError
 from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled", "require_cluster"]
@@ -15,7 +16,7 @@ __all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled"
 TRIES = 3
 
 
-class WorkersError(RuntimeError):
+class WorkersError(InputError):
     """The workers cannot be used: they do not start, cannot load the case, or have gone for good."""
 
 
@@ -44,8 +45,8 @@ def pickled(thing: object, name: str) -> bytes:
         return pickle.dumps(thing, pickle.HIGHEST_PROTOCOL)
     except Exception as error:
         raise WorkersError(
-            f"{name} cannot be sent to another process: {error}; define its functions and classes at the top of a "
-            "module, none inside another function"
+            f"{name} cannot be sent to another process: {error}",
+            "define its functions and classes at the top of a module, none inside another function",
         ) from error
 
 
@@ -61,7 +62,8 @@ def require_cluster(module: str, name: str) -> None:
         import_module(module)
     except ImportError as error:
         raise WorkersError(
-            f"{name} cannot be imported ({error}); run: {sys.executable} -m pip install 'roughcontact[cluster]'"
+            f"{name} cannot be imported ({error})",
+            f"run: {sys.executable} -m pip install 'roughcontact[cluster]'",
         ) from error
 
 

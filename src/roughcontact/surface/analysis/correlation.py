@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
@@ -186,11 +187,11 @@ def structure_profile(
     """
     along = surface.grid.ndim - 1 if direction == "x" else 0
     if direction not in ("x", "y") or (direction == "y" and surface.grid.ndim == 1):
-        raise ValueError(f"direction must be 'x', or 'y' on a surface, not {direction!r}")
+        raise about("direction", f"must be 'x', or 'y' on a surface, not {direction!r}")
     size = surface.grid.shape[along]
     steps = default_lags(size) if lags is None else np.asarray(lags)
     if steps.ndim != 1 or steps.dtype.kind not in "iu" or (steps < 1).any() or (steps >= size).any():
-        raise ValueError(f"lags must be whole numbers of cells from 1 to {size - 1}, not {steps}")
+        raise about("lags", f"must be whole numbers of cells from 1 to {size - 1}, not {steps}")
     values, pairs = np.empty(steps.size), np.empty(steps.size)
     for i, (jumps, known) in enumerate(_jumps(surface, along, steps)):
         values[i], pairs[i] = np.mean(jumps[known] ** 2), 2 * np.count_nonzero(known)
@@ -229,7 +230,9 @@ def tapered_structure(surface: Surface, axis: Literal["x", "y"], steps: Steps) -
     size, periodic = surface.grid.shape[along], surface.grid.periodic[along]
     most = size - 1 if periodic else size // 2
     if steps.ndim != 1 or steps.dtype.kind not in "iu" or (steps < 1).any() or (steps > most).any():
-        raise ValueError(f"lags along {axis} must be whole numbers of cells from 1 to {most}, not {steps}")
+        raise InputError(
+            f"lags along {axis} must be whole numbers of cells from 1 to {most}, not {steps}", place="steps"
+        )
     values = np.empty(steps.size)
     for i, (jumps, known) in enumerate(_jumps(surface, along, steps)):
         weight = np.ones(size) if periodic else _weight(size, int(steps[i]), int(steps.max()))
@@ -251,7 +254,7 @@ def _jumps(surface: Surface, axis: int, steps: Steps) -> Iterator[tuple[Array, n
         known = ~np.isnan(jumps)
         if not known.any():
             along = "x" if axis == surface.grid.ndim - 1 else "y"
-            raise ValueError(f"no two measured points lie {step} cells apart along {along}")
+            raise InputError(f"no two measured points lie {step} cells apart along {along}")
         yield jumps, known
 
 

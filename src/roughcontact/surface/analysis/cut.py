@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy.special import gammaln
 
+from roughcontact.errors import InputError
 from roughcontact.surface.analysis.hurst import fit_spectrum
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.validation import Array, numeric, require
@@ -44,7 +45,9 @@ def cut_factor(hurst: float) -> float:
     '1.570796'
     """
     if not -0.5 < hurst < math.inf:
-        raise ValueError(f"a cut has a finite spectrum for a Hurst exponent above -1/2, not {hurst}")
+        raise InputError(
+            f"a cut has a finite spectrum for a Hurst exponent above -1/2, not {hurst}", place="hurst"
+        )
     return math.sqrt(math.pi) * math.exp(gammaln(hurst + 0.5) - gammaln(hurst + 1))
 
 
@@ -78,7 +81,7 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     >>> f"{profile.density[0] / q[0] ** -3:.4f} = {rc.cut_factor(1.0):.4f}"
     '1.5708 = 1.5708'
     """
-    require(spectrum.kind == "C2D", "the spectrum is that of profiles already: C1D")
+    require(spectrum.kind == "C2D", "the spectrum is that of profiles already: C1D", place="spectrum")
     ln_q, ln_c = _with_power(spectrum)
     q = np.exp(ln_q)
     # With q = k cosh t the integral is 2 int C2D q dt, and its integrand smooth.
@@ -140,13 +143,14 @@ def surface_spectrum(
             density=profile.density / (profile.wavenumber * cut_factor(exponent)),
             kind="C2D",
         )
-    require(method == "abel", f"method must be 'law' or 'abel', not {method!r}")
+    require(method == "abel", f"method must be 'law' or 'abel', not {method!r}", place="method")
     ln_k, ln_c = _with_power(profile)
     density = _abel(ln_k, ln_c)
     if not (density > 0).all():
-        raise ValueError(
+        raise InputError(
             f"{int((density <= 0).sum())} of {density.size} inverted densities are not positive: the profile's "
-            "spectrum is too noisy to be differentiated; take coarser bins with rebinned(), or method='law'"
+            "spectrum is too noisy to be differentiated",
+            "take coarser bins with rebinned(), or method='law'",
         )
     return _like(profile, ln_k, density, "C2D")
 

@@ -101,11 +101,11 @@ def height_histogram(
     >>> int(histogram.count.sum()), histogram.edges.size
     (4096, 21)
     """
-    require(bins >= 1, f"bins must be a positive whole number, not {bins}")
+    require(bins >= 1, f"bins must be a positive whole number, not {bins}", place="bins")
     heights = surface.heights[surface.measured]
     heights -= heights.mean()
     count, edges = np.histogram(heights, bins=int(bins), range=None if ends is None else _ends(ends))
-    require(count.sum() > 0, f"ends must have points between them, not {ends}")
+    require(count.sum() > 0, f"ends must have points between them, not {ends}", place="ends")
     return HeightHistogram(edges, count, surface.rms)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import chdtri
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.preprocess import SpectralWindow
@@ -209,10 +210,10 @@ def fit_spectrum(
     'H = 0.8'
     """
     if limit not in ("auto", "none", "rolloff", "long_cutoff"):
-        raise ValueError(f"limit must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
+        raise about("limit", f"must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
-        raise ValueError(
+        raise InputError(
             f"a fit needs four bins with power: there are {np.count_nonzero(band.density)} between "
             f"{band.q_min:g} and {band.q_max:g} rad/m"
         )

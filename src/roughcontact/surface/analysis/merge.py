@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.validation import numeric, require
 
@@ -107,7 +108,7 @@ def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, floa
     bins, others = (np.floor(np.log10(s.wavenumber) * 10 + 1e-9).astype(np.int64) for s in (first, second))
     shared, at_first, at_second = np.intersect1d(bins, others, return_indices=True)
     if shared.size < 2:
-        raise ValueError(
+        raise InputError(
             f"the bands share {shared.size} bin(s) from {low:g} to {high:g} rad/m: too few to compare"
         )
     ratio = np.log(first.density[at_first] / second.density[at_second])
@@ -121,7 +122,7 @@ def _of_one_kind(spectra: Sequence[PowerSpectrum]) -> list[PowerSpectrum]:
     require(len(spectra) > 0, "there is no spectrum to merge")
     kinds = {spectrum.kind for spectrum in spectra}
     if len(kinds) > 1:
-        raise ValueError(
-            "spectra of surfaces (C2D) and of profiles (C1D) cannot be merged; see surface_spectrum"
+        raise about(
+            "spectra", "of surfaces (C2D) and of profiles (C1D) cannot be merged", "see surface_spectrum"
         )
     return [spectrum.within() for spectrum in spectra]

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.validation import Array, number, numeric, require, require_numbers
 
 __all__ = ["PowerSpectrum"]
@@ -64,7 +65,7 @@ class PowerSpectrum:
     smear: float = 0.0
 
     def __post_init__(self) -> None:
-        require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}")
+        require(self.kind in ("C2D", "C1D"), f"kind must be 'C2D' or 'C1D', not {self.kind!r}", place="kind")
         require_numbers(
             self,
             wavenumber="rad/m",
@@ -76,14 +77,16 @@ class PowerSpectrum:
         for name in _ARRAYS:
             value = np.array(number(getattr(self, name), name))
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber):
-                raise ValueError(f"{name} must have one value for each wavenumber, not shape {value.shape}")
+                raise InputError(
+                    f"{name} must have one value for each wavenumber, not shape {value.shape}", place=name
+                )
             value.flags.writeable = False
             object.__setattr__(self, name, value)
         if not (self.wavenumber.size and self.wavenumber[0] > 0 and (np.diff(self.wavenumber) > 0).all()):
-            raise ValueError("wavenumbers must be positive and increase, and there must be at least one")
+            raise InputError("wavenumbers must be positive and increase, and there must be at least one")
         if not (np.isfinite(self.density).all() and (self.density >= 0).all()):
-            raise ValueError("densities must be finite and not negative")
-        require((self.freedom > 0).all(), "the freedom of every bin must be positive")
+            raise InputError("densities must be finite and not negative")
+        require((self.freedom > 0).all(), "the freedom of every bin must be positive", place="freedom")
 
     @property
     def wavelength(self) -> Array:
@@ -129,7 +132,7 @@ class PowerSpectrum:
         keep = (self.wavenumber >= low * (1 - 1e-9)) & (self.wavenumber <= high * (1 + 1e-9))
         if not keep.any():
             least, most = self.wavenumber[0], self.wavenumber[-1]
-            raise ValueError(
+            raise InputError(
                 f"no wave lies between {low:g} and {high:g} rad/m: the spectrum has {least:g} to {most:g} rad/m, waves "
                 f"from {2 * np.pi / least:.3g} m down to {2 * np.pi / most:.3g} m"
             )
@@ -190,7 +193,7 @@ class PowerSpectrum:
         >>> fine.wavenumber.size, fine.rebinned(5).wavenumber.size
         (32, 8)
         """
-        require(per_decade > 0, f"per_decade must be positive, not {per_decade}")
+        require(per_decade > 0, f"per_decade must be positive, not {per_decade}", place="per_decade")
         logs = np.log(self.wavenumber)
         index = np.floor(logs / math.log(10) * per_decade + 1e-9).astype(np.int64)
         _, group = np.unique(index, return_inverse=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.fft
 
+from roughcontact.errors import InputError
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, power_left, prepared, tapers
 from roughcontact.surface.generation.wave_grid import wave_vectors
 from roughcontact.surface.in_memory import analysed_on_host
@@ -114,7 +115,7 @@ def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 2:
-        raise ValueError(f"a spectrum map needs a surface of at least 2 x 2 points, not shape {grid.shape}")
+        raise InputError(f"a spectrum map needs a surface of at least 2 x 2 points, not shape {grid.shape}")
     windows = tapers(surface, window)
     density = _power(prepared(surface, windows, level, "a power spectrum"))
     density *= grid.area / (2 * math.pi * grid.size) ** 2 / power_left(windows)

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.preparation.windows import window_values
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
@@ -63,9 +64,11 @@ def taper(name: str, size: int, periodic: bool = False) -> Taper:
 def complete(surface: Surface, what: str) -> Array:
     """Return the heights of `surface`, which must have no missing point for `what`."""
     if surface.missing:
-        raise ValueError(
-            f"{what} needs a height at every point, and {surface.missing} are missing: fill them or crop the "
-            "surface first, or use the structure function, which ignores missing points"
+        raise InputError(
+            f"{what} needs a height at every point, and {surface.missing} are missing",
+            "fill them or crop the "
+            "surface first, or use the structure function, which ignores missing points",
+            place="surface",
         )
     return surface.heights
 
@@ -80,7 +83,7 @@ def prepared(surface: Surface, windows: tuple[Taper, ...], level: Level, what: s
     """Return a new array of the heights [m] without their trend, times the `windows`; its sum is zero."""
     heights = complete(surface, what)
     if level not in ("auto", "none", "mean", "plane"):
-        raise ValueError(f"level must be 'auto', 'none', 'mean' or 'plane', not {level!r}")
+        raise about("level", f"must be 'auto', 'none', 'mean' or 'plane', not {level!r}")
     work = heights - (0.0 if level == "none" else heights.mean())
     for axis, (n, periodic) in enumerate(zip(heights.shape, surface.grid.periodic, strict=True)):
         # Without missing points the slopes of the least-squares plane are independent of each other.

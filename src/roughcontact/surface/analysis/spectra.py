@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.power_map import PowerMap, power_map
 from roughcontact.surface.analysis.preprocess import Level, SpectralWindow, prepared, tapers
@@ -81,11 +82,15 @@ def power_spectrum(
     ndim = surface.grid.ndim
     if direction == "auto":
         direction = "ring" if ndim == 2 else "x"
-    require(direction in ("ring", "x", "y"), f"direction must be 'ring', 'x' or 'y', not {direction!r}")
+    require(
+        direction in ("ring", "x", "y"),
+        f"direction must be 'ring', 'x' or 'y', not {direction!r}",
+        place="direction",
+    )
     if ndim == 1 and direction != "x":
-        raise ValueError(f"a line has profiles along 'x' only, not {direction!r}")
+        raise InputError(f"a line has profiles along 'x' only, not {direction!r}", place="direction")
     if per_decade is not None and not 0 < per_decade <= FINEST:
-        raise ValueError(f"per_decade must be positive and at most {FINEST:g}, not {per_decade}")
+        raise about("per_decade", f"must be positive and at most {FINEST:g}, not {per_decade}")
     if direction == "ring":
         return _rings(surface, window, level, per_decade)
     return _profiles(surface, 0 if direction == "y" else ndim - 1, window, level, per_decade)
@@ -148,7 +153,7 @@ def _profiles(
     grid = surface.grid
     n, spacing, length = grid.shape[axis], grid.spacing[axis], grid.lengths[axis]
     if n < 3:
-        raise ValueError(f"a spectrum of profiles needs at least 3 points along them, not {n}")
+        raise InputError(f"a spectrum of profiles needs at least 3 points along them, not {n}")
     along = tapers(surface, window)[axis]
     none = tapers(surface, "none")
     work = prepared(surface, none, level, "a power spectrum")

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.correlation import tapered_structure
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.in_memory import analysed_on_host
@@ -110,9 +111,9 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 32:
-        raise ValueError(f"this fit needs a surface of at least 32 x 32 points, not shape {grid.shape}")
+        raise InputError(f"this fit needs a surface of at least 32 x 32 points, not shape {grid.shape}")
     if limit not in ("none", "rolloff", "long_cutoff"):
-        raise ValueError(f"limit must be 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
+        raise about("limit", f"must be 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
     steps = _default(min(grid.shape), limit) if lags is None else np.asarray(lags)
     require(steps.size >= 5, f"a fit needs five lags at least, not {steps.size}")
     (along_x, share_x), (along_y, share_y) = (tapered_structure(surface, axis, steps) for axis in ("x", "y"))

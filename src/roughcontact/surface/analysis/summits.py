@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -96,7 +97,7 @@ def find_summits(surface: Surface) -> MeasuredSummits:
     """
     grid = surface.grid
     if grid.ndim != 2 or min(grid.shape) < 3:
-        raise ValueError(f"summits need a surface of at least 3 x 3 points, not shape {grid.shape}")
+        raise InputError(f"summits need a surface of at least 3 x 3 points, not shape {grid.shape}")
     z = np.pad(
         surface.heights, [(1, 1) if p else (0, 0) for p in grid.periodic], mode="wrap"
     )  # the rim of a free axis takes the part of the copies

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, number, require
@@ -25,7 +26,7 @@ def from_centre(grid: Grid, centre: Centre) -> tuple[Array, ...]:
         centre = [length / 2 for length in grid.lengths]
     given = np.atleast_1d(number(centre, "centre [m]"))
     if given.shape != (grid.ndim,) or not np.isfinite(given).all():
-        raise ValueError(f"centre needs {grid.ndim} finite coordinates [m], not {centre}")
+        raise about("centre", f"needs {grid.ndim} finite coordinates [m], not {centre}")
     parts = []
     for n, step, c, periodic in zip(grid.shape, grid.spacing, given, grid.periodic, strict=True):
         part = (np.arange(n) + 0.5) * step - c
@@ -59,11 +60,13 @@ def placed(heights: Array, grid: Grid, name: str) -> Surface:
         If there is none.
     """
     if np.isnan(heights).all():
-        raise ValueError(f"no cell centre lies in the {name}: refine the grid or move the centre")
+        raise InputError(f"no cell centre lies in the {name}", "refine the grid or move the centre")
     return Surface(heights, grid, (name,))
 
 
 def positive(**values: float) -> None:
     """Refuse values that are not positive and finite, by their names."""
     for name, value in values.items():
-        require(math.isfinite(value) and value > 0, f"{name} must be positive and finite, not {value}")
+        require(
+            math.isfinite(value) and value > 0, f"{name} must be positive and finite, not {value}", place=name
+        )

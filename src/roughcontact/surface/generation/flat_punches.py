@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.about_centre import RIM, Centre, placed, plane, positive
 from roughcontact.surface.surface import Surface
@@ -78,7 +79,7 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
     """
     positive(outer=outer)
     if not 0 <= inner < outer:
-        raise ValueError(f"the inner radius must lie between 0 and the outer one {outer} m, not {inner}")
+        raise about("the inner", f"radius must lie between 0 and the outer one {outer} m, not {inner}")
     y, x = plane(grid, centre)
     squared = y**2 + x**2
     inside = (squared >= inner * inner * (1 - RIM)) & (squared <= outer * outer * (1 + RIM))

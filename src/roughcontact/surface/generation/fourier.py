@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.slabs.slabs import Slabs
 from roughcontact.surface.generation.random_heights import SizedSpectrum, random_heights
@@ -105,12 +106,12 @@ def self_affine(
     '1e-06 m'
     """
     if not (math.isfinite(rms) and rms > 0):
-        raise ValueError(f"rms must be positive and finite [m], not {rms}")
+        raise about("rms", f"must be positive and finite [m], not {rms}")
     law = SelfAffineSpectrum(hurst, rolloff, long_cutoff, short_cutoff, grid.ndim)
     spectrum: Spectrum = law
     if anisotropy is not None:
         if not isinstance(anisotropy, list | tuple) or len(anisotropy) != 2:
-            raise ValueError(f"anisotropy must be two numbers (ratio, angle), not {anisotropy!r}")
+            raise about("anisotropy", f"must be two numbers (ratio, angle), not {anisotropy!r}")
         spectrum = StretchedSpectrum(law, *anisotropy)
     sized = SizedSpectrum(spectrum, support, rms, rms_band)
     heights = random_heights(grid, sized, rng, amplitudes, nodal, slabs)
@@ -178,7 +179,7 @@ def synthesise(
     '1e-06 m'
     """
     if rms is not None and not (math.isfinite(rms) and rms > 0):
-        raise ValueError(f"rms must be positive and finite [m], not {rms}")
+        raise about("rms", f"must be positive and finite [m], not {rms}")
     sized = SizedSpectrum(spectrum, support, rms, rms_band)
     heights = random_heights(grid, sized, rng, amplitudes, nodal, slabs)
     size = _size(rms, rms_band)

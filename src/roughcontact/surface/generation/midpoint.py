@@ -7,7 +7,9 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
+from roughcontact.progress.events import tracked
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, RngLike, as_generator, numeric
 
@@ -152,11 +154,11 @@ def midpoint_surface(
     levels = _levels(grid, 2)
     first, generator = _first(hurst, displacement, rms, distribution), as_generator(rng)
     if half_steps not in ("same", "saupe"):
-        raise ValueError(f"half_steps must be 'same' or 'saupe', not {half_steps!r}")
+        raise about("half_steps", f"must be 'same' or 'saupe', not {half_steps!r}")
     if borders not in ("three", "wrap"):
-        raise ValueError(f"borders must be 'three' or 'wrap', not {borders!r}")
+        raise about("borders", f"must be 'three' or 'wrap', not {borders!r}")
     heights, wrap = np.zeros(grid.shape), borders == "wrap"
-    for level in range(levels):
+    for level in tracked(range(levels), "Displacing midpoints", "levels"):
         step, m = 2 ** (levels - level), 2**level
         half, limit = step // 2, first * 2 ** (-hurst * level)
         corners = heights[::step, ::step]
@@ -207,13 +209,13 @@ def _levels(grid: Grid, ndim: int) -> int:
     levels = max(1, round(math.log2(max(2, grid.shape[0] - 1))))
     if grid.shape != (2**levels + 1,) * ndim:
         what = "a line of (2^n + 1,)" if ndim == 1 else "a square of (2^n + 1, 2^n + 1)"
-        raise ValueError(f"midpoints need {what} nodes, for example {2**levels + 1}, not {grid.shape}")
+        raise InputError(f"midpoints need {what} nodes, for example {2**levels + 1}, not {grid.shape}")
     if any(grid.periodic):
-        raise ValueError(
-            "a midpoint grid ends at its nodes and cannot be periodic: use Grid(..., periodic=False)"
+        raise InputError(
+            "a midpoint grid ends at its nodes and cannot be periodic", "use Grid(..., periodic=False)"
         )
     if max(grid.spacing) > min(grid.spacing) * (1 + 1e-9):
-        raise ValueError(f"midpoints need the same spacing along both axes, not {grid.spacing}")
+        raise InputError(f"midpoints need the same spacing along both axes, not {grid.spacing}")
     return levels
 
 
@@ -225,16 +227,20 @@ def _first(
 ) -> float:
     """Return the largest first displacement [m], of any size if the rms height is set afterwards."""
     if not 0 <= hurst <= 1:
-        raise ValueError(
-            f"hurst must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
+        raise about(
+            "hurst", f"must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
         )
     if distribution not in ("uniform", "gaussian"):
-        raise ValueError(f"distribution must be 'uniform' or 'gaussian', not {distribution!r}")
+        raise about("distribution", f"must be 'uniform' or 'gaussian', not {distribution!r}")
     if (displacement is None) == (rms is None):
-        raise ValueError("give either displacement (of the first level) or rms [m]")
+        raise InputError(
+            "the scale of the heights is not given once",
+            "give either displacement (of the first level) or rms [m]",
+            "displacement, rms",
+        )
     size = displacement if rms is None else rms
     if size is None or not (math.isfinite(size) and size > 0):
-        raise ValueError(
+        raise InputError(
             f"{'displacement' if rms is None else 'rms'} must be positive and finite [m], not {size}"
         )
     return 1.0 if displacement is None else displacement

@@ -9,7 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import scipy.fft
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
+from roughcontact.progress.events import task, tracked
 from roughcontact.slabs.exchange import plane_of_waves
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.slabs.slabs import Slabs
@@ -76,11 +78,16 @@ def random_heights(
     """
     require_amplitudes(amplitudes)
     if nodal and any(grid.periodic):
-        raise ValueError("nodal repeats the first row at the end: a periodic grid would hold it twice")
+        raise about("nodal", "repeats the first row at the end: a periodic grid would hold it twice")
     if nodal and min(grid.shape) < 3:
-        raise ValueError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}")
-    if slabs is not None:
-        return _heights_in_slabs(grid, sized, rng, amplitudes, slabs)  # type: ignore[return-value]
+        raise InputError(f"a nodal grid needs at least 3 nodes an axis, not {grid.shape}", place="nodal")
+    with task("Adding up the waves of", shape=grid.shape):
+        if slabs is not None:
+            return _heights_in_slabs(grid, sized, rng, amplitudes, slabs)  # type: ignore[return-value]
+        return _heights(grid, sized, rng, amplitudes, nodal)
+
+
+def _heights(grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitudes, nodal: bool) -> Array:
     shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
     amplitude = wave_amplitudes(
         sized.spectrum, shape, grid.spacing, sized.support, rms=sized.rms, rms_band=sized.rms_band
@@ -101,7 +108,7 @@ def _waves(
     waves = np.empty((len(ky), len(columns)), np.complex128)
     powers = amplitude.reshape(waves.shape)
     step = max(1, BLOCK // len(columns))
-    for start in range(0, len(ky), step):
+    for start in tracked(range(0, len(ky), step), "Drawing phases", "blocks"):
         part = slice(start, start + step)
         waves[part] = unit_waves(keys, ky[part], (0, len(columns)), amplitudes)
         waves[part] *= powers[part]
@@ -116,8 +123,9 @@ def _heights_in_slabs(
     grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitudes, slabs: Slabs
 ) -> SlabArray:
     if grid.ndim != 2 or not all(grid.periodic):
-        raise ValueError(
-            "a surface in slabs must be periodic along both axes: Grid(..., periodic=True), or make it in one process"
+        raise InputError(
+            "a surface in slabs must be periodic along both axes",
+            "make the grid with periodic=True, or make it in one process",
         )
     keys = _keys(rng, slabs)
     shape, factor = grid.shape, _scale(grid, sized, slabs)
@@ -142,8 +150,9 @@ def _keys(rng: RngLike, slabs: Slabs) -> Keys:
     """Return the key that all processes draw, or that the first of them draws if none has a seed."""
     drawn = slabs.communicator.allgather((draw_keys(rng), rng is None))
     if not all(unseeded for _, unseeded in drawn) and len({keys.tobytes() for keys, _ in drawn}) > 1:
-        raise ValueError(
-            "the processes drew different phases: give each the same seed, as rng=1, or a generator in the same state"
+        raise InputError(
+            "the processes drew different phases",
+            "give each the same seed, as rng=1, or a generator in the same state",
         )
     first: Keys = drawn[0][0]
     return first

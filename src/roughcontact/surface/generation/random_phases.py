@@ -20,6 +20,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import about
 from roughcontact.validation import RngLike, as_generator
 
 __all__ = ["Amplitudes", "Keys", "draw_keys", "require_amplitudes", "unit_waves"]
@@ -67,7 +68,7 @@ def draw_keys(rng: RngLike, count: int = 1) -> Keys:
 def require_amplitudes(amplitudes: str) -> None:
     """Refuse what is no kind of amplitudes."""
     if amplitudes not in ("exact", "gaussian"):
-        raise ValueError(f"amplitudes must be 'exact' or 'gaussian', not {amplitudes!r}")
+        raise about("amplitudes", f"must be 'exact' or 'gaussian', not {amplitudes!r}")
 
 
 def unit_waves(keys: Keys, ky: npt.ArrayLike, kx: tuple[int, int], amplitudes: Amplitudes = "exact") -> Waves:

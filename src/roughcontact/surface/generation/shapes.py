@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.about_centre import (
     RIM,
@@ -141,7 +142,7 @@ def cylinder(grid: Grid, radius: float, axis: Literal["x", "y"] = "x", centre: C
     y, x = plane(grid, centre)
     across = {"x": y, "y": x}.get(axis)
     if across is None:
-        raise ValueError(f"axis must be 'x' or 'y', not {axis!r}")
+        raise about("axis", f"must be 'x' or 'y', not {axis!r}")
     heights = np.broadcast_to(_round(across**2, radius), grid.shape)
     return placed(heights, grid, f"cylinder along {axis}, radius {radius:g} m")
 
@@ -255,13 +256,14 @@ def wave(
     positive(amplitude=amplitude, wavelength=moderate(wavelength, "wavelength [m]"))
     wanted = {"x": (-1,), "y": (-2,), "both": (-2, -1)}.get(axis)
     if wanted is None or (grid.ndim == 1 and axis != "x"):
-        raise ValueError(f"axis must be 'x', 'y' or 'both', on a line 'x', not {axis!r}")
+        raise about("axis", f"must be 'x', 'y' or 'both', on a line 'x', not {axis!r}")
     parts, heights = from_centre(grid, centre), np.zeros(grid.shape)
     for which in wanted:
         waves = grid.lengths[which] / wavelength
         if grid.periodic[which] and abs(waves - round(waves)) > 1e-9 * waves:
-            raise ValueError(
-                f"{waves:g} waves do not fit a periodic length of {grid.lengths[which]:g} m: take a whole number"
+            raise InputError(
+                f"{waves:g} waves do not fit a periodic length of {grid.lengths[which]:g} m",
+                "take a whole number",
             )
         # 1 - cos without its cancellation at the crest
         heights -= 2 * amplitude * np.sin(np.pi * parts[which] / wavelength) ** 2

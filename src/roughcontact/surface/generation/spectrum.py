@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.generation.wave_grid import Support
 from roughcontact.surface.moments import Moments, grid_moments
@@ -62,20 +63,21 @@ class SelfAffineSpectrum:
     def __post_init__(self) -> None:
         require_numbers(self, rolloff="m", long_cutoff="m", short_cutoff="m")
         if not -1 <= self.hurst <= 3:
-            raise ValueError(f"hurst must lie between -1 and 3, not {self.hurst}")
+            raise about("hurst", f"must lie between -1 and 3, not {self.hurst}")
         for name in ("rolloff", "long_cutoff", "short_cutoff"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} must be positive and finite [m], not {value}")
+                raise InputError(f"{name} must be positive and finite [m], not {value}", place=name)
         longest = min(v for v in (self.long_cutoff, math.inf) if v is not None)
         if self.short_cutoff is not None and not self.short_cutoff <= longest:
-            raise ValueError(
-                f"short_cutoff {self.short_cutoff} m exceeds long_cutoff {longest} m: no wave is left"
+            raise InputError(
+                f"short_cutoff {self.short_cutoff} m exceeds long_cutoff {longest} m: no wave is left",
+                place="short_cutoff, long_cutoff",
             )
         if self.dimension not in (1, 2):
-            raise ValueError(f"dimension must be 2 (a surface) or 1 (a line), not {self.dimension}")
+            raise about("dimension", f"must be 2 (a surface) or 1 (a line), not {self.dimension}")
         if not (math.isfinite(self.scale) and self.scale > 0):
-            raise ValueError(f"scale must be positive and finite, not {self.scale}")
+            raise about("scale", f"must be positive and finite, not {self.scale}")
 
     @property
     def q_min(self) -> float:
@@ -158,13 +160,13 @@ class SelfAffineSpectrum:
         '1e-06 m'
         """
         if not (math.isfinite(rms) and rms > 0):
-            raise ValueError(f"rms must be positive and finite [m], not {rms}")
+            raise about("rms", f"must be positive and finite [m], not {rms}")
         moderate(rms, "rms [m]")
         m0 = (self.moments() if grid is None else grid_moments(grid, self, support=support)).m0
         if not 0 < m0 < math.inf:
-            raise ValueError(
-                f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}: "
-                "give long_cutoff or rolloff, and short_cutoff, or a grid"
+            raise InputError(
+                f"the mean square height over the wavenumbers {self.q_min:g} to {self.q_max:g} rad/m is {m0:g}",
+                "give long_cutoff or rolloff, and short_cutoff, or a grid",
             )
         return replace(self, scale=self.scale * (rms**2 / m0))
 
@@ -219,12 +221,12 @@ class StretchedSpectrum:
     def __post_init__(self) -> None:
         require_numbers(self, angle="rad")
         if not (math.isfinite(self.ratio) and self.ratio > 0):
-            raise ValueError(f"the ratio of an anisotropy must be positive and finite, not {self.ratio}")
+            raise about("the ratio", f"of an anisotropy must be positive and finite, not {self.ratio}")
         if not math.isfinite(self.angle):
-            raise ValueError(f"the angle of an anisotropy must be finite [rad], not {self.angle}")
+            raise about("the angle", f"of an anisotropy must be finite [rad], not {self.angle}")
         if getattr(self.spectrum, "dimension", 2) != 2:
-            raise ValueError(
-                "a line has no direction: leave out the anisotropy, or make a surface (dimension=2)"
+            raise InputError(
+                "a line has no direction", "leave out the anisotropy, or make a surface (dimension=2)"
             )
 
     @numeric(qy="rad/m", qx="rad/m")
@@ -308,8 +310,8 @@ class DirectionalSpectrum:
         """
         there, back = np.asarray(self.function(qy, qx)), np.asarray(self.function(-qy, -qx))
         if not np.allclose(there, back, rtol=1e-9, atol=0):
-            raise ValueError(
-                "the spectrum must be the same at (qy, qx) and (-qy, -qx): use the mean of the two"
+            raise InputError(
+                "the spectrum must be the same at (qy, qx) and (-qy, -qx)", "use the mean of the two"
             )
         return there
 

@@ -12,6 +12,7 @@ from typing import Literal, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, pair, positive_scalar
 
 __all__ = [
@@ -124,18 +125,20 @@ def wave_powers(
         If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave at all.
     """
     if support not in ("square", "disc"):
-        raise ValueError(f"support must be 'square' or 'disc', not {support!r}")
+        raise about("support", f"must be 'square' or 'disc', not {support!r}")
     if getattr(spectrum, "dimension", len(shape)) != len(shape):
-        raise ValueError(
-            f"the spectrum has dimension {spectrum.dimension}, "  # type: ignore[union-attr]
-            f"but the grid {len(shape)} axes: make it with dimension={len(shape)}"
+        raise about(
+            "the spectrum",
+            f"has dimension {spectrum.dimension}, "  # type: ignore[union-attr]
+            f"but the grid {len(shape)} axes",
+            f"make it with dimension={len(shape)}",
         )
     lengths = wavenumbers(shape, spacing, part)
     density = _density(spectrum, lengths, wave_vectors(shape, spacing, part))
     if density.shape != lengths.shape:
-        raise ValueError(f"the spectrum returned shape {density.shape} for waves of shape {lengths.shape}")
+        raise about("the spectrum", f"returned shape {density.shape} for waves of shape {lengths.shape}")
     if not (np.isfinite(density).all() and (density >= 0).all()):
-        raise ValueError("the spectrum must be finite and not negative at every wave of the grid but q = 0")
+        raise about("the spectrum", "must be finite and not negative at every wave of the grid but q = 0")
     # B^2 = (2 pi)^ndim / area * C
     powers = density * math.prod(2 * math.pi / (n * d) for n, d in zip(shape, spacing, strict=True))
     *others, last = shape
@@ -153,9 +156,9 @@ def wave_powers(
 
 def no_wave() -> ValueError:
     """Return the error of a spectrum that leaves a grid without a wave."""
-    return ValueError(
-        "no wave of this grid lies inside the limits of the spectrum: widen the limits, or take a grid "
-        "with waves between them"
+    return InputError(
+        "no wave of this grid lies inside the limits of the spectrum",
+        "widen the limits, or take a grid with waves between them",
     )
 
 
@@ -203,7 +206,7 @@ def wave_amplitudes(
 def require_no_band(rms_band: tuple[float, float] | None) -> None:
     """Refuse a band of waves whose rms height is not said."""
     if rms_band is not None:
-        raise ValueError("rms_band says which waves have the rms height rms: give rms, too")
+        raise about("rms_band", "says which waves have the rms height rms", "give rms, too")
 
 
 def counted_powers(
@@ -223,7 +226,11 @@ def counted_powers(
 def scale_of(rms: float, total: float, rms_band: tuple[float, float] | None) -> float:
     """Return the factor of all amplitudes that makes a sum of powers [m^2] the square of `rms`."""
     if not total > 0:
-        raise ValueError(f"no wave of this grid and of the spectrum lies in rms_band {rms_band} m: widen it")
+        raise InputError(
+            f"no wave of this grid and of the spectrum lies in rms_band {rms_band} m",
+            "widen it",
+            place="rms_band",
+        )
     return rms / math.sqrt(total)
 
 
@@ -234,13 +241,15 @@ def _inside(
     what = "rms_band, the longest and the shortest wavelength [m],"
     longest, shortest = (positive_scalar(length, what) for length in pair(band, what))
     if shortest > longest:
-        raise ValueError(f"{what} must begin with the longest, not {band}")
+        raise InputError(f"{what} must begin with the longest, not {band}", place="rms_band")
     for n, d in zip(shape, spacing, strict=True):
         finest = (n - 1) // 2
         if n * d / shortest * (1 + 1e-9) >= finest + 1:
-            raise ValueError(
-                f"rms_band goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
-                f"{n * d / (finest + 1):g} m: end the band above two cells of the coarsest grid"
+            raise about(
+                "rms_band",
+                f"goes down to {shortest:g} m, but a grid of {n} cells of {d:g} m has only waves longer than "
+                f"{n * d / (finest + 1):g} m",
+                "end the band above two cells of the coarsest grid",
             )
     lengths = wavenumbers(shape, spacing, part)
     return (lengths >= 2 * math.pi / longest * (1 - 1e-9)) & (lengths <= 2 * math.pi / shortest * (1 + 1e-9))
@@ -255,7 +264,7 @@ def _density(spectrum: Spectrum, lengths: Array, vectors: tuple[Array, ...]) -> 
             moved.flat[:1] = moved.flat[1:2] if moved.size > 1 else 1.0
         return np.asarray(spectrum(moved), dtype=np.float64)
     if len(vectors) != 2:
-        raise ValueError("a spectrum of the wave vector needs a grid of two axes, not one")
+        raise InputError("a spectrum of the wave vector needs a grid of two axes, not one", place="spectrum")
     mesh = [np.broadcast_to(component, lengths.shape).copy() for component in vectors]
     for component in mesh if moving else ():
         component.flat[:1] = component.flat[1:2] if component.size > 1 else 1.0

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import map_coordinates, spline_filter
 
+from roughcontact.errors import InputError
 from roughcontact.surface.analysis.correlation import autocorrelation
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
@@ -107,8 +108,8 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
     'Sq = 7.07e-07 m, Sz = 2e-06 m, Sku = 1.50'
     """
     if surface.grid.ndim != 2 or min(surface.grid.shape) < 2:
-        raise ValueError(f"areal parameters need a surface of 2 x 2 points, not shape {surface.grid.shape}")
-    require(0 < decay < 1, f"decay must lie between 0 and 1, not {decay}")
+        raise InputError(f"areal parameters need a surface of 2 x 2 points, not shape {surface.grid.shape}")
+    require(0 < decay < 1, f"decay must lie between 0 and 1, not {decay}", place="decay")
     heights = surface.heights[surface.measured]
     require(heights.max() != heights.min(), "all heights are equal: there is no texture to measure")
     heights -= heights.mean()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.errors import InputError
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, require
@@ -187,7 +188,10 @@ def stratified_parameters(
     'Sk = 1.01 um'
     """
     if not 0 < peak_ratio < dale_ratio < 1:
-        raise ValueError(f"ratios must increase between 0 and 1, not {peak_ratio} and {dale_ratio}")
+        raise InputError(
+            f"ratios must increase between 0 and 1, not {peak_ratio} and {dale_ratio}",
+            place="peak_ratio, dale_ratio",
+        )
     curve = material_ratio(surface)
     require(curve.height.size >= 10, f"a material ratio curve needs ten heights, not {curve.height.size}")
     require(curve.height[0] != curve.height[-1], "all heights are equal: there is no core to measure")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.parameters.heights import amplitudes
 from roughcontact.surface.surface import Surface
@@ -124,23 +125,23 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
     """
     grid = line.grid
     if grid.ndim != 1:
-        raise ValueError(
-            f"profile parameters need a line, not shape {grid.shape}: take a row or column of the surface"
+        raise InputError(
+            f"profile parameters need a line, not shape {grid.shape}", "take a row or column of the surface"
         )
     if line.missing:
-        raise ValueError(
-            f"{line.missing} points are missing, and sections need all of theirs: fill them first"
+        raise InputError(
+            f"{line.missing} points are missing, and sections need all of theirs", "fill them first"
         )
     spacing = grid.spacing[0]
     if section_length is not None and not 0 < section_length < math.inf:
-        raise ValueError(f"section_length must be positive and finite [m], not {section_length}")
+        raise about("section_length", f"must be positive and finite [m], not {section_length}")
     cells = grid.shape[0] // 5 if section_length is None else round(section_length / spacing)
     sections = grid.shape[0] // max(cells, 1)
     if cells < 2 or sections * cells < GRADIENT.size:
-        raise ValueError(
+        raise InputError(
             f"sections of {cells} cells do not fit a profile of {grid.shape[0]}, of which each needs two, and all "
-            f"together {GRADIENT.size}: give a section_length of {2 * spacing:g} m to {grid.lengths[0]:g} m, or a "
-            "longer profile"
+            f"together {GRADIENT.size}",
+            f"give a section_length of {2 * spacing:g} m to {grid.lengths[0]:g} m, or a longer profile",
         )
     heights = line.heights[: sections * cells]
     require(heights.max() != heights.min(), "all heights are equal: there is no texture to measure")

@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import scipy.sparse
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
@@ -84,7 +85,7 @@ def combined(
     below, above = (resampled(body, target, interpolation=interpolation) for body in (lower, turned))
     heights = below.heights + above.heights
     if np.isnan(heights).all():
-        raise ValueError("the two surfaces have no measured point in common: nothing can touch")
+        raise InputError("the two surfaces have no measured point in common: nothing can touch")
     line = "combined with: " + ("; ".join(above.provenance) or "a surface")
     whole = below.with_heights(heights, line, target)
     if loss := _lost(lower.grid, upper.grid, target):
@@ -135,7 +136,7 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     ((64, 64), '7.1e-07 m')
     """
     if interpolation not in ("cubic", "linear"):
-        raise ValueError(f"interpolation must be 'cubic' or 'linear', not {interpolation!r}")
+        raise about("interpolation", f"must be 'cubic' or 'linear', not {interpolation!r}")
     _comparable(surface.grid, grid)
     if surface.grid.shape == grid.shape and np.allclose(
         surface.grid.spacing, grid.spacing, rtol=_SAME, atol=0
@@ -176,25 +177,26 @@ def _turned(upper: Surface, about: str | None) -> Surface:
         return upper
     require(about in ("x", "y"), f"turned_about must be 'x', 'y' or None, not {about!r}")
     if upper.grid.ndim == 1 and about == "x":
-        raise ValueError("a line is turned about 'y', which reverses it, or not at all (None)")
+        raise InputError("a line is turned about 'y', which reverses it, or not at all (None)")
     flipped = np.flip(upper.heights, -1 if about == "y" else 0)
     return upper.with_heights(flipped, f"turned over about {about}")
 
 
 def _comparable(source: Grid, target: Grid) -> None:
     if source.ndim != target.ndim:
-        raise ValueError(
-            f"the number of axes must be the same, not {source.ndim} and {target.ndim}: give two maps or two lines"
+        raise InputError(
+            f"the number of axes must be the same, not {source.ndim} and {target.ndim}",
+            "give two maps or two lines",
         )
     if source.periodic != target.periodic:
-        raise ValueError(
-            f"one grid is periodic where the other is not ({source.periodic} and {target.periodic}): "
-            "make both the same, for example Surface(heights, Grid(shape, spacing, periodic=False))"
+        raise InputError(
+            f"one grid is periodic where the other is not ({source.periodic} and {target.periodic})",
+            "make both the same, for example Surface(heights, Grid(shape, spacing, periodic=False))",
         )
     for mine, theirs, periodic in zip(source.lengths, target.lengths, source.periodic, strict=True):
         if periodic and abs(mine - theirs) > _SAME * theirs:
-            raise ValueError(
-                f"periods must be equal, not {mine:g} m and {theirs:g} m: free both (Grid(shape, spacing))"
+            raise InputError(
+                f"periods must be equal, not {mine:g} m and {theirs:g} m", "free both (Grid(shape, spacing))"
             )
 
 
@@ -213,7 +215,7 @@ def _weights(source: Grid, target: Grid, axis: int, degree: int) -> Any:
     """Return the sparse matrix from the old points to the new ones of an axis; no entry outside the old cells."""
     n, step, periodic = source.shape[axis], source.spacing[axis], source.periodic[axis]
     if n <= degree:
-        raise ValueError(
+        raise InputError(
             f"interpolation of degree {degree} needs at least {degree + 1} cells an axis, not {n}"
         )
     m = target.shape[axis]

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, lengths_method, require
@@ -66,13 +67,26 @@ def filtered(
     '0.500'
     """
     if short_cutoff is None and long_cutoff is None:
-        raise ValueError("give short_cutoff, long_cutoff or both [m]")
+        raise InputError(
+            "a filter needs a cut-off",
+            "give short_cutoff, long_cutoff or both [m]",
+            "short_cutoff, long_cutoff",
+        )
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
-        raise ValueError(f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m")
+        raise InputError(
+            f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m",
+            place="short_cutoff",
+        )
     grid = surface.grid
     for cutoff in (short_cutoff, long_cutoff):
         if cutoff is not None:
             require_cells(cutoff, surface)
+    if short_cutoff is not None and short_cutoff >= max(grid.lengths):
+        raise InputError(
+            f"a cut-off of {short_cutoff:g} m leaves nothing of a map of {max(grid.lengths):g} m",
+            "give a shorter one, such as 1e-5 m",
+            "short_cutoff",
+        )
     if short_cutoff is not None:
         heights = gaussian_mean(surface.heights, grid.spacing, grid.periodic, (short_cutoff,) * grid.ndim)
         surface = surface.with_heights(heights, f"Gaussian filter: waves below {short_cutoff:.6g} m removed")
@@ -157,11 +171,16 @@ def require_cells(cutoff: float, surface: Surface) -> None:
     ValueError
         If a wave of this length has too few cells, or is none.
     """
-    require(math.isfinite(cutoff) and cutoff > 0, f"a cut-off must be positive and finite [m], not {cutoff}")
+    require(
+        math.isfinite(cutoff) and cutoff > 0,
+        f"a cut-off must be positive and finite [m], not {cutoff}",
+        place="cutoff",
+    )
     grid = surface.grid
     exact = all(grid.periodic) and surface.missing == 0
     least = (2 if exact else _CELLS) * max(grid.spacing)
     if cutoff < least * (1 - 1e-9):
-        raise ValueError(
-            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m: give at least {least:.10g} m"
+        raise InputError(
+            f"a cut-off of {cutoff:g} m is too short for cells of {max(grid.spacing):g} m",
+            f"give at least {least:.10g} m",
         )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.validation import Array
 
 __all__ = ["round_form"]
@@ -26,7 +27,9 @@ def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[A
     from scipy.optimize import least_squares
 
     if kind not in ("sphere", "cylinder"):
-        raise ValueError(f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {kind!r}")
+        raise InputError(
+            f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {kind!r}", place="kind"
+        )
     axes = [(np.arange(n) - (n - 1) / 2) * step for n, step in zip(heights.shape, spacing, strict=True)]
     scale = max(float(np.abs(axis).max()) for axis in axes)
     if heights.ndim == 1:
@@ -63,7 +66,7 @@ def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[A
     parameters = with_free(fit.x)
     trend = model(parameters, x, y) * scale
     if fit.status < 1 or not np.isfinite(trend).all():
-        raise ValueError(f"no {kind} fits these heights: {fit.message}; remove a polynomial instead")
+        raise InputError(f"no {kind} fits these heights: {fit.message}", "remove a polynomial instead")
     curvature = parameters[1] / scale
     radius = "infinite radius" if curvature == 0 else f"radius {1 / abs(curvature):.6g} m"
     words = f"{kind} of {radius}, {'concave' if curvature > 0 else 'convex'}"

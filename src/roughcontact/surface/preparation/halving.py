@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse
 
+from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.validation import Array
 
@@ -34,7 +35,7 @@ def halved(surface: Surface) -> Surface:
     """
     grid = surface.grid
     if min(grid.shape) < FEWEST:
-        raise ValueError(
+        raise InputError(
             f"a map of {' x '.join(map(str, grid.shape))} cells has no half: {FEWEST} along each axis are needed"
         )
     shape = tuple(n // 2 for n in grid.shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from roughcontact.errors import about
 from roughcontact.surface.in_memory import on_host_only, on_host_or_in_slabs
 from roughcontact.surface.preparation.form import round_form
 from roughcontact.surface.preparation.polynomial import polynomial_trend
@@ -21,7 +22,7 @@ _TRENDS = {
 
 
 @on_host_or_in_slabs
-def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "plane") -> Surface:
+def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic", "auto"] = "plane") -> Surface:
     """Return the surface without its mean height, its tilt or its curvature, by least squares.
 
     Missing points are ignored and stay missing.
@@ -29,9 +30,10 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     Parameters
     ----------
     surface : Surface
-    kind : {"plane", "mean", "quadratic"}
+    kind : {"plane", "mean", "quadratic", "auto"}
         What is removed: the least-squares plane and with it the tilt, the mean height alone, or the least-squares
-        polynomial of the second degree. On a line these are a straight line, the mean and a parabola.
+        polynomial of the second degree. On a line these are a straight line, the mean and a parabola. ``"auto"`` is
+        the mean of a surface that repeats itself in every direction, which has no tilt, and the plane of any other.
 
     Returns
     -------
@@ -53,7 +55,10 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic"] = "pl
     >>> f"rms {tilted.rms * 1e9:.0f} nm, {tilted.levelled().rms * 1e9:.0f} nm without the tilt"
     'rms 191 nm, 94 nm without the tilt'
     """
-    require(kind in _TRENDS, f"levelling must be 'mean', 'plane' or 'quadratic', not {kind!r}")
+    if kind == "auto":
+        kind = "mean" if all(surface.grid.periodic) else "plane"
+    known = "'mean', 'plane', 'quadratic' or 'auto'"
+    require(kind in _TRENDS, f"levelling must be {known}, not {kind!r}", place="kind")
     degree, line = _TRENDS[kind]
     return surface.with_heights(surface.heights - polynomial_trend(surface.heights, degree), line)
 
@@ -99,5 +104,5 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
     elif isinstance(form, int) and not isinstance(form, bool) and 0 <= form <= 12:
         trend, words = polynomial_trend(surface.heights, form), f"polynomial of degree {form}"
     else:
-        raise ValueError(f"form must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
+        raise about("form", f"must be a degree from 0 to 12, 'sphere' or 'cylinder', not {form!r}")
     return surface.with_heights(surface.heights - trend, f"form removed: {words}")

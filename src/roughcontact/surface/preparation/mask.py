@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.preparation.sampling import cell_ranges, range_words
 from roughcontact.surface.surface import Surface
@@ -60,7 +61,7 @@ def masked(
     heights = surface.heights
     given = [box is not None, ellipse is not None, below is not None or above is not None]
     if sum(given) != 1:
-        raise ValueError("masked() takes out one region: give box, ellipse, or below and above")
+        raise InputError("masked() takes out one region", "give box, ellipse, or below and above")
     parts = box if box is not None else ellipse
     if parts is not None:
         ranges = cell_ranges(surface.grid, parts, "a mask")
@@ -70,14 +71,16 @@ def masked(
         low = -math.inf if below is None else below
         high = math.inf if above is None else above
         if not low <= high:
-            raise ValueError(f"below {below} m and above {above} m leave nothing: below must be the lower")
+            raise InputError(
+                f"below {below} m and above {above} m leave nothing: below must be the lower", place="below"
+            )
         inside = (heights < low) | (heights > high)
         ends = (("below", below), ("above", above))
         words = "heights " + " and ".join(f"{name} {end:.6g} m" for name, end in ends if end is not None)
     gone = ~inside if outside else inside
     rest = np.where(gone, np.nan, heights)
     if np.isnan(rest).all():
-        raise ValueError(f"the mask ({words}{', outside' if outside else ''}) leaves no measured point")
+        raise InputError(f"the mask ({words}{', outside' if outside else ''}) leaves no measured point")
     count = surface.grid.size - int(np.count_nonzero(~np.isnan(rest))) - surface.missing
     line = f"masked: {'all but ' if outside else ''}{words}, {count} points set to missing"
     return surface.with_heights(rest, line)

@@ -45,7 +45,11 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     >>> f"{surface.filled().heights[1, 1] * 1e6:.2f} um"
     '2.33 um'
     """
-    require(method in ("harmonic", "nearest"), f"method must be 'harmonic' or 'nearest', not {method!r}")
+    require(
+        method in ("harmonic", "nearest"),
+        f"method must be 'harmonic' or 'nearest', not {method!r}",
+        place="method",
+    )
     if surface.missing == 0:
         return surface
     fill = _harmonic if method == "harmonic" else _nearest

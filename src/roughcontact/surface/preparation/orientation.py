@@ -66,7 +66,7 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
            [0.e+00, 1.e-06]])
     """
     axes = {"x": -1} | ({"y": 0} if surface.grid.ndim == 2 else {})
-    require(axis in axes, f"axis must be one of {', '.join(axes)}, not {axis!r}")
+    require(axis in axes, f"axis must be one of {', '.join(axes)}, not {axis!r}", place="axis")
     return surface.with_heights(np.flip(surface.heights, axes[axis]), f"flipped along {axis}")
 
 
@@ -99,10 +99,12 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     >>> rc.Surface(np.array([[0.0, 1e-6, 2e-6]]), rc.Grid((1, 3), (2e-6, 1e-6))).rotated().grid
     Grid(shape=(3, 1), spacing=(1e-06, 2e-06), periodic=(False, False))
     """
-    require(surface.grid.ndim == 2, "only a surface of two axes can be turned; flip a line")
+    require(surface.grid.ndim == 2, "only a surface of two axes can be turned", "flip a line")
     require(
         abs(quarters) <= 4,
-        f"quarters counts quarter turns, not degrees: give 1 for 90 degrees, not {quarters}",
+        "quarters counts quarter turns, not degrees",
+        f"give 1 for 90 degrees, not {quarters}",
+        place="quarters",
     )
     grid = _exchanged(surface.grid) if quarters % 2 else surface.grid
     line = f"rotated by {90 * (quarters % 4)} degrees counter-clockwise"

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.preparation.filters import gaussian_mean
@@ -162,14 +163,19 @@ def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
     given = number(factor, "factor")
     factors = np.broadcast_to(given, grid.ndim).tolist() if given.shape in ((), (grid.ndim,)) else []
     if not factors or any(k % 1 != 0 or k < 1 for k in factors):
-        raise ValueError(f"factor must be one whole number from 1 up, or {grid.ndim}, not {factor}")
+        raise about("factor", f"must be one whole number from 1 up, or {grid.ndim}, not {factor}")
     for k, n, repeats in zip(factors, grid.shape, grid.periodic, strict=True):
         if 2 * k > n:
-            raise ValueError(f"a factor of {k:g} leaves less than two of {n} cells: give at most {n // 2}")
+            raise InputError(
+                f"a factor of {k:g} leaves less than two of {n} cells",
+                f"give at most {n // 2}",
+                place="factor",
+            )
         if repeats and n % k:
-            raise ValueError(
-                f"a factor of {k:g} does not divide {n} cells of a periodic axis: give a divisor of {n}, or crop the "
-                f"surface, which frees it"
+            raise InputError(
+                f"a factor of {k:g} does not divide {n} cells of a periodic axis",
+                f"give a divisor of {n}, or crop the surface, which frees it",
+                place="factor",
             )
     return tuple(int(k) for k in factors)
 
@@ -188,12 +194,16 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
         If there is not one for each axis, one has a step, or holds no cell; the message says `what` they are of.
     """
     if len(parts) != grid.ndim:
-        raise ValueError(f"{what} needs one slice an axis, {grid.ndim} in all, not {len(parts)}")
+        raise about(
+            what,
+            f"needs one slice an axis, {grid.ndim} in all, not {len(parts)}",
+            f"give {'rows and columns' if grid.ndim == 2 else 'one range of cells'}",
+        )
     if any(part.step not in (None, 1) for part in parts):
-        raise ValueError(f"{what} has no step: use downsampled for a subsample")
+        raise about(what, "has no step", "use downsampled for a subsample")
     ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]
     if any(stop <= start for start, stop in ranges):
-        raise ValueError(f"nothing is left of {grid.shape} cells in {range_words(ranges)}")
+        raise InputError(f"nothing is left of {grid.shape} cells in {range_words(ranges)}")
     return ranges
 
 

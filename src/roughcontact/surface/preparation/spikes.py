@@ -146,7 +146,7 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
     >>> rc.Surface(heights, rough.grid).despiked().missing
     2
     """
-    require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}")
+    require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}", place="to")
     spikes = find_spikes(surface)
     if spikes.count == 0:
         return surface

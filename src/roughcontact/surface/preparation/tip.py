@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import about
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
@@ -56,9 +57,11 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     '-2.0 um deep, -1.3 um to a tip of 1 um'
     """
     if not (math.isfinite(tip_radius) and tip_radius > 0):
-        raise ValueError(f"tip_radius must be positive and finite [m], not {tip_radius}")
+        raise about("tip_radius", f"must be positive and finite [m], not {tip_radius}")
     moderate(tip_radius, "tip_radius [m]")
-    require(tip in ("sphere", "paraboloid"), f"tip must be 'sphere' or 'paraboloid', not {tip!r}")
+    require(
+        tip in ("sphere", "paraboloid"), f"tip must be 'sphere' or 'paraboloid', not {tip!r}", place="tip"
+    )
     heights, grid = surface.heights, surface.grid
     measured = ~np.isnan(heights)
     span = float(heights[measured].max() - heights[measured].min())

@@ -36,8 +36,8 @@ def window_values(name: str, count: int, share: float = 0.25) -> Array:
     phase = 2 * np.pi * (np.arange(count) + 0.5) / count
     if name in _SHAPES:
         return _SHAPES[name](phase)
-    require(name == "tukey", f"window must be one of {', '.join(WINDOWS)}, not {name!r}")
-    require(0 <= share <= 1, f"share must lie between 0 and 1, not {share}")
+    require(name == "tukey", f"window must be one of {', '.join(WINDOWS)}, not {name!r}", place="name")
+    require(0 <= share <= 1, f"share must lie between 0 and 1, not {share}", place="share")
     # A flat middle between two halves of a Hann window, each of half the share.
     bent = np.minimum(phase, 2 * np.pi - phase)
     return _SHAPES["hann"](np.minimum(bent, math.pi * share) / share) if share else np.ones(count)

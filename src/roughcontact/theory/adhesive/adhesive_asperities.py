@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize_scalar
 
+from roughcontact.errors import about
 from roughcontact.theory.adhesive.adhesive_sphere import DMTSphere, JKRSphere
 from roughcontact.validation import Array, number, numeric, positive_scalar, shown
 
@@ -80,7 +81,7 @@ class AdhesiveAsperities:
         for name in ("density", "std", "radius", "modulus", "work"):
             positive_scalar(getattr(self, name), f"the {name}")
         if self.limit not in get_args(Limit):
-            raise ValueError(f"the limit must be one of 'jkr', 'dmt', not {shown(self.limit)}")
+            raise about("the limit", f"must be one of 'jkr', 'dmt', not {shown(self.limit)}")
 
     @property
     def roughness_number(self) -> float:

@@ -136,7 +136,7 @@ class JKRSphere:
         """
         d = np.asarray(number(depth, "depth [m]"))
         least = self.least_depth
-        require(d >= least * (1 + 1e-12), f"the depth must be at least {least:.6g} m", d)
+        require(d >= least * (1 + 1e-12), f"the depth must be at least {least:.6g} m", value=d, place="depth")
         x = np.maximum(d, least) * self.radius / self._unit**2
         # With b the root of a: b^4 - 2/3 sqrt(6) b = x, convex, from the right of its larger root.
         b = np.maximum(np.abs(x), 1.0) ** 0.25 + 1.0

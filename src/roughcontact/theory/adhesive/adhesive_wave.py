@@ -112,7 +112,7 @@ class AdhesiveWave:
         """Return sin^2(pi a/L) and the tension T [Pa]."""
         a = np.asarray(number(half_width, "half width [m]"))
         inside = (a > 0) & (2 * a < self.wavelength)
-        require(inside, "the half width must lie between 0 and half a wavelength [m]", a)
+        require(inside, "the half width must lie between 0 and half a wavelength [m]", value=a)
         phase = math.pi * a / self.wavelength
         tension = np.sqrt(2 * self.modulus * self.work * np.tan(phase) / self.wavelength)
         return np.asarray(np.sin(phase) ** 2), np.asarray(tension)

@@ -65,16 +65,19 @@ class Asperities:
         require_numbers(self)
         for name in ("x", "y", "height", "radius"):
             given = np.array(number(getattr(self, name), f"{name} [m]"), ndmin=1)
-            require(np.isfinite(given), f"{name} must be finite [m]")
+            require(np.isfinite(given), f"{name} must be finite [m]", place=name)
             require(
                 given.ndim == 1 and given.size > 0 and given.size == np.size(self.x),
                 f"x, y, height and radius must be of one length above 0, not {name} of shape {given.shape}",
+                place=name,
             )
             object.__setattr__(self, name, given)
         positive(self.radius, "a radius [m]")
         positive(self.modulus, "the reduced modulus [Pa]")
         places = np.unique(np.stack([self.x, self.y]), axis=1)
-        require(places.shape[1] == self.x.size, "two summits are in the same place: leave the lower one out")
+        require(
+            places.shape[1] == self.x.size, "two summits are in the same place", "leave the lower one out"
+        )
 
     @property
     def fall(self) -> Array:
@@ -157,8 +160,8 @@ def _state(asperities: Asperities, compression: Array, depth: float, force: floa
     touching = np.flatnonzero(compression > 0)
     require(
         touching.size * compression.size <= MOST,
-        f"{touching.size} of {compression.size} summits are in reach of the flat: take a smaller load, or a surface "
-        "without its shortest waves",
+        f"{touching.size} of {compression.size} summits are in reach of the flat",
+        "take a smaller load, or a surface without its shortest waves",
     )
     w, radius = compression[touching], asperities.radius[touching]
     spot = np.sqrt(radius * w)

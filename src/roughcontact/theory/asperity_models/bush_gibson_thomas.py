@@ -195,7 +195,7 @@ class Summits:
         require(
             load <= highest * (1 + 1e-12),
             f"at {highest:.4g} Pa the flat reaches the mean plane of the surface: more is no contact of summits",
-            load,
+            value=load,
         )
         plane = np.full(np.shape(load), np.inf)
         target = np.log(load[load > 0] / self._force_scale)
@@ -238,7 +238,12 @@ class Summits:
 
 def _above_the_mean(separation: float | Array) -> Array:
     s = number(separation, "the separation [m]")
-    require(s >= 0, "a separation must not be negative: the flat would pass the mean plane of the surface", s)
+    require(
+        s >= 0,
+        "a separation must not be negative: the flat would pass the mean plane of the surface",
+        value=s,
+        place="separation",
+    )
     return s
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaln
 
+from roughcontact.errors import InputError
 from roughcontact.theory.asperity_models.interface import loading_law
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.random_surfaces.nayak import summits
@@ -134,16 +135,18 @@ class Population:
     def __post_init__(self) -> None:
         require_numbers(self)
         if not isinstance(self.asperity, Asperity):
-            raise ValueError(
-                f"an Asperity is wanted, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}"
+            raise InputError(
+                f"an Asperity is wanted, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}",
+                place="asperity",
             )
         positive(self.density, "the density of asperities [1/m^2]")
         positive(self.std, "the standard deviation of asperity heights [m]")
         mean = scalar(self.mean_height, "mean_height [m]")
-        require(math.isfinite(mean), f"mean_height must be finite [m], not {mean}")
+        require(math.isfinite(mean), f"mean_height must be finite [m], not {mean}", place="mean_height")
         require(
             isinstance(self.distribution, str) and self.distribution in DISTRIBUTIONS,
             f"distribution must be one of {sorted(DISTRIBUTIONS)}, not {self.distribution!r}",
+            place="distribution",
         )
 
     @property
@@ -266,7 +269,7 @@ class Population:
         """
         load = positive(pressure, "the pressure [Pa]", zero=True)
         highest = float(self.pressure(self.lowest))
-        require(load <= highest * (1 + ROUNDING), f"at {highest:.4g} Pa the flat {self._end()}", load)
+        require(load <= highest * (1 + ROUNDING), f"at {highest:.4g} Pa the flat {self._end()}", value=load)
         n, plane = self.asperity.exponent, np.full(np.shape(load), np.inf)
         scale = self.density * self.asperity.coefficient * self.std**n
         plane[load > 0] = self._plane(np.log(load[load > 0] / scale))
@@ -299,7 +302,8 @@ class Population:
         require(
             height >= self.lowest - ROUNDING * self.std,
             f"a separation must be at least {self.lowest:.4g} m, where the flat {self._end()}",
-            height,
+            value=height,
+            place="separation",
         )
         plane = (height - self.origin) / self.std
         if self.distribution == "exponential":

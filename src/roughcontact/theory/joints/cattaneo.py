@@ -70,6 +70,7 @@ class SlippingSphere:
             0.75 * (1 - 1e-12) <= self.ratio <= 1.5 * (1 + 1e-12),
             "the ratio E*/G* of a round contact lies from 1 to 1.5, or from 0.75 with negative Poisson's ratios: "
             f"mindlin.ratio(poisson_ratio) gives it; not {self.ratio}",
+            place="ratio",
         )
 
     @property
@@ -208,5 +209,9 @@ class SlippingSphere:
     def _part(self, tangential: float | Array) -> Array:
         part = positive(tangential, "the tangential force [N]", zero=True) / (self.friction * self.force)
         top = self.friction * self.force
-        require(part <= 1, f"a tangential force above mu P = {top:g} N is not to be had: the sphere slides")
+        require(
+            part <= 1,
+            f"a tangential force above mu P = {top:g} N is not to be had: the sphere slides",
+            place="tangential",
+        )
         return part

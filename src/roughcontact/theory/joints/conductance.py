@@ -266,7 +266,7 @@ def _inverse(
 def _not_negative(values: ArrayLike, what: str) -> Array:
     """Return numbers from 0 to infinity: full contact is infinitely stiff, and there are insulators."""
     given = np.asarray(number(values, what))
-    require(given >= 0, f"{what} must not be negative or missing", given)
+    require(given >= 0, f"{what} must not be negative or missing", value=given)
     return given
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["cluster_radius", "contact_length", "holm_radius", "spot_resistance", "spots_resistance"]
@@ -103,17 +104,17 @@ def contact_length(radii: Array, positions: Array) -> float:
     """
     a, centre = np.asarray(number(radii, "radii [m]")), np.asarray(number(positions, "positions [m]"))
     if a.ndim != 1 or a.size == 0 or centre.shape != (a.size, 2):
-        raise ValueError(f"spots need radii (n,) and positions (n, 2), not {a.shape} and {centre.shape}")
+        raise InputError(f"spots need radii (n,) and positions (n, 2), not {a.shape} and {centre.shape}")
     if not (np.isfinite(a).all() and (a > 0).all() and np.isfinite(centre).all()):
-        raise ValueError("radii must be positive, and radii and positions finite")
+        raise about("radii", "must be positive, and radii and positions finite")
     mutual = 0.0
     # One row of distances at a time: spots may be many.
     for i in range(a.size - 1):
         distance = np.hypot(*(centre[i + 1 :] - centre[i]).T)
         if (distance < a[i] + a[i + 1 :]).any():
-            raise ValueError(
-                f"spot {i} overlaps another: the formula is one of separate spots; compute such a region with "
-                "roughcontact.contact_stiffness"
+            raise InputError(
+                f"spot {i} overlaps another: the formula is one of separate spots",
+                "compute such a region with roughcontact.contact_stiffness",
             )
         mutual += 2 * a[i] * float(np.sum(a[i + 1 :] / distance))
     total = float(a.sum())

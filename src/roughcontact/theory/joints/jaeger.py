@@ -166,6 +166,7 @@ def _held(force: float, tangential: float | Array, friction: float) -> Array:
     require(
         pulled <= pressed,
         f"a tangential force above mu F = {friction * pressed:g} N is not to be had: the contact slides",
+        place="tangential",
     )
     return np.asarray(pressed - pulled)
 
@@ -175,7 +176,8 @@ def _known(law: LoadingLaw, quantity: str, force: Array) -> Array:
     values = law.predict(quantity, force)
     require(
         ~np.isnan(values),
-        f"{law.name} has no {quantity} at every force from F - Q/mu to F: take a smaller Q, or a curve of more points",
-        force,
+        f"{law.name} has no {quantity} at every force from F - Q/mu to F",
+        "take a smaller Q, or a curve of more points",
+        value=force,
     )
     return values

@@ -14,6 +14,7 @@ import math
 from functools import partial
 from typing import Literal, Protocol
 
+from roughcontact.errors import InputError
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact.validation import Array, moderate, number, numeric, positive, require, scalar, shown
@@ -112,10 +113,10 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     bodies = (first,) if second is None else (first, second)
     for body in bodies:
         if not (hasattr(body, "shear_modulus") and hasattr(body, "poisson_ratio")):
-            raise ValueError(f"a solid with shear_modulus and poisson_ratio is wanted, not {shown(body)}")
+            raise InputError(f"a solid with shear_modulus and poisson_ratio is wanted, not {shown(body)}")
     sideways = sum((2 - body.poisson_ratio) / (4 * body.shear_modulus) for body in bodies)
     inwards = sum((1 - body.poisson_ratio) / (2 * body.shear_modulus) for body in bodies)
-    require(inwards > 0, "two rigid bodies have no stiffness: give one of them a finite shear modulus")
+    require(inwards > 0, "two rigid bodies have no stiffness", "give one of them a finite shear modulus")
     return sideways / inwards
 
 
@@ -143,7 +144,7 @@ def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
     """
     k = number(stiffness, "the stiffness [N/m]")
     # Infinite in full contact.
-    require(k >= 0, "a stiffness must not be negative [N/m]", k)
+    require(k >= 0, "a stiffness must not be negative [N/m]", value=k, place="stiffness")
     return k / positive(ratio, "the ratio E*/G*")
 
 
@@ -257,9 +258,15 @@ def slip_constant(
     """
     size, alpha = float(positive(theta, "theta [m^(1-H)]")), _exponent(hurst)
     if constants == "printed":
-        require(prefactor is None, "the printed constants have their prefactor in them: leave out prefactor")
+        require(
+            prefactor is None, "the printed constants have their prefactor in them", "leave out prefactor"
+        )
         return math.pow(0.086 * size, alpha) / (0.2055 * (1 - alpha))
-    require(constants == "consistent", f"constants must be 'consistent' or 'printed', not {constants!r}")
+    require(
+        constants == "consistent",
+        f"constants must be 'consistent' or 'printed', not {constants!r}",
+        place="constants",
+    )
     zeta = pohrt_popov.prefactor(hurst) if prefactor is None else positive(prefactor, "the prefactor")
     return math.pow(size, alpha) / (float(zeta) * (1 - alpha))
 

@@ -18,6 +18,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughcontact.errors import InputError
 from roughcontact.theory.joints.conductance import Pair, harmonic_mean
 from roughcontact.theory.law import LoadingLaw, over_area
 from roughcontact.theory.random_surfaces.profile_moments import ProfileMoments, moment
@@ -61,10 +62,14 @@ def constriction(ratio: float | Array, form: Literal["power", "tube"] = "power")
     (0.8538, 0.8594)
     """
     eps = positive(ratio, "the ratio of radii", zero=True)
-    require(eps <= 1, f"a spot is no larger than its cell: the ratio of radii is at most 1, not {ratio}")
+    require(
+        eps <= 1,
+        f"a spot is no larger than its cell: the ratio of radii is at most 1, not {ratio}",
+        place="ratio",
+    )
     if form == "power":
         return np.asarray((1 - eps) ** 1.5)
-    require(form == "tube", f"form must be 'power' or 'tube', not {form!r}")
+    require(form == "tube", f"form must be 'power' or 'tube', not {form!r}", place="form")
     one, first, third, fifth, seventh = TUBE
     square = eps**2
     return np.asarray(one + eps * (first + square * (third + square * (fifth + square * seventh))))
@@ -299,8 +304,9 @@ def _scale(conductivities: Pair, moments: ProfileMoments) -> float:
 
 def _small(fraction: Array, limit: str) -> Array:
     if (fraction > FIT_LIMIT * (1 + 1e-9)).any():
-        raise ValueError(
+        raise InputError(
             f"the correlation holds for pressures up to {FIT_LIMIT} of {limit}, not {float(fraction.max()):.3g} of it: "
-            "beyond, spots merge; use conductance.thermal on a computed stiffness"
+            "beyond, spots merge",
+            "use conductance.thermal on a computed stiffness",
         )
     return fraction

@@ -137,7 +137,11 @@ def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoment
     """
     part = np.asarray(fraction, dtype=np.float64)
     within = (part >= 0) & (part < 1)
-    require(within, f"a contact fraction lies from 0 to below 1, which no load reaches, not {fraction}")
+    require(
+        within,
+        f"a contact fraction lies from 0 to below 1, which no load reaches, not {fraction}",
+        place="fraction",
+    )
     return np.asarray(math.sqrt(2) * pressure_spread(modulus, surface) * erfinv(part))
 
 
@@ -165,9 +169,9 @@ def pressure_spread(modulus: float, surface: ProfileMoments | Spectrum) -> float
     5.0
     """
     slope = math.sqrt(2 * (surface.m2 if hasattr(surface, "m2") else Waves.of(surface).m2))
-    require(slope > 0, "a surface without slope has no waves: contact is full at any load")
+    require(slope > 0, "a surface without slope has no waves: contact is full at any load", place="surface")
     finite = slope < math.inf
-    require(finite, "with an infinite rms slope the contact area is zero: give the surface a shortest wave")
+    require(finite, "with an infinite rms slope the contact area is zero", "give the surface a shortest wave")
     return moderate(float(positive(modulus, "the modulus [Pa]")), "the modulus [Pa]") * slope / 2
 
 

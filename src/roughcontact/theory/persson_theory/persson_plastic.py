@@ -226,7 +226,12 @@ def _reduced(
     most = positive_scalar(hardness, "the hardness [Pa]")
     x = positive(pressure, "a pressure [Pa]", zero=True) / most
     # The rounding of a force over its area is let pass.
-    require(x <= 1 + 1e-12, f"no pressure above the hardness of {most:.4g} Pa can be carried", pressure)
+    require(
+        x <= 1 + 1e-12,
+        f"no pressure above the hardness of {most:.4g} Pa can be carried",
+        value=pressure,
+        place="pressure",
+    )
     return np.minimum(x, 1.0), pressure_spread(modulus, surface) / most
 
 

@@ -231,7 +231,11 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
     level = share * logs + 3 * (1 - share) * ERF_SQUARED_TAIL
     weighted = float(_over_waves(0.0, modulus, waves, lambda _: level))
     exponent = float(weighted) / max(decay_length(waves, gamma=gamma), 1e-300)
-    require(abs(exponent) < 700, f"gamma is too small for a reference pressure, ln(p_c/E*) = {exponent:g}")
+    require(
+        abs(exponent) < 700,
+        f"gamma is too small for a reference pressure, ln(p_c/E*) = {exponent:g}",
+        place="gamma",
+    )
     return modulus * math.exp(exponent)
 
 
@@ -312,5 +316,5 @@ def _erf_squared_tail() -> CubicHermiteSpline[np.float64]:
 
 
 def _checked(gamma: float) -> float:
-    require(0 < gamma <= 1, f"gamma must be above 0 and at most 1, not {gamma}")
+    require(0 < gamma <= 1, f"gamma must be above 0 and at most 1, not {gamma}", place="gamma")
     return gamma

@@ -204,7 +204,7 @@ def flattened(heights: Array, pressure: float, hardness: float) -> Array:
     (0.2, True)
     """
     h = finite(heights, "heights [m]")
-    require(np.size(h) > 0, "heights of a surface are wanted, not an empty array")
+    require(np.size(h) > 0, "heights of a surface are wanted, not an empty array", place="heights")
     _loaded(pressure)
     cut = np.quantile(h, 1 - contact_fraction(pressure, positive_scalar(hardness, "the hardness [Pa]")))
     raised = float(np.maximum(h - cut, 0.0).mean())

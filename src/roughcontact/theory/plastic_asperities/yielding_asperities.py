@@ -67,7 +67,11 @@ def hardness_factor(poisson: float) -> float:
         K [-].
     """
     nu = scalar(poisson, "poisson [-]")
-    require(0 <= nu <= 0.5, f"poisson: the fit for the first yield holds from 0 to 0.5, not at {nu}")
+    require(
+        0 <= nu <= 0.5,
+        f"poisson: the fit for the first yield holds from 0 to 0.5, not at {nu}",
+        place="poisson",
+    )
     return 0.454 + 0.41 * nu
 
 
@@ -240,7 +244,7 @@ class YieldingAsperities:
         require(
             load <= highest * (1 + 1e-12),
             f"at {highest:.4g} Pa the flat reaches the mean plane of the surface: more is no contact of asperities",
-            load,
+            value=load,
         )
         plane = np.full(np.shape(load), np.inf)
         wanted, lowest = np.log(load[load > 0]), float(self._plane(0.0))
@@ -256,7 +260,12 @@ class YieldingAsperities:
 
     def _plane(self, separation: float | Array) -> Array:
         height = number(separation, "the separation [m]")
-        require(height >= 0, "a separation must not be negative: the flat would pass the mean plane", height)
+        require(
+            height >= 0,
+            "a separation must not be negative: the flat would pass the mean plane",
+            value=height,
+            place="separation",
+        )
         return np.asarray((height - self.mean_height) / self.std)
 
     def _log_pressure(self, plane: Array) -> Array:

@@ -236,5 +236,6 @@ def free_variance(alpha: float) -> float:
         alpha > NARROWEST,
         "a joint density of summit heights and curvatures needs a Nayak parameter above 3/2, that of waves of one "
         f"length, not {alpha:.6g}",
+        place="alpha",
     )
     return 1 - NARROWEST / alpha

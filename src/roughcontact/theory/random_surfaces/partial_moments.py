@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy import special
 
+from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, numeric, require
 
 __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
@@ -56,7 +57,9 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     """
     n = _checked(order)
     t = np.asarray(number(plane, "plane"))
-    require(t > -np.inf, "plane must not be infinitely low: nothing would be left out", t)
+    require(
+        t > -np.inf, "plane must not be infinitely low: nothing would be left out", value=t, place="plane"
+    )
     value = np.empty(t.shape)
     low = t < LOW
     value[low] = _by_kummer(n, t[low])
@@ -95,9 +98,10 @@ def log_exponential(order: float, plane: float | Array) -> Array:
     n = _checked(order)
     t = np.asarray(plane, dtype=np.float64)
     if (t < 0).any():
-        raise ValueError(
+        raise InputError(
             f"a plane {-t.min():.3g} standard deviations below the lowest of all exponential heights touches "
-            "every asperity: the exponential law holds above it only"
+            "every asperity: the exponential law holds above it only",
+            place="plane",
         )
     return np.asarray(special.gammaln(n + 1) - t)
 
@@ -110,9 +114,10 @@ DISTRIBUTIONS: dict[Distribution, Callable[[float, float | Array], Array]] = {
 
 def _checked(order: float) -> float:
     if not -1 < order <= HIGHEST_ORDER:
-        raise ValueError(
-            f"the order of a partial moment must lie above -1, where the integral exists, and at most at "
-            f"{HIGHEST_ORDER:g}, not {order}"
+        raise about(
+            "the order",
+            f"of a partial moment must lie above -1, where the integral exists, and at most at "
+            f"{HIGHEST_ORDER:g}, not {order}",
         )
     return float(order)
 

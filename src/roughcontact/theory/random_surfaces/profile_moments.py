@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
+from roughcontact.errors import about
 from roughcontact.validation import positive, shown
 
 __all__ = ["ProfileMoments", "moment"]
@@ -34,8 +35,9 @@ def moment(moments: ProfileMoments, name: Literal["m0", "m2", "m4"], note: str =
         If these are no moments, or this one is not positive and finite.
     """
     if not hasattr(moments, name):
-        raise ValueError(
-            f"the moments m0, m2 and m4 of a surface are wanted, such as rc.surface_moments(surface) and "
-            f"spectrum.moments() return them, not {shown(moments)}"
+        raise about(
+            "the moments",
+            f"m0, m2 and m4 of a surface are wanted, such as rc.surface_moments(surface) and "
+            f"spectrum.moments() return them, not {shown(moments)}",
         )
     return float(positive(getattr(moments, name), f"the moment {name}{note}"))

@@ -10,6 +10,7 @@ from typing import Protocol, TypeAlias, cast
 import numpy as np
 import scipy.fft
 
+from roughcontact.errors import InputError, about
 from roughcontact.theory.tools.quadrature import gauss, graded, running
 from roughcontact.validation import Array, number, pair, require, shown
 
@@ -132,13 +133,15 @@ class Waves:
         for name in ("wavenumber", "power", "slope"):
             value = np.array(getattr(self, name), dtype=np.float64)
             if value.ndim != 1 or value.shape != np.shape(self.wavenumber) or value.size == 0:
-                raise ValueError(f"{name} must have one value for each node, not shape {value.shape}")
+                raise InputError(
+                    f"{name} must have one value for each node, not shape {value.shape}", place=name
+                )
             if not (np.isfinite(value).all() and (value > 0).all()):
-                raise ValueError(f"{name} must be positive and finite at every node")
+                raise InputError(f"{name} must be positive and finite at every node", place=name)
             value.flags.writeable = False
             object.__setattr__(self, name, value)
         if (np.diff(self.wavenumber) < 0).any() or (np.diff(self.slope) < 0).any():
-            raise ValueError("nodes must go from long waves to short ones: sort them by wavenumber")
+            raise InputError("nodes must go from long waves to short ones", "sort them by wavenumber")
 
     @property
     def m0(self) -> float:
@@ -179,9 +182,10 @@ class Waves:
             return cls.of_measured(cast(MeasuredSpectrum, spectrum))
         if callable(spectrum):
             return cls.of_spectrum(spectrum)
-        raise ValueError(
+        raise InputError(
             f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is wanted, not {shown(spectrum)}; of a "
-            "surface take rc.power_spectrum(surface), of one with a lay Waves.of_heights(heights, spacing)"
+            "surface take rc.power_spectrum(surface), of one with a lay Waves.of_heights(heights, spacing)",
+            place="spectrum",
         )
 
     @classmethod
@@ -213,18 +217,20 @@ class Waves:
             If the band is not finite, or the spectrum is that of a line, negative or zero.
         """
         if getattr(spectrum, "dimension", 2) != 2:
-            raise ValueError("Persson's theory wants the spectrum C2D of a surface, not that of a line")
+            raise InputError("Persson's theory wants the spectrum C2D of a surface, not that of a line")
         low = max(getattr(spectrum, "q_min", 0.0), 0.0 if q_min is None else q_min)
         high = min(getattr(spectrum, "q_max", math.inf), math.inf if q_max is None else q_max)
         if not low > 0:
-            raise ValueError(
-                "the spectrum has no longest wave, and without one no surface of finite size: give long_cutoff, "
-                "or q_min, 2 pi over the side of the surface [rad/m]"
+            raise about(
+                "the spectrum",
+                "has no longest wave, and without one no surface of finite size",
+                "give long_cutoff, or q_min, 2 pi over the side of the surface [rad/m]",
             )
         if not math.isfinite(high):
-            raise ValueError(
-                "the spectrum has no shortest wave, and the contact area depends on it: give short_cutoff, or "
-                "q_max [rad/m]"
+            raise about(
+                "the spectrum",
+                "has no shortest wave, and the contact area depends on it",
+                "give short_cutoff, or q_max [rad/m]",
             )
         corner = getattr(spectrum, "q_rolloff", 0.0)
         return _of_density(spectrum, low, high, np.array([corner, *breaks], dtype=np.float64))
@@ -252,9 +258,9 @@ class Waves:
             If the spectrum is that of profiles, or fewer than two bins with power lie in the band.
         """
         if spectrum.kind != "C2D":
-            raise ValueError(
-                f"Persson's theory wants the spectrum C2D of a surface, not {spectrum.kind}: convert the "
-                "spectrum of profiles by roughcontact.surface_spectrum"
+            raise InputError(
+                f"Persson's theory wants the spectrum C2D of a surface, not {spectrum.kind}",
+                "convert the spectrum of profiles by roughcontact.surface_spectrum",
             )
         low = spectrum.q_min if q_min is None else q_min
         high = spectrum.q_max if q_max is None else q_max
@@ -286,15 +292,17 @@ class Waves:
             If the heights are no map, hold holes or are flat.
         """
         z = np.asarray(number(heights, "heights [m]"))
-        require(z.ndim == 2, f"heights must have two axes, not {z.ndim}")
-        require(np.isfinite(z), "heights hold points that were not measured: fill them first")
+        require(z.ndim == 2, f"heights must have two axes, not {z.ndim}", place="heights")
+        require(
+            np.isfinite(z), "heights hold points that were not measured", "fill them first", place="heights"
+        )
         (ny, nx), (dy, dx) = z.shape, map(float, pair(spacing, "the spacing (dy, dx) [m]"))
         power = np.abs(scipy.fft.rfft2(z - z.mean()) / z.size) ** 2
         # Every column stands for q and -q, but the first and, of an even number, the last.
         power[:, 1 : (nx + 1) // 2] *= 2
         q = 2 * np.pi * np.hypot(scipy.fft.fftfreq(ny, dy)[:, None], scipy.fft.rfftfreq(nx, dx))
         waves = (q > 0) & (power > 0)
-        require(waves.any(), "the heights are flat: contact is full at any load")
+        require(waves.any(), "the heights are flat: contact is full at any load", place="heights")
         q, power = q[waves], power[waves]
         band = np.rint(np.log(q / q.min()) / MERGED).astype(np.int64)
         sums, squares = np.bincount(band, power).astype(float), np.bincount(band, power * q**2).astype(float)
@@ -326,8 +334,10 @@ class Waves:
             for x, what in ((wavenumber, "wavenumber [rad/m]"), (power, "power [m^2]"))
         )
         if not (q.ndim == 1 and q.shape == m.shape and q.size and q[0] > 0 and (np.diff(q) > 0).all()):
-            raise ValueError("bands need increasing, positive wavenumbers and one power each")
-        require(np.isfinite(m) & (m > 0), "the power of every band must be positive and finite")
+            raise InputError("bands need increasing, positive wavenumbers and one power each")
+        require(
+            np.isfinite(m) & (m > 0), "the power of every band must be positive and finite", place="power"
+        )
         ends = np.sqrt(np.cumsum(q**2 * m))
         edges = np.union1d(graded(START * ends[0], ends[-1], 1.2), ends)
         x, weights = gauss(4)

@@ -205,7 +205,10 @@ def crossover_force(
     """
     h, zeta = _roughness(hurst, prefactor)
     require(
-        h < 2, "hurst must be below 2: at 2 roughness and sphere follow the same power law and never cross", h
+        h < 2,
+        "hurst must be below 2: at 2 roughness and sphere follow the same power law and never cross",
+        value=h,
+        place="hurst",
     )
     r, e = positive(radius, "radius [m]"), positive(modulus, "modulus [Pa]")
     height, size = positive(rms, "rms [m]"), positive(length, "length [m]")
@@ -279,7 +282,8 @@ def _roughness(hurst: ArrayLike, prefactor: ArrayLike | None) -> tuple[Array, Ar
     require(
         np.asarray(hurst) <= pohrt_popov.SMOOTH,
         "hurst must not exceed 2: the roughness is then one smooth crest, and no indenter r^H",
-        hurst,
+        value=hurst,
+        place="hurst",
     )
     zeta = natural if prefactor is None else positive(prefactor, "prefactor")
     return np.asarray(hurst, dtype=np.float64)[()], zeta

@@ -61,7 +61,9 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
     1.0
     """
     given = scalar(modes, "modes")
-    require(given >= 1 and given % 1 == 0, f"modes must be a positive whole number, not {modes}")
+    require(
+        given >= 1 and given % 1 == 0, f"modes must be a positive whole number, not {modes}", place="modes"
+    )
     n, h0 = int(given), float(positive(amplitude, "amplitude [m]"))
     name = f"{n} waves of independent phases" if n > 1 else "One cosine"
     if n == 1:

@@ -138,7 +138,12 @@ def small_force(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modul
     0.99
     """
     d, h0, scale = _given(depth, amplitude, length, modulus)
-    require(d <= 2 * h0, "depth must not exceed twice the amplitude: there the wave is flat, see force", d)
+    require(
+        d <= 2 * h0,
+        "depth must not exceed twice the amplitude: there the wave is flat, see force",
+        value=d,
+        place="depth",
+    )
     return 8 / (3 * np.pi) * scale * h0 * (d / (2 * h0)) ** 1.5
 
 

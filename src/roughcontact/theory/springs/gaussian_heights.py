@@ -55,7 +55,12 @@ def force(level: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLik
     39.8942
     """
     t = number(level, "level")
-    require(t > -np.inf, "level must be finite, or infinite above all heights, where nothing touches", t)
+    require(
+        t > -np.inf,
+        "level must be finite, or infinite above all heights, where nothing touches",
+        value=t,
+        place="level",
+    )
     return _scale(length, modulus) * positive(rms, "rms [m]") * _force(t)
 
 

@@ -238,8 +238,9 @@ def from_samples(depth: ArrayLike, density: ArrayLike, *, name: str = "Heights")
     require(
         z.ndim == 1 and z.shape == phi.shape and len(z) > 1,
         f"depth and density must be lists of one length, at least 2, not of shapes {z.shape} and {phi.shape}",
+        place="depth",
     )
-    require(np.diff(z) > 0, "depth must increase from sample to sample")
+    require(np.diff(z) > 0, "depth must increase from sample to sample", place="depth")
     once = PPoly(np.array([np.diff(phi) / np.diff(z), phi[:-1]]), z).antiderivative()
     twice = once.antiderivative()
     return HeightDistribution(name, partial(_sampled_fraction, once), partial(_sampled_excess, once, twice))
@@ -266,7 +267,12 @@ def stiffness_exponent(density_exponent: ArrayLike) -> Array:
     0.333333
     """
     beta = finite(density_exponent, "density_exponent")
-    require(beta > -1, "density_exponent must exceed -1: the density has no integral otherwise", beta)
+    require(
+        beta > -1,
+        "density_exponent must exceed -1: the density has no integral otherwise",
+        value=beta,
+        place="density_exponent",
+    )
     return (beta + 1) / (beta + 2)
 
 
@@ -294,6 +300,7 @@ def density_exponent(stiffness_exponent: ArrayLike) -> Array:
     require(
         (alpha > 0) & (alpha < 1),
         "stiffness_exponent must lie between 0 and 1; at 1 there is no highest peak",
+        place="stiffness_exponent",
     )
     return (2 * alpha - 1) / (1 - alpha)
 
@@ -321,7 +328,7 @@ def legacy_density_exponent(modes: ArrayLike) -> Array:
     0.0
     """
     n = positive(modes, "modes")
-    require(n >= 1, "modes must be at least 1", n)
+    require(n >= 1, "modes must be at least 1", value=n, place="modes")
     return (np.log2(n) - 1) / 2
 
 
@@ -383,7 +390,7 @@ def _integral(function: Callable[[float], float], low: float, high: float) -> fl
     value, error, *_ = quad(function, low, high, epsabs=0.0, epsrel=PRECISION / 100, limit=200, full_output=1)
     require(
         error <= PRECISION * abs(value),
-        f"the density cannot be integrated from {low:.6g} m to {high:.6g} m; name the depths where it jumps "
-        "or is singular in breaks",
+        f"the density cannot be integrated from {low:.6g} m to {high:.6g} m",
+        "name the depths where it jumps or is singular in breaks",
     )
     return float(value)

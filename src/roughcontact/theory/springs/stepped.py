@@ -66,11 +66,14 @@ class SteppedIndenter:
         positive(self.radius, "radius [m]")
         positive(self.height, "height [m]")
         require(
-            self.ratio > 1, f"ratio must exceed 1: each disc is wider than the one above it, not {self.ratio}"
+            self.ratio > 1,
+            f"ratio must exceed 1: each disc is wider than the one above it, not {self.ratio}",
+            place="ratio",
         )
         require(
             self.hurst >= 0,
             f"hurst must not be negative: the steps of wider discs are higher, not {self.hurst}",
+            place="hurst",
         )
 
     def radii(self, count: int) -> Array:

@@ -176,17 +176,21 @@ class Hierarchy:
         positive(self.amplitude, "amplitude [m]")
         positive(self.wavenumber, "wavenumber [rad/m]")
         require(
-            self.ratio > 1, f"ratio must exceed 1: each wave is shorter than the one before, not {self.ratio}"
+            self.ratio > 1,
+            f"ratio must exceed 1: each wave is shorter than the one before, not {self.ratio}",
+            place="ratio",
         )
         require(
             self.hurst > 0,
             "hurst must exceed 0: shorter waves would be as high as longer ones (eq. 4.48)",
-            self.hurst,
+            value=self.hurst,
+            place="hurst",
         )
         require(
             self.hurst < 2,
             "hurst must be below 2: shorter waves would be too flat to matter (eqs 4.50, 4.51)",
-            self.hurst,
+            value=self.hurst,
+            place="hurst",
         )
 
     def amplitudes(self, count: int) -> Array:
@@ -255,11 +259,13 @@ def _given(
     require(
         d <= 2 * h2,
         "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more",
-        d,
+        value=d,
+        place="depth",
     )
     require(
         2 * d <= h1,
         "depth must not exceed h1/2: contact would reach q1 |x| = 1, where the long wave is no parabola",
-        d,
+        value=d,
+        place="depth",
     )
     return d / (2 * h2), h1, q1, h2, positive(modulus, "modulus [Pa]")

@@ -72,6 +72,7 @@ class Cell:
             0 < self.hurst <= pohrt_popov.SMOOTH,
             f"the power law of a cell is known for Hurst exponents above 0 and at most 2, not {self.hurst}: "
             "below, no cell stands out; above, the exponent stays at 1/3",
+            place="hurst",
         )
         positive(self.rms, "the rms height [m]")
         positive(self.length, "the side of a cell [m]")
@@ -167,7 +168,9 @@ def law(
     """
     waves, nominal = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     fits = cell.length**2 <= nominal * (1 + 1e-9)
-    require(fits, f"a cell of side {cell.length} m is larger than the nominal area of {area} m^2")
+    require(
+        fits, f"a cell of side {cell.length} m is larger than the nominal area of {area} m^2", place="cell"
+    )
 
     stiffness = partial(_stiffness, cell, waves, modulus, nominal, gamma)
     stiffness(np.array([0.0]))  # bad numbers show themselves here, not in the first prediction

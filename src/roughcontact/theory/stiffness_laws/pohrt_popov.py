@@ -291,7 +291,8 @@ def scale_free_stiffness(force: ArrayLike, hurst: ArrayLike, theta: ArrayLike, m
     require(
         np.asarray(hurst) <= SMOOTH,
         "hurst must not exceed 2: one smooth crest carries the load, whose stiffness depends on the size",
-        hurst,
+        value=hurst,
+        place="hurst",
     )
     return e * zeta * (positive(force, "force [N]", zero=True) / (e * scale)) ** alpha
 
@@ -342,10 +343,14 @@ def _hurst(hurst: ArrayLike) -> Array:
     require(
         h > 0,
         "hurst must exceed 0: at 0 and below the shortest waves decide, and no exponent is independent of the "
-        "resolution; see height_distribution and gaussian_heights",
-        h,
+        "resolution",
+        "see height_distribution and gaussian_heights",
+        value=h,
+        place="hurst",
     )
-    require(h <= 3, "hurst must not exceed 3: no curve was compared with the law there", h)
+    require(
+        h <= 3, "hurst must not exceed 3: no curve was compared with the law there", value=h, place="hurst"
+    )
     return h
 
 

@@ -272,8 +272,9 @@ def _given(
     require(
         (f >= _lowest(h) * (1 - _ROUND)) & (f <= FORCE_LIMIT * (1 + _ROUND)),
         f"F/(E* h L) must lie between that at which k is {LEAST_STIFFNESS} E* L, 0.0074 at H = 0.25 and 0.0003 at "
-        f"H = 2.95, and {FORCE_LIMIT}: nothing was computed outside; compute the surface, or take pohrt_popov",
-        f,
+        f"H = 2.95, and {FORCE_LIMIT}: nothing was computed outside",
+        "compute the surface, or take pohrt_popov",
+        value=f,
     )
     return f, h, scale
 
@@ -285,7 +286,12 @@ def _scale(length: ArrayLike, modulus: ArrayLike) -> Array:
 def _hurst(hurst: ArrayLike) -> Array:
     h = number(hurst, "hurst")
     low, high = HURST_LIMITS
-    require((h >= low) & (h <= high), f"hurst must lie from {low} to {high}: nothing was computed outside", h)
+    require(
+        (h >= low) & (h <= high),
+        f"hurst must lie from {low} to {high}: nothing was computed outside",
+        value=h,
+        place="hurst",
+    )
     return h
 
 

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from roughcontact.errors import InputError
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.validation import Array, number, shown
 
@@ -47,9 +48,10 @@ def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
     if isinstance(loading, LoadingLaw):
         return loading
     if missing := [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]:
-        raise ValueError(
+        raise InputError(
             "a LoadingLaw, or a computed curve with force, depth and stiffness, is wanted, not "
-            f"{shown(loading)} without {', '.join(missing)}"
+            f"{shown(loading)} without {', '.join(missing)}",
+            place="loading",
         )
     force = np.atleast_1d(number(loading.force, "the forces of the curve [N]"))
     depth = np.atleast_1d(number(loading.depth, "the depths of the curve [m]"))
@@ -75,7 +77,7 @@ class LogCubic:
         right = (force > 0) & (values > 0) & np.isfinite(force) & np.isfinite(values)
         x, y = force[right], values[right]
         if len(x) < 2 or not (np.diff(x) > 0).all():
-            raise ValueError(
+            raise InputError(
                 f"a computed curve wants at least two points of strictly increasing force, not {len(x)} "
                 f"between {x.min(initial=np.inf):g} and {x.max(initial=0):g} N"
             )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughcontact.errors import InputError
 from roughcontact.validation import Array, fitting, positive
 
 __all__ = ["Product", "checked", "solve"]
@@ -83,13 +84,13 @@ def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[s
     exponents = np.array([products[name].exponents for name in names], dtype=np.float64)
     wanted = len(next(iter(products.values())).exponents)
     if len(names) != wanted:
-        raise ValueError(
+        raise InputError(
             f"{wanted} of {', '.join(products)} determine the rest, not {len(names)}: {', '.join(names) or 'none'}"
         )
     if np.linalg.matrix_rank(exponents) < wanted:
-        raise ValueError(
-            f"{', '.join(names)} depend on each other and leave the rest open: "
-            f"replace one of them by another of {', '.join(products)}"
+        raise InputError(
+            f"{', '.join(names)} depend on each other and leave the rest open",
+            f"replace one of them by another of {', '.join(products)}",
         )
     inverse = np.asarray(np.linalg.inv(exponents), dtype=np.float64)
     ratios = [known[name] / products[name].factor for name in names]

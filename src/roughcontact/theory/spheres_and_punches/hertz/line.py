@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import lambertw
 
+from roughcontact.errors import InputError, about
 from roughcontact.theory.tools.products import Product, checked, solve
 from roughcontact.validation import Array, numeric, positive, require
 
@@ -114,9 +115,9 @@ class LineContact:
     def _logarithm(self) -> Array:
         """Return ln(2L/a)."""
         if self.reference_length is None:
-            raise ValueError(
-                "the depth of a line contact grows with the size of the body: give a reference_length [m], "
-                "the distance at which the displacement is zero"
+            raise InputError(
+                "the depth of a line contact grows with the size of the body",
+                "give a reference_length [m], the distance at which the displacement is zero",
             )
         return np.log(2 * self.reference_length / self.half_width)
 
@@ -177,6 +178,7 @@ def line(
             2 * reference_length > contact.half_width,
             f"reference_length must exceed a quarter of the contact's width, not {reference_length} m: "
             "below, more force would mean less depth",
+            place="reference_length",
         )
     return contact
 
@@ -184,7 +186,7 @@ def line(
 def _replaced(known: dict[str, Array], depth: Array, reference_length: float | None) -> dict[str, Array]:
     """Return what stands for the depth: its scale F'/(pi E*), or the half width."""
     if reference_length is None:
-        raise ValueError("the depth of a line contact means nothing without a reference_length [m]")
+        raise about("the depth", "of a line contact means nothing without a reference_length [m]")
     if known.keys() == {"force", "max_pressure"}:
         half_width = 2 * known["force"] / (np.pi * known["max_pressure"])
     elif "half_width" in known:

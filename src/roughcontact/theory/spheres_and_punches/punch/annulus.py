@@ -44,7 +44,11 @@ def annulus(modulus: ArrayLike, outer_radius: ArrayLike, inner_radius: ArrayLike
     """
     a = positive(outer_radius, "outer_radius [m]")
     b = positive(inner_radius, "inner_radius [m]", zero=True)
-    require(b < a, "inner_radius must be below outer_radius: no contact is left between them")
+    require(
+        b < a,
+        "inner_radius must be below outer_radius: no contact is left between them",
+        place="inner_radius",
+    )
     ratio = np.vectorize(_over_disc, otypes=[np.float64])(b / a, (a - b) / a)
     value: Array = (2 * positive(modulus, "modulus [Pa]") * a * ratio)[()]
     return value

@@ -202,6 +202,7 @@ def strip(modulus: ArrayLike, half_width: ArrayLike, reference_length: ArrayLike
         2 * length > a,
         "reference_length must exceed a quarter of the strip's width: nearer, the displacement by a "
         "line load is counted as zero inside the strip itself, and the stiffness is not positive",
+        place="reference_length",
     )
     value: Array = np.pi * positive(modulus, "modulus [Pa]") / (2 * np.log(2 * length / a))
     return value

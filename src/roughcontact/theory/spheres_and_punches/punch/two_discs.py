@@ -55,6 +55,7 @@ def two_discs(modulus: ArrayLike, radius: ArrayLike, spacing: ArrayLike) -> Arra
     require(
         s >= 3 * a,
         "spacing must be at least three radii: the pressures of nearer discs need polynomials of higher degree",
+        place="spacing",
     )
     value: Array = 2 * positive(modulus, "modulus [Pa]") * a * np.vectorize(_force, otypes=[float])(s / a)
     return value

@@ -1,0 +1,35 @@
+"""Warnings for a reader of an adhesive state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from roughcontact.cli.messages import note
+from roughcontact.cli.report import quantity
+
+if TYPE_CHECKING:
+    from roughcontact.adhesion.attraction import Adhesion
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["note_long_range", "note_unresolved"]
+
+
+def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
+    """Say on standard error if the attraction reaches beyond the heights of a surface: a forgotten unit."""
+    import numpy as np
+
+    span = float(np.nanmax(surface.heights) - np.nanmin(surface.heights))
+    if adhesion.range > span > 0:
+        note(
+            f"the range of {quantity('adhesion_range', adhesion.range)} is longer than the surface is high, "
+            f"{quantity('depth', span)} from lowest to highest: a --range without a unit is in metres"
+        )
+
+
+def note_unresolved(unresolved: bool) -> None:
+    """Say on standard error if the grid does not resolve the attraction."""
+    if unresolved:
+        note(
+            "unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
+            "state; what jumps and sticks here is the lattice, not the body"
+        )

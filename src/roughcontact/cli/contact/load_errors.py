@@ -1,0 +1,84 @@
+"""An error on every number of a load, and what it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from roughcontact.cli.messages import note
+from roughcontact.cli.report import print_facts, print_table, quantity
+from roughcontact.errors import placed
+from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.recipe.recipe_fields import value_of
+
+if TYPE_CHECKING:
+    from roughcontact.contact.solution import Solution
+    from roughcontact.evaluation.error_budget import ErrorBudget
+    from roughcontact.recipe.outputs import Errors
+    from roughcontact.surface.surface import Surface
+
+__all__ = ["LoadErrors", "errors_of", "require_errors"]
+
+_PATCH = (
+    *("depth", "force", "stiffness", "interfacial_stiffness", "contact_area", "corrected_contact_area"),
+    "elastic_energy",
+)
+_JOINT = ("interfacial_stiffness_per_area", "contact_fraction", "corrected_contact_fraction")
+
+
+@dataclass(frozen=True, slots=True)
+class LoadErrors:
+    """The errors of one load."""
+
+    force: float
+    budget: ErrorBudget
+
+    def to_record(self) -> dict[str, Any]:
+        """Return them as plain values."""
+        return {"force": self.force, **self.budget.to_record()}
+
+    def tell(self, units: Mapping[str, Scale], *, patch: bool, joint: bool) -> None:
+        """Print the numbers of a patch, those of a joint, or both, with their errors, and what each source is."""
+        names = (*(_PATCH if patch else ()), *(_JOINT if joint else ()), "mean_gap")
+
+        def in_unit(name: str, value: float) -> tuple[float, str]:
+            suits = units.get(name) or scale(abs(value), self.budget[name].unit)
+            return suits.factor, suits.unit
+
+        typer.echo(f"\nerrors at {quantity('force', self.force)}")
+        print_table(*self.budget.table(names, in_unit))
+        print_facts([(source.name, f"{source.kind}: {source.how}") for source in self.budget.sources])
+        for line in self.budget.notes:
+            note(line)
+
+
+def require_errors(asked: Errors, surface: Surface) -> None:
+    """Refuse a surface or a shortest wave that errors are not known for, before it is pressed."""
+    if not asked.errors:
+        return
+    from roughcontact.evaluation.error_sources import checked_cutoff
+
+    with placed("errors.shortest_wave"):
+        checked_cutoff(surface, value_of(asked, "shortest_wave"))
+
+
+def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors, ...]:
+    """Return the errors of loads, if they are wanted; a note says where there are none, and why."""
+    if not asked.errors:
+        return ()
+    from roughcontact.contact.convergence import ConvergenceError
+    from roughcontact.evaluation.error_sources import error_budget
+
+    found = []
+    for solution in solutions:
+        at = quantity("force", solution.force)
+        try:
+            budget = error_budget(solution, short_cutoff=value_of(asked, "shortest_wave"))
+        except ConvergenceError as error:
+            note(f"no errors at {at}: {error}")
+            continue
+        found.append(LoadErrors(solution.force, budget))
+    return tuple(found)

@@ -1,0 +1,81 @@
+"""Loads of a curve that its folder holds already: they are not computed again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.cli.messages import note
+from roughcontact.version import __version__
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from roughcontact.contact.curve import Curve
+    from roughcontact.recipe.elastic_jobs import CurveJob
+    from roughcontact.solver.loads import Loads
+
+__all__ = ["StoredLoads", "stored_loads"]
+
+# Parts of a recipe that do not change what is computed under a load.
+_BESIDE = {"loads", "theories", "errors", "conduction", "tables", "units"}
+
+
+@dataclass(frozen=True, slots=True)
+class StoredLoads:
+    """What a folder holds of the loads that are wanted.
+
+    Parameters
+    ----------
+    curve : Curve
+        With these loads alone.
+    values : array, shape (n,)
+        The loads.
+    notes : tuple of str
+        On the last of them.
+    """
+
+    curve: Curve
+    values: npt.NDArray[np.float64]
+    notes: tuple[str, ...]
+
+
+def stored_loads(
+    job: CurveJob, recipe: Mapping[str, Any], loads: Loads, out: Path | None
+) -> StoredLoads | None:
+    """Return the wanted `loads` that a folder holds of the same contact, by this version; None where it holds none.
+
+    Under a hardness each state depends on the loads before it, and errors need the states themselves: then nothing is
+    taken from a folder.
+    """
+    from roughcontact.contact.join_curves import part_of
+    from roughcontact.files.file_errors import ReadError
+    from roughcontact.files.read_curve import read_curve
+
+    if out is None or job.plastic.hardness or job.plastic.loop or job.plastic.flow or job.errors.errors:
+        return None
+    try:
+        record = json.loads((out / "curve.json").read_text(encoding="utf-8"))
+        curve = read_curve(out / "curve.nc")
+    except (OSError, ValueError, ReadError):  # no curve, or a damaged one, which is replaced
+        return None
+    [(kind, stored)] = record.get("loads", {"": []}).items()
+    same = _contact(record.get("recipe", {})) == _contact(recipe) and kind == f"{loads.kind}s"
+    version = record.get("provenance", {}).get("source")
+    chosen = np.isin(stored, loads.values)
+    if not same or version != f"roughcontact {__version__}" or len(stored) != len(curve) or not chosen.any():
+        return None
+    note(
+        f"{int(chosen.sum())} of {loads.values.size} loads are in {out} already, of the same recipe: they are kept"
+    )
+    notes = tuple(line for line in record["notes"] if not line.startswith("stopped"))
+    return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)
+
+
+def _contact(recipe: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in recipe.items() if name not in _BESIDE}

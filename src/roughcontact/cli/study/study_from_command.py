@@ -1,0 +1,84 @@
+"""The command ``study from``: a study file made of a job that works."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.option_groups import argument, option
+from roughcontact.cli.options import JSON
+from roughcontact.cli.report import emit, print_facts
+
+__all__ = ["EXAMPLES", "from_"]
+
+EXAMPLES = {
+    "from": """
+roughcontact study from job.toml --vary preparation.level=plane,quadratic --out levels.toml
+roughcontact study from result/curve.json --vary source.hurst=0.6,0.8 --samples 10 --out hurst.toml
+roughcontact study from job.toml --vary "bodies.materials=steel,steel;steel,copper" --out metals.toml
+"""
+}
+
+SOURCE = argument("A job, or a result that holds its recipe.", "JOB.toml|RESULT.json")
+VARY = option(
+    "A field of the job and its values, which commas separate, or semicolons where a value holds commas. May be given "
+    "again, for another field.",
+    "FIELD=VALUE,...",
+    default=(),
+)
+SAMPLES = option("Samples of every combination; each draws a surface of its own.", "N", default=1, min=1)
+OUT = option("Study file to write.", "STUDY.toml", default=...)
+_FLAGS = {"true": True, "false": False}
+
+
+def from_(
+    source: Path = SOURCE,
+    *,
+    vary: list[str] = VARY,
+    samples: int = SAMPLES,
+    out: Path = OUT,
+    json: bool = JSON,
+) -> None:
+    """Make a study of a job that works: any of its fields may vary, and what is random is drawn anew."""
+    with reported(source, out, as_json=json):
+        from roughcontact.files.aside import require_target
+        from roughcontact.recipe.written import read_job
+        from roughcontact.study.job_study import is_random, job_study
+
+        require_target(out)
+        job = read_job(source)
+        study = job_study(job, _varied(vary), samples=samples, path=out)
+        study.write(out)
+        combinations = len(study.combinations())
+        if json:
+            emit(
+                {"command": "study from", "file": str(out), "combinations": combinations, "samples": samples}
+            )
+        else:
+            print_facts([("file", str(out)), ("cases", _counted(combinations, samples))])
+        if is_random(job):
+            note("each sample draws random phases of its own, from the seed of the study")
+        note(f"to compute them: roughcontact study run {out}")
+
+
+def _counted(combinations: int, samples: int) -> str:
+    return f"{combinations * samples} ({combinations} combinations, {samples} samples of each)"
+
+
+def _varied(texts: Sequence[str]) -> dict[str, list[Any]]:
+    """Return the values of each field that varies."""
+    found: dict[str, list[Any]] = {}
+    for text in texts:
+        name, _, values = text.partition("=")
+        name, between = name.strip(), ";" if ";" in values else ","
+        parts = [part.strip() for part in values.split(between) if part.strip()]
+        if not name or not parts:
+            raise UsageError(
+                f"{text!r} names no field and values", "write preparation.level=plane,quadratic", "--vary"
+            )
+        if name in found:
+            raise UsageError(f"{name} is given twice", "name all of its values in one --vary", "--vary")
+        found[name] = [_FLAGS.get(part, part) for part in parts]
+    return found

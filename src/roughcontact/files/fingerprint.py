@@ -1,0 +1,33 @@
+"""The SHA-256 of a file."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+from roughcontact.files.file_errors import ReadError
+
+__all__ = ["fingerprint"]
+
+
+def fingerprint(path: Path) -> str:
+    """Return the SHA-256 of a file.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read.
+    """
+    try:
+        stands = path.stat()
+        return _digest(path, stands.st_mtime_ns, stands.st_size)
+    except OSError as error:
+        remedy = "give the name of a file that is there"
+        raise ReadError(str(path), error.strerror or str(error), remedy) from error
+
+
+@lru_cache(maxsize=1024)  # of a study, each combination names the same files
+def _digest(path: Path, changed: int, size: int) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,0 +1,72 @@
+"""The forms of a page: what is known of the fields of each part of a job, as plain values."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, Field, fields, is_dataclass
+from typing import Any, get_type_hints
+
+from roughcontact.recipe.jobs import JOBS
+from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Units
+from roughcontact.recipe.recipe_fields import Spec, specs
+from roughcontact.recipe.source import SOURCES, Combined, InPython
+
+__all__ = ["forms"]
+
+_LEFT_OUT = ("file", "profile")  # a file is dropped, and what a page presses is a map
+_WITHOUT = (Errors, PressureTheory, InterfaceTables, Units)  # parts whose answers a page does not show
+
+
+def forms() -> dict[str, Any]:
+    """Return the kinds of sources and the jobs by name, of each the forms of its parts; and what jobs are about.
+
+    A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
+    (``at_most``) is given.
+    """
+    return {
+        "sources": {
+            source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)
+        },
+        "jobs": {
+            name: {part: _form(kind) for part, kind in _parts(job).items() if not issubclass(kind, _WITHOUT)}
+            for name, job in JOBS.items()
+        },
+        "about": {name: str(job.__doc__) for name, job in JOBS.items()},
+    }
+
+
+def _parts(job: type[Any]) -> dict[str, type[Any]]:
+    """Return the parts of a job that have one form."""
+    hints = get_type_hints(job)
+    return {each.name: hints[each.name] for each in fields(job) if is_dataclass(hints[each.name])}
+
+
+def _form(part: type[Any]) -> dict[str, Any]:
+    hints = get_type_hints(part)
+    return {
+        "title": part.TITLE,
+        "one_of": getattr(part, "ONE_OF", ()),
+        "at_most": getattr(part, "AT_MOST", ()),
+        "fields": [
+            _field(each, spec, hints[each.name])
+            for each, spec in specs(part)
+            if spec.option and each.name not in _LEFT_OUT
+        ],
+    }
+
+
+def _field(each: Field[Any], spec: Spec, kind: Any) -> dict[str, Any]:
+    """Return what is known of a field; its kind is how it is filled in."""
+    kinds = {bool: "flag", bool | None: "truth", tuple[str, ...]: "texts"}
+    return {
+        "name": each.name,
+        "label": each.name.replace("_", " ").replace("2", " 2").capitalize(),
+        "help": spec.help,
+        "example": spec.example or "",
+        "kind": kinds.get(kind, "choice" if spec.choices else "text"),
+        "choices": spec.choices,
+        "names": spec.names,
+        "needs": spec.needs,
+        "everyday": spec.everyday,
+        "default": None if each.default is MISSING else each.default,
+        "required": each.default is MISSING,
+    }

@@ -1,0 +1,161 @@
+"""States under one load after the other, as they are computed: of a curve, of loops, of surfaces that stick."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.errors import InputError, within
+from roughcontact.recipe.library_calls import Call, perform
+
+if TYPE_CHECKING:
+    from roughcontact.solver.loads import Loads
+
+__all__ = ["Followed", "collected", "follow", "up_to_path"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Followed:
+    """A path of loads.
+
+    Parameters
+    ----------
+    states : iterator
+        The states, each computed when it is asked for.
+    loads : Loads
+        What is prescribed, one after the other; a path may end before them.
+    collect : function
+        Turns the states into the answer.
+    branches : sequence of str
+        The branch of each load; none where there is only one.
+    count : int or None
+        How many states there are, if that is known.
+    notes : tuple of str
+        What a reader should know of the loads.
+    parts : bool
+        Whether the first states alone are an answer.
+    """
+
+    states: Iterator[Any]
+    loads: Loads
+    collect: Callable[[Iterable[Any]], Any]
+    branches: Sequence[str] = ()
+    count: int | None = None
+    notes: tuple[str, ...] = ()
+    parts: bool = True
+
+
+def collected(followed: Followed) -> Any:
+    """Return the answer of a path."""
+    return followed.collect(followed.states)
+
+
+def follow(calls: Iterable[Call], known: dict[str, Any]) -> Followed:
+    """Perform calls up to the one that follows loads, and return the states that it follows."""
+    *before, last = up_to_path(calls)
+    if last.function not in _FOLLOWED:
+        raise InputError(
+            "a page shows no single state of surfaces that stick",
+            "take an adhesion curve that ends there",
+            "job",
+        )
+    for call in before:
+        perform(call, known)
+    with within(last.place):
+        given, named = last.arguments(known)
+        return _FOLLOWED[last.function](*given, **named)
+
+
+def up_to_path(calls: Iterable[Call]) -> Iterator[Call]:
+    """Yield calls up to the one that follows loads."""
+    for call in calls:
+        yield call
+        if call.function in _FOLLOWED:
+            return
+
+
+def _curve(surface: Any, modulus: float, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.contact.curve import collect
+
+    loads, notes = _rising(surface, modulus, named)
+    states = rc.loading_path(surface, modulus, **named)
+    return Followed(states, loads, collect, count=len(loads.values), notes=notes)
+
+
+def _loop(surface: Any, modulus: float, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.contact.loop import BRANCHES, collect_loop, loads_of_loop
+
+    rising, notes = _rising(surface, modulus, named)
+    loads, count = loads_of_loop(rising), len(rising.values)
+    named[f"{loads.kind}s"] = loads.values
+    states = rc.loading_path(surface, modulus, **named)
+    branches = [name for name in BRANCHES for _ in range(count)]
+    return Followed(
+        states, loads, lambda path: collect_loop(iter(path), count), branches, 3 * count, notes, False
+    )
+
+
+def _rising(surface: Any, modulus: float, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
+    """Return the loads that are named; otherwise name forces that suit the surface, with what is known of them."""
+    import roughcontact as rc
+    from roughcontact.solver.loads import Loads
+
+    names = ("forces", "pressures", "depths")
+    if (loads := Loads.given(**{name: named.get(name) for name in names})) is not None:
+        return loads, ()
+    found = rc.load_range(surface, modulus, operator=named.get("operator"), hardness=named.get("hardness"))
+    named["forces"] = found.forces
+    return Loads("force", found.forces), found.notes
+
+
+def _adhesive_curve(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.adhesion.adhesive_curve import collect_states
+    from roughcontact.solver.loads import Loads
+
+    loads = Loads.of(**{name: values for name, values in named.items() if name.endswith("s")})
+    states = rc.adhesive_path(surface, modulus, adhesion, **named)
+    return Followed(states, loads, lambda path: collect_states(path, loads), _ways(loads), len(loads.values))
+
+
+def _adhesive_loop(
+    surface: Any, modulus: float, adhesion: Any, *, depth: float, points: int, **named: Any
+) -> Followed:
+    import roughcontact as rc
+    from roughcontact.adhesion.adhesive_curve import collect_states
+    from roughcontact.adhesion.adhesive_loop import loop_depths, until_off
+    from roughcontact.solver.loads import Loads
+
+    depths = loop_depths(adhesion, depth, points)
+    states = until_off(rc.adhesive_path(surface, modulus, adhesion, depths=depths, **named), points)
+    loads = Loads("depth", depths[1:])
+    return Followed(states, loads, lambda path: collect_states(path, loads), _ways(loads))
+
+
+def _ways(loads: Loads) -> list[str]:
+    from roughcontact.adhesion.adhesive_curve import approaches
+
+    return ["approach" if grows else "retreat" for grows in approaches(loads.approach)]
+
+
+def _detachment(solution: Any, work: float, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.adhesion.detachment_curve import collect_detachments
+    from roughcontact.solver.loads import Loads
+
+    loads = Loads.given(**named)
+    states = rc.detachment_path(solution, work, **named)
+    shown = Loads.of(depth=0.0) if loads is None else loads
+    return Followed(states, shown, lambda path: collect_detachments(path, loads), count=len(shown.values))
+
+
+_FOLLOWED: dict[str, Callable[..., Followed]] = {
+    "rc.loading_curve": _curve,
+    "rc.loading_loop": _loop,
+    "rc.adhesive_curve": _adhesive_curve,
+    "rc.adhesive_loop": _adhesive_loop,
+    "rc.detachment_curve": _detachment,
+}

@@ -1,0 +1,154 @@
+"""What is shown and written of curves of every kind: of rising loads, of a loop, of surfaces that stick."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from roughcontact.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+    from roughcontact.adhesion.detachment_curve import DetachmentCurve
+    from roughcontact.contact.curve import Curve
+    from roughcontact.contact.loop import Loop
+
+__all__ = ["ShownCurve", "shown_curve"]
+
+_REMEDY = "take loads that suit the surface, or a finer map"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShownCurve:
+    """A curve as it is shown.
+
+    Parameters
+    ----------
+    curve : Curve, Loop, AdhesiveCurve or DetachmentCurve
+    facts : list of (str, str)
+        What is worth telling of it as a whole.
+    figure : function
+        Draws it; of a curve of rising loads, which has theories, None.
+    notes : list of str
+    more : dict
+        What its chart has besides the points: a power law, or lines of force against depth.
+    heights : Surface, RadialProfile or None
+        The surface after the loads, where it has flowed.
+    """
+
+    curve: Any
+    facts: list[tuple[str, str]]
+    figure: Callable[[], Figure] | None = None
+    notes: Sequence[str] = ()
+    more: dict[str, Any] = field(default_factory=dict)
+    heights: Any = None
+
+    def shown(self) -> dict[str, Any]:
+        """Return what a page shows of it, as plain values."""
+        return {"facts": self.facts, "notes": list(self.notes), **self.more}
+
+
+def shown_curve(found: Any) -> ShownCurve:
+    """Return what is shown of a curve of any kind."""
+    return _SHOWN[type(found).__name__](found)
+
+
+def _of_curve(curve: Curve) -> ShownCurve:
+    from roughcontact.plot.facts import bend_words, curve_facts
+
+    try:
+        law = curve.fit()
+    except InputError as error:
+        return ShownCurve(
+            curve, curve_facts(curve, None), notes=[f"No power law: {error.message}: {_REMEDY}."]
+        )
+    inside = (curve.force >= law.window[0]) & (curve.force <= law.window[1])
+    force = curve.force[inside]
+    fit = {
+        "exponent": float(law.exponent),
+        "force": force.tolist(),
+        "stiffness": law.stiffness(force).tolist(),
+    }
+    notes = [] if law.straight else [f"There is {bend_words(law)}."]
+    return ShownCurve(curve, curve_facts(curve, law), notes=notes, more={"fit": fit})
+
+
+def _of_loop(loop: Loop) -> ShownCurve:
+    from roughcontact.plot.facts import loop_facts
+    from roughcontact.plot.loops import loop_figure
+
+    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), heights=loop.flattened)
+
+
+def _of_path(path: AdhesiveCurve) -> ShownCurve:
+    from roughcontact.plot.adhesive_facts import adhesive_curve_facts, law_facts
+    from roughcontact.plot.jumps import jump_figure, pieces_of
+
+    lines = [
+        _line(("retreat", "approach")[way], *piece) for way in (True, False) for piece in pieces_of(path, way)
+    ]
+    lines += [
+        _line("jump", (jump.depth, jump.depth_after), (jump.force_before, jump.force_after))
+        for jump in path.jumps
+        if math.isfinite(jump.depth_after)
+    ]
+    if path.pull_off_force > 0:
+        lines.append(_level(path))
+    notes = []
+    if path.unresolved:
+        notes.append(
+            "Unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
+            "state."
+        )
+    if path.ambiguous:
+        notes.append("A jump is ambiguous: two integrations of the flow after it ended in different states.")
+    facts = [*law_facts(path.adhesion, path.modulus, path.spacing), *adhesive_curve_facts(path)]
+    return ShownCurve(path, facts, lambda: jump_figure(path), notes, {"lines": lines})
+
+
+def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
+    from roughcontact.plot.detachment_plot import detachment_facts, detachment_force, line_of
+
+    def drawn() -> Figure:
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(5.6, 4.2), layout="constrained")
+        detachment_force(curve, figure.subplots())
+        return figure
+
+    lines = [_line("retreat", *line_of(curve).T)]
+    if curve.pull_off_force > 0:
+        lines.append(_level(curve, lines[0]["x"]))
+    facts = [(name, value) for name, value in detachment_facts(curve) if name != "note"]
+    return ShownCurve(curve, facts, drawn, curve.notes, {"lines": lines})
+
+
+_SHOWN: dict[str, Callable[[Any], ShownCurve]] = {
+    "Curve": _of_curve,
+    "Loop": _of_loop,
+    "AdhesiveCurve": _of_path,
+    "DetachmentCurve": _of_detachment,
+}
+
+
+def _line(label: str, depth: Iterable[float], force: Iterable[float]) -> dict[str, Any]:
+    """Return a line of a chart, which has one value a place: depths that are equal are put a rounding apart."""
+    places: list[float] = []
+    for each in map(float, depth):
+        while each in places[-64:]:
+            each = math.nextafter(each, -math.inf)
+        places.append(each)
+    return {"label": label, "x": places, "y": [float(each) for each in force]}
+
+
+def _level(curve: AdhesiveCurve | DetachmentCurve, depth: Sequence[float] = ()) -> dict[str, Any]:
+    """Return the level of the pull-off force across the depths."""
+    finite = np.array([*depth, *curve.depth[np.isfinite(curve.depth)]])
+    ends = (float(finite.min()), float(finite.max()))
+    return _line("pull-off force", ends, (-curve.pull_off_force, -curve.pull_off_force))

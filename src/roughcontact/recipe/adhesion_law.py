@@ -1,0 +1,68 @@
+"""What attracts the two bodies across a gap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from roughcontact.files.quantity import ENERGY_PER_AREA, LENGTH
+from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.texts import Amount, Choice
+
+__all__ = ["AdhesionLaw", "Sticking"]
+
+LAWS = ("exponential", "dugdale")  # those of `adhesion.attraction`, which needs NumPy
+_WORK = described(
+    "Work of adhesion: the energy that parts a unit area.",
+    "50mJ/m^2",
+    read=Amount(ENERGY_PER_AREA, "the work of adhesion"),
+    default=...,
+    everyday=True,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sticking:
+    """The energy of sticking, by an attraction without a range."""
+
+    TITLE: ClassVar = "Adhesion"
+    work: str = _WORK
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AdhesionLaw:
+    """The attraction across a gap."""
+
+    TITLE: ClassVar = "Adhesion"
+    work: str = _WORK
+    range: str = described(
+        "Length over which the attraction falls with the gap; by Dugdale's law the gap up to which it acts.",
+        "20nm",
+        read=Amount(LENGTH, "the range of the attraction"),
+        default=...,
+        everyday=True,
+    )
+    law: str = described(
+        "How the attraction falls with the gap.",
+        read=Choice(LAWS),
+        default="exponential",
+        everyday=True,
+    )
+    allow_unresolved: bool = described(
+        "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",
+        default=False,
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def calls(self) -> Iterator[Call]:
+        """Yield the call that makes the law."""
+        given = (value_of(self, "work"), value_of(self, "range"), self.law)
+        named = {"allow_unresolved": True} if self.allow_unresolved else {}
+        yield Call("rc.Adhesion", given, named, result="adhesion", place="adhesion")

@@ -1,0 +1,158 @@
+"""The two bodies: their elastic constants, the hardness of the softer one, and what they conduct."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from roughcontact.errors import InputError
+from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
+from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, PureNumber, known_material
+
+__all__ = ["Bodies", "Conduction", "hardness_of"]
+
+_YOUNG = Modulus("Young's modulus")
+_POISSON = PureNumber(-0.99, 0.5, "Poisson's ratio", "0.3")
+
+
+def _pair_of_materials(text: str) -> tuple[str, str]:
+    """Return the names of two materials, of which one may be rigid."""
+    names = [part.strip() for part in text.split(",")]
+    if len(names) != 2 or not all(names):
+        raise InputError(
+            f"{text!r} does not name two bodies",
+            "name both, such as steel,aluminium or steel,steel or steel,rigid",
+        )
+    for name in names:
+        if name.lower() != RIGID and known_material(name) is None:
+            raise InputError(f"{name!r} is no name", "give a number of yours as `young` or `modulus`")
+    one, other = map(str.lower, names)
+    if one == other == RIGID:
+        raise InputError("one of the two bodies must be elastic", "name a material, such as steel,rigid")
+    return one, other
+
+
+def hardness_of(text: str) -> Call | float:
+    """Return a hardness [Pa], or the call that looks it up."""
+    if (material := known_material(text)) is not None:
+        return Call("rc.handbook", (material.name,), attribute="hardness")
+    return Modulus("a hardness")(text)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bodies:
+    """Two half-spaces: by a reduced modulus, by the names of materials, or by Young's moduli and Poisson's ratios."""
+
+    TITLE: ClassVar = "The two bodies"
+    ONE_OF: ClassVar = ("modulus", "materials", "young")
+    modulus: str | None = described(
+        "Reduced modulus E*.", "110GPa", read=Modulus("the reduced modulus"), everyday=True
+    )
+    materials: str | None = described(
+        f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",
+        "steel,aluminium",
+        read=_pair_of_materials,
+        everyday=True,
+        names=(*METALS, RIGID),
+    )
+    young: str | None = described("Young's modulus.", "210GPa", read=_YOUNG, everyday=True)
+    poisson: str | None = described("Poisson's ratio.", "0.3", read=_POISSON, needs="young", everyday=True)
+    young2: str | None = described(
+        "Young's modulus of the other body (default: rigid).", "70GPa", read=_YOUNG, needs="young"
+    )
+    poisson2: str | None = described("Poisson's ratio of the other.", "0.33", read=_POISSON, needs="young2")
+
+    def __post_init__(self) -> None:
+        check(self)
+        for young, poisson in (("young", "poisson"), ("young2", "poisson2")):
+            if getattr(self, young) is not None and getattr(self, poisson) is None:
+                raise InputError(
+                    f"`{young}` is given without `{poisson}`", f"give `{poisson}`, such as 0.3", poisson
+                )
+
+    def calls(self) -> Iterator[Call]:
+        """Yield the call that gives the reduced modulus."""
+        if self.modulus is not None:
+            solids: list[Any] = [value_of(self, "modulus")]
+        elif self.materials is not None:
+            names = [name for name in value_of(self, "materials") if name != RIGID]
+            solids = [Call("rc.handbook", (name,), attribute="solid") for name in names]
+        else:
+            pairs = [("young", "poisson"), *([("young2", "poisson2")] if self.young2 is not None else [])]
+            solids = [Call("rc.Solid", tuple(value_of(self, name) for name in pair)) for pair in pairs]
+        function = "float" if self.modulus is not None else "rc.reduced_modulus"
+        yield Call(function, tuple(solids), result="modulus", place="bodies")
+
+    @property
+    def softer(self) -> str | None:
+        """The name of the softer of two named materials; None where they are not named."""
+        if self.materials is None:
+            return None
+        from roughcontact.materials import handbook
+
+        names = [name for name in value_of(self, "materials") if name != RIGID]
+        return str(min(names, key=lambda name: handbook(name).hardness))
+
+
+def _of_both(kind: Kind, name: str) -> Callable[[str], tuple[Call | float, Call | float]]:
+    """Return a reader of a property of both bodies: numbers with units or names of materials, or one for both."""
+
+    def read(text: str) -> tuple[Call | float, Call | float]:
+        parts = [part for part in text.split(",") if part.strip()]
+        if len(parts) not in (1, 2):
+            raise InputError(
+                f"{text!r} are {len(parts)} values, of two bodies",
+                f"give one for both or two, such as {kind.example},{kind.example}, or names such as steel,aluminium",
+            )
+        amount = Amount(kind, positive=False, zero=True)
+        values: list[Call | float] = [
+            amount(part)
+            if (material := known_material(part)) is None
+            else Call("rc.handbook", (material.name,), attribute=name)
+            for part in parts
+        ]
+        if values[0] == values[-1] == 0:
+            raise InputError(f"both bodies have the {name} 0", f"give one such as {kind.example}")
+        return values[0], values[-1]
+
+    return read
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conduction:
+    """How well the two bodies conduct."""
+
+    TITLE: ClassVar = "Conduction"
+    resistivity: str | None = described(
+        "Electrical resistivity of both bodies, or of one and the other, as numbers or names of materials such as "
+        "copper,gold: gives the resistance of the contact.",
+        "17nohm*m[,...]",
+        read=_of_both(RESISTIVITY, "resistivity"),
+        names=METALS,
+    )
+    conductivity: str | None = described(
+        "Thermal conductivity of both bodies, likewise.",
+        "400W/m/K[,...]",
+        read=_of_both(CONDUCTIVITY, "conductivity"),
+        names=METALS,
+    )
+    of: str = described(
+        "Conductance and resistance of the interface alone, per area, or the total of this patch between two "
+        "half-spaces, its spreading resistance included.",
+        read=Choice(("interface", "total")),
+        default="interface",
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def named(self) -> dict[str, Any]:
+        """Return the arguments of `roughcontact.conductance` by name; none where nothing conducts."""
+        pairs = {
+            "resistivities": value_of(self, "resistivity"),
+            "conductivities": value_of(self, "conductivity"),
+        }
+        return {name: pair for name, pair in pairs.items() if pair is not None}

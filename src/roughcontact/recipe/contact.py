@@ -1,0 +1,57 @@
+"""How heights are pressed, whatever by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.texts import Choice, PureNumber
+
+__all__ = ["Contact", "pressed"]
+
+_TOLERANCE = "1e-8"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contact:
+    """How heights are pressed, and how well the conditions of contact must be met."""
+
+    TITLE: ClassVar = "Contact"
+    profile: str | None = described(
+        "A profile is pressed as a line contact, nothing changing across it (forces per length, such as 10N/mm), or "
+        "on a Winkler foundation, the springs of the method of dimensionality reduction. To be named: the two differ.",
+        read=Choice(("line", "winkler")),
+        needs_whole=True,
+    )
+    tolerance: str = described(
+        "Largest residual of the contact conditions: the certificate.",
+        "1e-8",
+        read=PureNumber(1e-14, 1e-2, "the tolerance", "1e-8", ends=False),
+        default=_TOLERANCE,
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def calls(self) -> Iterator[Call]:
+        """Yield the call that makes the body under a profile."""
+        if self.profile is not None:
+            function = {"line": "rc.line", "winkler": "rc.foundation"}[self.profile]
+            yield Call(
+                function, (Name("surface.grid"), Name("modulus")), result="operator", place="contact.profile"
+            )
+
+    def named(self) -> dict[str, Any]:
+        """Return the arguments that state it, by name."""
+        found: dict[str, Any] = {} if self.profile is None else {"operator": Name("operator")}
+        return found if self.tolerance == _TOLERANCE else found | {"tolerance": value_of(self, "tolerance")}
+
+
+def pressed(function: str, named: Mapping[str, Any], result: str, place: str) -> Call:
+    """Return the call that presses the surface, by one load or several."""
+    return Call(
+        function, (Name("surface"), Name("modulus")), named, result=result, place=place, doing="Pressing"
+    )

@@ -1,0 +1,221 @@
+"""Jobs without adhesion: heights, one load, rising loads or a loop of loads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from roughcontact.errors import InputError, within
+from roughcontact.recipe.bodies import Bodies, Conduction
+from roughcontact.recipe.contact import Contact, pressed
+from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
+from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
+from roughcontact.recipe.preparation import Preparation
+from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
+from roughcontact.recipe.recipe_fields import check, value_of
+from roughcontact.recipe.source import Source
+
+__all__ = ["CurveJob", "PressJob", "SurfaceJob"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SurfaceJob:
+    """Heights, prepared."""
+
+    NAME: ClassVar = "surface"
+    source: Source
+    preparation: Preparation = field(default_factory=Preparation)
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PressJob:
+    """One load: pressure map, area, depth and stiffness."""
+
+    NAME: ClassVar = "press"
+    source: Source
+    load: OneLoad
+    bodies: Bodies
+    preparation: Preparation = field(default_factory=Preparation)
+    contact: Contact = field(default_factory=Contact)
+    plastic: AfterLoad = field(default_factory=AfterLoad)
+    errors: Errors = field(default_factory=Errors)
+    theories: PressureTheory = field(default_factory=PressureTheory)
+
+    def __post_init__(self) -> None:
+        check(self)
+        self.loads()
+        yields_at(self.bodies, self.plastic)
+        _require_areas(self.contact, self.plastic.hardness, self.errors)
+        asked = next(
+            (name for name in ("after", "flow") if getattr(self.plastic, name) not in (None, "removed")), None
+        )
+        if self.errors.errors and asked:
+            raise InputError(
+                f"`errors` press other maps by the same load alone, and `{asked}` is given",
+                "leave out one of them",
+                "errors.errors",
+            )
+        if self.theories.theory and self.contact.profile:
+            raise InputError(
+                "`theory` is about the pressures of a surface, not of a profile",
+                "leave it out",
+                "theories.theory",
+            )
+
+    def loads(self) -> dict[str, Any]:
+        """Return the load in SI by name, or the two loads of a path where a larger one comes first."""
+        with within("load"):
+            given = self.load.named(self.contact.profile)
+        [(name, load)] = given.items()
+        if self.plastic.after is None:
+            return given if self.plastic.flow != "raised" else {f"{name}s": [load]}
+        with within("plastic"):
+            first = one_load(self.plastic.after, kinds_of(self.contact.profile)[name], "after")
+            if first <= load:
+                raise InputError(
+                    f"`after` {self.plastic.after} is not larger than the {name}, so that nothing is unloaded",
+                    "leave it out, or exchange the two",
+                    "after",
+                )
+        return {f"{name}s": [first, load]}
+
+    def calls(self) -> Iterator[Call]:
+        """Yield the calls that press."""
+        loads = self.loads()
+        path = loads.keys().isdisjoint(("force", "pressure", "depth"))
+        named = {**loads, **_hardness(self), **({"flow": "raised"} if self.plastic.flow == "raised" else {})}
+        function, result = ("rc.loading_path", "*_, solution") if path else ("rc.press", "solution")
+        yield pressed(function, named | self.contact.named(), result, "load")
+        if self.errors.errors:
+            yield _call(
+                "rc.error_budget",
+                "solution",
+                {"short_cutoff": value_of(self.errors, "shortest_wave")},
+                "budget",
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CurveJob:
+    """Rising loads, or a loop of loads: stiffness, area and more against force or pressure."""
+
+    NAME: ClassVar = "curve"
+    source: Source
+    bodies: Bodies
+    loads: RisingLoads = field(default_factory=RisingLoads)
+    preparation: Preparation = field(default_factory=Preparation)
+    contact: Contact = field(default_factory=Contact)
+    plastic: LoopOfLoads = field(default_factory=LoopOfLoads)
+    conduction: Conduction = field(default_factory=Conduction)
+    theories: Theories = field(default_factory=Theories)
+    errors: Errors = field(default_factory=Errors)
+    tables: InterfaceTables = field(default_factory=InterfaceTables)
+    units: Units = field(default_factory=Units)
+
+    def __post_init__(self) -> None:
+        check(self)
+        with within("loads"):
+            self.loads.named(self.contact.profile)
+        yields_at(self.bodies, self.plastic)
+        _require_areas(self.contact, self.plastic.hardness, self.errors)
+        asked = "loop" if self.plastic.loop else "flow" if self.plastic.flow == "raised" else None
+        if self.errors.errors and self.plastic.flow == "raised":
+            raise InputError(
+                "`errors` press other maps by the same load alone, and `flow` is raised",
+                "leave out one of them",
+                "errors.errors",
+            )
+        if asked and self.loads.depths is not None:
+            raise InputError(
+                f"`{asked}` goes by forces or pressures: the depth is what is found",
+                "give `forces`",
+                "loads.depths",
+            )
+        profile, conducts = self.contact.profile, bool(self.conduction.named())
+        if conducts and profile == "line":
+            raise InputError(
+                "a line contact has no conductance of its own, it depends on how far away the bodies end",
+                "leave out `resistivity` and `conductivity`",
+                "conduction",
+            )
+        if conducts and profile == "winkler" and self.conduction.of == "interface":
+            raise InputError(
+                "a Winkler foundation has a total conductance only", "give `of` total", "conduction.of"
+            )
+        if profile == "winkler" and (self.units.unit_stiffness or self.units.unit_pressure):
+            raise InputError(
+                "`unit_stiffness` and `unit_pressure` are per area: on springs loads and stiffness are per length",
+                "leave them out",
+                "units.unit_stiffness, units.unit_pressure",
+            )
+        _require_known(self.theories.names(), self.theories.known() | _hardness(self))
+
+    def calls(self) -> Iterator[Call]:
+        """Yield the calls that follow the loads, and what is asked of the curve."""
+        loads = self.loads.named(self.contact.profile)
+        flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
+        named = {**loads, **_hardness(self), **flow, **self.contact.named()}
+        if self.plastic.loop:
+            yield pressed("rc.loading_loop", named, "loop", "loads")
+            yield Call("getattr", (Name("loop"), "loading"), result="curve", place="loads")
+        else:
+            yield pressed("rc.loading_curve", named, "curve", "loads")
+        if names := self.theories.names():
+            known = self.theories.known() | _hardness(self)
+            given = (Name("surface"), Name("modulus"), list(names))
+            yield Call("rc.loading_laws", given, known, result="theories", place="theories")
+        conducting = self.conduction.named()
+        if conducting:
+            of = {} if self.conduction.of == "interface" else {"of": self.conduction.of}
+            yield _call("rc.conductance", "curve", conducting | of, "conductance")
+        if self.tables.names():
+            yield _call(
+                "rc.interface_table",
+                "curve",
+                {**conducting, "area": value_of(self.tables, "table_area")},
+                "table",
+            )
+
+
+def _require_areas(contact: Contact, hardness: str | None, errors: Errors) -> None:
+    if errors.errors and contact.profile is not None:
+        raise InputError(
+            "`errors` are those of a map of heights, not of a profile", "leave it out", "errors.errors"
+        )
+    if hardness is not None and contact.profile == "winkler":
+        raise InputError(
+            "`hardness` is a pressure, and springs bear forces per length only",
+            "leave it out, or take `profile` line",
+            "plastic.hardness",
+        )
+
+
+def _require_known(theories: Sequence[str], known: Mapping[str, Any]) -> None:
+    """Refuse theories that need a number which no surface shows, and which is not given."""
+    if not theories:
+        return
+    from roughcontact.theory.laws import LAWS  # late, with NumPy
+
+    for need, part, example in (("radius", "theories", "5mm"), ("hardness", "plastic", "2GPa or aluminium")):
+        for name in theories:
+            if need in LAWS[name].needs and need not in known:
+                raise InputError(
+                    f"`theory` {name} takes a {need}, which no surface shows",
+                    f"give `{need}`, such as {example}",
+                    f"{part}.{need}",
+                )
+
+
+def _hardness(job: PressJob | CurveJob) -> dict[str, Any]:
+    hardness = yields_at(job.bodies, job.plastic)
+    return {} if hardness is None else {"hardness": hardness}
+
+
+def _call(function: str, of: str, named: Mapping[str, Any], result: str) -> Call:
+    left = {name: value for name, value in named.items() if value is not None}
+    return Call(function, (Name(of),), left, result=result, place=result)

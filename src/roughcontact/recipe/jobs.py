@@ -1,0 +1,91 @@
+"""The jobs by name, and the calls that do one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from typing import Any, TypeAlias
+
+from roughcontact.errors import within
+from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
+from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
+from roughcontact.recipe.library_calls import Call, performed
+from roughcontact.recipe.source import File, SmoothBody
+
+__all__ = [
+    *("JOBS", "Job", "calls_of", "contact_calls", "is_of_profile", "known_names", "surface_calls"),
+    "surface_of",
+]
+
+Job: TypeAlias = (
+    SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
+)
+JOBS: Mapping[str, type[Any]] = {
+    job.NAME: job
+    for job in (
+        SurfaceJob,
+        PressJob,
+        CurveJob,
+        AdhesivePressJob,
+        AdhesiveCurveJob,
+        AdhesiveLoopJob,
+        DetachJob,
+    )
+}
+
+
+def surface_calls(job: Job) -> list[Call]:
+    """Return the calls that read or make the surface of a job, and prepare it.
+
+    Raises
+    ------
+    InputError
+        If the source has no such surface: an example has no profile, heights made in Python are not made again.
+    """
+    with within("source"):
+        source = list(job.source.calls(line=is_of_profile(job)))
+    return [*source, *job.preparation.calls(_default_level(job))]
+
+
+def is_of_profile(job: Job) -> bool:
+    """Return whether a job presses a profile."""
+    contact = getattr(job, "contact", None)
+    return contact is not None and contact.profile is not None
+
+
+def calls_of(job: Job) -> Iterator[Call]:
+    """Yield the calls that do a job, from the file to the answer."""
+    yield from surface_calls(job)
+    yield from contact_calls(job)
+
+
+def contact_calls(job: Job) -> Iterator[Call]:
+    """Yield the calls that press the prepared surface; none where heights are all that is asked for."""
+    if not isinstance(job, SurfaceJob):
+        yield from job.bodies.calls()
+        yield from job.contact.calls()
+        yield from job.calls()
+
+
+def surface_of(job: Job) -> Any:
+    """Return the surface of a job, prepared."""
+    return performed(surface_calls(job), known_names())["surface"]
+
+
+def known_names() -> dict[str, Any]:
+    """Return the modules that calls begin with."""
+    # By name, as calls are made: the package opens studies, and these do jobs.
+    return {
+        "rc": import_module("roughcontact"),
+        "np": import_module("numpy"),
+        "float": float,
+        "getattr": getattr,
+    }
+
+
+def _default_level(job: Job) -> str:
+    """Return how the heights of a job are levelled where nothing is said."""
+    if isinstance(job, SurfaceJob) or isinstance(job.source, SmoothBody):
+        return "none"
+    # A file that does not say that its map repeats itself says nothing about a tilt.
+    return "plane" if isinstance(job.source, File) and job.source.periodic else "auto"

@@ -1,0 +1,167 @@
+"""What is asked of a contact beside its numbers: theories, errors, tables for other programs, units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
+
+from roughcontact.errors import InputError
+from roughcontact.files import quantity
+from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AREA, Kind
+from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
+
+__all__ = ["TABLES", "THEORIES", "Errors", "InterfaceTables", "PressureTheory", "Theories", "Units"]
+
+# Those of `theory.laws`, which needs NumPy: the help and the completion of options do not wait for it.
+THEORIES = (
+    *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
+    *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
+)
+TABLES = ("csv", "abaqus", "abaqus-mm", "lammps")
+_LENGTH = Amount(LENGTH)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Theories:
+    """Theories to overlay on a curve."""
+
+    TITLE: ClassVar = "Theories"
+    theory: str | None = described(
+        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, "
+        "and say which.",
+        "persson,gw,...",
+        read=Names("theory", THEORIES),
+        needs_whole=True,
+        everyday=True,
+    )
+    hurst: str | None = described(
+        "Hurst exponent, for theories (default: fitted).",
+        "0.8",
+        read=PureNumber(-1, 3, "the Hurst exponent", "0.8"),
+        needs="theory",
+    )
+    rolloff: str | None = described(
+        "Roll-off wavelength, for finite-size.", "20um", read=_LENGTH, needs="theory"
+    )
+    radius: str | None = described(
+        "Radius of curvature, for hertz and rough-sphere.", "5mm", read=_LENGTH, needs="theory"
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names of the theories."""
+        return value_of(self, "theory") or ()
+
+    def known(self) -> dict[str, float]:
+        """Return what the user knows better than the surface."""
+        found = {name: value_of(self, name) for name in ("hurst", "rolloff", "radius")}
+        return {name: value for name, value in found.items() if value is not None}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PressureTheory:
+    """A theory beside one load."""
+
+    TITLE: ClassVar = "Theories"
+    theory: str | None = described(
+        "Draw the distribution of the pressure beside that of a theory.",
+        read=Choice(("persson",)),
+        needs_whole=True,
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Errors:
+    """Errors of the numbers, and what the instrument records."""
+
+    TITLE: ClassVar = "Errors"
+    errors: bool = described(
+        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling. "
+        "As long as two or three loads more; of a curve at its first and last resolved load.",
+        default=False,
+        needs_whole=True,
+    )
+    shortest_wave: str | None = described(
+        "The shortest wave that the instrument records (default: four cells).",
+        "5um",
+        read=Amount(LENGTH, "a wavelength"),
+        needs="errors",
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceTables:
+    """Tables of the interface for other programs."""
+
+    TITLE: ClassVar = "Tables"
+    table: str | None = described(
+        "Pressure, stiffness and area against gap, per nominal area, for other programs: csv, abaqus (SI), abaqus-mm "
+        "(mm, N, MPa), lammps.",
+        "abaqus,lammps,...",
+        read=Names("table", TABLES),
+        needs_whole=True,
+    )
+    table_area: str | None = described(
+        "Nominal area that the forces of a table for LAMMPS are for (default: that of the map).",
+        "1mm^2",
+        read=Amount(AREA),
+        needs="table",
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.table_area is not None and "lammps" not in self.names():
+            raise InputError(
+                "`table_area` is for the table lammps: the others are per area", "leave it out", "table_area"
+            )
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names of the tables."""
+        return value_of(self, "table") or ()
+
+
+def _unit(kind: Kind) -> Callable[[str], float]:
+    """Return a reader of units of a kind: how many SI units one is."""
+    example = kind.example.lstrip("0123456789")
+
+    def read(text: str) -> float:
+        refusal = InputError(f"{text!r} is no unit of {kind.name}", f"give one such as {example}")
+        if not text.strip():
+            raise refusal
+        try:
+            return quantity.parse(f"1 {text}", kind)
+        except ValueError as error:
+            raise refusal from error
+
+    return read
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Units:
+    """Units of the numbers per area in tables, files and pictures."""
+
+    TITLE: ClassVar = "Units"
+    unit_stiffness: str | None = described(
+        "Unit of the interfacial stiffness per area K/A0 in table, picture, CSV and NetCDF (default: N/um/mm^2, "
+        "in CSV and NetCDF Pa/m).",
+        "N/um/mm^2",
+        read=_unit(STIFFNESS_PER_AREA),
+    )
+    unit_pressure: str | None = described(
+        "Unit of the nominal pressure, likewise (default: one that suits, in CSV and NetCDF Pa).",
+        "MPa",
+        read=_unit(PRESSURE),
+    )
+
+    def __post_init__(self) -> None:
+        check(self)

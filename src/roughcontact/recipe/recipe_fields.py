@@ -1,0 +1,223 @@
+"""A field of a recipe, declared once: options of commands, forms, files and checks derive from it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
+from numbers import Integral, Real
+from typing import Any, get_args, get_type_hints
+
+from roughcontact.errors import InputError, placed, together
+
+__all__ = [
+    "Spec",
+    "check",
+    "described",
+    "given",
+    "hints_of",
+    "option_of",
+    "refused",
+    "specs",
+    "value_of",
+    "words_of",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What is known of a field beside its name, its type and its default.
+
+    Parameters
+    ----------
+    help : str
+        What it is, in a sentence or two, for people.
+    example : str or None
+        What its value looks like; None for a flag and for a choice.
+    read : function
+        Turns the text of the user into the value, in SI; raises `InputError` for a text that is none.
+    choices : tuple of str
+        The texts that are possible, where they can be listed.
+    names : tuple of str
+        Words that may stand in it, one or several with commas between, for the completion of what is typed.
+    needs : str or None
+        The field of the same part without which this one has no meaning.
+    everyday : bool
+        Whether most users need it: it stands in the short help, and at the top of a form.
+    needs_whole : bool
+        Whether it takes the whole surface, of which each of several processes holds some rows only.
+    option : bool
+        Whether a command takes it as an option.
+    positional : bool
+        Whether a command takes it without the name of an option.
+    opposite : str or None
+        Of a flag that may be left open: what the command calls its contrary.
+    step : Any
+        Of a preparation: what the value is an argument of; see `roughcontact.recipe.preparation`.
+    """
+
+    help: str
+    example: str | None
+    read: Callable[[Any], Any]
+    choices: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    needs: str | None = None
+    everyday: bool = False
+    needs_whole: bool = False
+    option: bool = True
+    positional: bool = False
+    opposite: str | None = None
+    step: Any = None
+
+
+@cache
+def hints_of(kind: Any) -> dict[str, Any]:
+    """Return the types of the fields of a class; a study makes many parts of each class."""
+    return get_type_hints(kind)
+
+
+def described(
+    help: str,
+    example: str | None = None,
+    *,
+    read: Callable[[Any], Any] = str,
+    default: Any = None,
+    **more: Any,
+) -> Any:
+    """Return the declaration of a field; without a default (``...``) it must be given. `more` goes to its `Spec`.
+
+    Where `read` lists ``choices`` or ``names``, these are the field's.
+    """
+    listed = {name: getattr(read, name) for name in ("choices", "names") if hasattr(read, name)}
+    spec = Spec(help, example, read, **(listed | more))
+    return field(default=MISSING if default is ... else default, metadata={"spec": spec})
+
+
+def specs(part: Any) -> Iterator[tuple[Field[Any], Spec]]:
+    """Yield the fields of a part, a value or its class, with what is known of them."""
+    for each in fields(part):
+        if (spec := each.metadata.get("spec")) is not None:
+            yield each, spec
+
+
+def given(part: Any) -> dict[str, Any]:
+    """Return the fields of a part that differ from their defaults, by name: all that has to be written down."""
+    return {each.name: value for each in fields(part) if (value := getattr(part, each.name)) != each.default}
+
+
+def value_of(part: Any, name: str) -> Any:
+    """Return the value of a field in SI; None where it was left out."""
+    text, spec = getattr(part, name), next(spec for each, spec in specs(part) if each.name == name)
+    if text is None or isinstance(text, bool):
+        return text
+    with placed(name):
+        return tuple(map(spec.read, text)) if isinstance(text, tuple) else spec.read(text)
+
+
+def check(part: Any) -> None:
+    """Take every field as text, and refuse what is none, stands alone, or excludes another.
+
+    A field that holds a part must hold one of its class. A class may name in ``ONE_OF`` fields of which exactly one
+    must be given, and in ``AT_MOST`` those of which several exclude each other.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be read, or does not go with the others; its place is the field.
+    """
+    kind: Any = type(part)
+    hints = hints_of(kind)
+    mistakes = []
+    for each in fields(part):
+        try:
+            _check_field(part, each, hints[each.name])
+        except InputError as error:
+            mistakes.append(error)
+    if mistakes:
+        raise together(mistakes)
+    for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
+        _require_one(part, names, must)
+
+
+def option_of(name: str) -> str:
+    """Return the option that a field of this name becomes."""
+    return f"--{name.replace('_', '-')}"
+
+
+def words_of(name: str, spec: Spec) -> tuple[str, ...]:
+    """Return the option of a field, and its contrary where there is one."""
+    return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
+
+
+def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
+    name, value, spec = declared.name, getattr(part, declared.name), declared.metadata.get("spec")
+    if spec is None:
+        if not isinstance(value, hint):
+            classes = " or ".join(each.__name__ for each in get_args(hint) or (hint,))
+            raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+        return
+    if type(value) is type(declared.default) and value == declared.default:
+        return
+    wanted = True if spec.needs is None else getattr(part, spec.needs)
+    if wanted is None or wanted is False:
+        raise InputError(
+            f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
+        )
+    with placed(name):
+        object.__setattr__(part, name, _as_declared(value, hint, spec))
+    value_of(part, name)
+
+
+def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
+    found = [name for name in names if getattr(part, name) is not None]
+    if len(found) > 1:
+        raise InputError(
+            f"{' and '.join(map(_quoted, found))} exclude each other", "give one of them", ", ".join(found)
+        )
+    if must and names and not found:
+        examples = {each.name: spec.example for each, spec in specs(part)}
+        raise InputError(
+            f"none of {', '.join(map(_quoted, names))} is given",
+            f"give one, such as {_quoted(names[0])} {examples[names[0]]}",
+            names[0],
+        )
+
+
+def _quoted(name: str) -> str:
+    """Return the name of a field as messages quote it: a command says the option instead."""
+    return f"`{name}`"
+
+
+def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
+    """Return a value as the type of its field: a flag, a text, or texts."""
+    if kind == tuple[str, ...]:
+        parts = value if isinstance(value, list | tuple) else [value]
+        return tuple(_text(part) for part in parts)
+    if kind in (bool, bool | None):
+        if not isinstance(value, bool):
+            raise refused(value, "neither true nor false", "write true or false")
+        return value
+    return _text(value)
+
+
+def _text(value: Any) -> str:
+    """Return a number or a quantity as the user could have written it."""
+    if not isinstance(value, str):
+        from roughcontact.units import as_text  # late, with NumPy: options are texts
+
+        value = as_text(value)
+    if isinstance(value, bool) or not isinstance(value, str | Real):
+        raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
+    if isinstance(value, str):
+        return value.strip()
+    if isinstance(value, Integral):
+        return repr(int(value))
+    number = float(value)  # of a range of whole numbers, each is written as one
+    return repr(int(number) if number.is_integer() else number)
+
+
+def refused(value: Any, what: str, remedy: str, place: str | None = None) -> InputError:
+    """Return the error about a value that has no text form: a function, an operator, a surface, a table."""
+    from roughcontact.validation import shown  # late, with NumPy
+
+    return InputError(f"{shown(value)} is {what}", remedy, place)

@@ -1,0 +1,276 @@
+"""Texts of users into values in SI: quantities, numbers, choices, regions, lists of loads."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, ClassVar
+
+from roughcontact.errors import InputError
+from roughcontact.files import quantity
+from roughcontact.files.quantity import LENGTH, PRESSURE, Kind
+from roughcontact.recipe.library_calls import Call
+
+if TYPE_CHECKING:
+    from roughcontact.materials import Material
+
+__all__ = [
+    "METALS",
+    "RIGID",
+    "Amount",
+    "Choice",
+    "Modulus",
+    "Names",
+    "PureNumber",
+    "band",
+    "known_material",
+    "linear_loads",
+    "points",
+    "ranges",
+    "rising_loads",
+    "size",
+    "whole",
+]
+
+METALS = (
+    *("steel", "stainless-steel", "aluminium", "titanium", "copper", "silver", "gold", "nickel"),
+    "tungsten",
+)  # those of `materials`, whose numbers need NumPy, for which the help and the completion of options do not wait
+RIGID = "rigid"
+MOST_LOADS = 100_000
+_FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """Reads a quantity of a kind, above zero where it must be positive, or not below it."""
+
+    kind: Kind
+    what: str = ""
+    positive: bool = True
+    zero: bool = False
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        value = _parsed(text, self.kind)
+        what = self.what or f"the {self.kind.name.split(' ', 1)[1]}"
+        if self.positive and not value > 0:
+            raise InputError(
+                f"{what} must be positive, not {text!r}", f"give a value such as {self.kind.example}"
+            )
+        if self.zero and value < 0:
+            raise InputError(
+                f"{what} must not be negative, not {text!r}", f"give 0 or more, such as {self.kind.example}"
+            )
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class PureNumber:
+    """Reads a number without a unit between two ends, which may be reached where they count."""
+
+    low: float
+    high: float
+    what: str
+    example: str
+    ends: bool = True
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        value = quantity.parse_number(text, self.example)
+        if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
+            raise InputError(
+                f"{self.what} lies between {self.low:g} and {self.high:g}, not at {text!r}",
+                f"give a number such as {self.example}",
+            )
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Reads one of some words."""
+
+    choices: tuple[str, ...]
+
+    def __call__(self, text: str) -> str:
+        """Return the value that a text states."""
+        if text not in self.choices:
+            raise InputError(f"there is no {text!r} here", _choose(text, self.choices))
+        return text
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Reads a comma list of words, each once, of some."""
+
+    what: str
+    names: tuple[str, ...]
+
+    def __call__(self, text: str) -> tuple[str, ...]:
+        """Return the value that a text states."""
+        names = tuple(part.strip() for part in text.split(",") if part.strip())
+        for name in names:
+            if name not in self.names:
+                raise InputError(f"there is no {self.what} {name!r}", _choose(name, self.names))
+        if not names or len(set(names)) < len(names):
+            raise InputError(
+                f"{text!r} is no list of them",
+                f"name each {self.what} once, such as {','.join(self.names[:2])}",
+            )
+        return names
+
+
+def _choose(text: str, known: Sequence[str]) -> str:
+    near = difflib.get_close_matches(text, known, 1)
+    return (
+        f"did you mean {near[0]!r}? choose of {', '.join(known)}" if near else f"choose of {', '.join(known)}"
+    )
+
+
+def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
+    """Return a reader of whole numbers from `low` on."""
+
+    def read(text: str) -> int:
+        if re.fullmatch(r"\s*\d{1,30}\s*", text, re.ASCII) is None or not low <= int(text) <= high:
+            end = "up" if high == 10**30 else f"to {high}"
+            raise InputError(
+                f"{what} is a whole number from {low} {end}, not {text!r}", f"give one such as {max(low, 2)}"
+            )
+        return int(text)
+
+    return read
+
+
+@dataclass(frozen=True, slots=True)
+class Modulus:
+    """Reads moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
+
+    what: str
+    kind: ClassVar = PRESSURE
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        value = Amount(PRESSURE, self.what)(text)
+        if value < _FOAM and not quantity.has_unit(text):
+            bare = text.strip()
+            raise InputError(
+                f"{bare} without a unit is {bare} Pa, softer than foam",
+                f"write {bare}GPa if gigapascals are meant, or {bare}Pa if it is so",
+            )
+        return value
+
+
+def known_material(text: str) -> Material | None:
+    """Return the material that a text names; None where it is a number."""
+    from roughcontact.materials import handbook
+
+    word = text.strip()
+    return handbook(word.lower()) if word[:1].isalpha() else None
+
+
+def rising_loads(text: str, kind: Kind) -> Call | list[float]:
+    """Return loads in SI, each above zero and above the one before: ``from:to:count`` (equal ratios), or a comma list.
+
+    A range is returned as the call of NumPy that makes it.
+    """
+    example = f"1m{kind.unit}:1{kind.unit}:100"
+    if ":" in text:
+        low, high, count = _range(text, kind, example)
+        if not 0 < low < high:
+            raise InputError(
+                f"a range of loads rises from above zero in equal ratios, unlike {text!r}",
+                f"write one such as {example}",
+            )
+        return Call("np.geomspace", (low, high, count))
+    loads = [_parsed(part, kind) for part in text.split(",") if part.strip()]
+    if not loads:
+        raise InputError(f"{text!r} holds no load", f"write {example} or a comma list")
+    if min(loads) <= 0:
+        raise InputError(f"every load must be positive, not {min(loads):g} {kind.unit}", "leave it out")
+    if any(after <= before for before, after in pairwise(loads)):
+        raise InputError(f"the loads must increase from one to the next, not as in {text!r}", "sort them")
+    return loads
+
+
+def linear_loads(text: str, kind: Kind) -> list[float]:
+    """Return loads in SI of either sign, up and down: a comma list of values and of even ranges from:to:count."""
+    loads: list[float] = []
+    for part in (part for part in text.split(",") if part.strip()):
+        if ":" not in part:
+            loads.append(_parsed(part, kind))
+            continue
+        import numpy as np
+
+        low, high, count = _range(part, kind, f"-20n{kind.unit}:20n{kind.unit}:41")
+        loads += np.linspace(low, high, count).tolist()
+    if not loads:
+        raise InputError(
+            f"{text!r} holds no load", f"write 0{kind.unit},20n{kind.unit},-20n{kind.unit} or a range"
+        )
+    return [load for k, load in enumerate(loads) if k == 0 or load != loads[k - 1]]
+
+
+def band(text: str) -> tuple[float, float]:
+    """Return two wavelengths [m] of "1mm:10um", the longest and the shortest."""
+    parts = text.split(":")
+    if len(parts) != 2:
+        raise InputError(f"{text!r} is no band", "write the longest and the shortest wave, such as 1mm:10um")
+    longest, shortest = (Amount(LENGTH, "a wavelength")(part) for part in parts)
+    if shortest > longest:
+        raise InputError(f"{text!r} begins with the shortest wave", f"exchange them: {parts[1]}:{parts[0]}")
+    return longest, shortest
+
+
+def size(text: str) -> tuple[float, ...]:
+    """Return one length or two [m] of "1mm", "1mm x 2mm" or "1 x 2mm": down the rows, then along them."""
+    parts = re.split(r"[x*\u00d7]", text)
+    if len(parts) > 2:
+        raise InputError(f"{text!r} holds {len(parts)} lengths", "write '1mm' or '1mm x 2mm'")
+    if len(parts) == 2 and quantity.has_unit(parts[1]) != quantity.has_unit(parts[0]):
+        if not quantity.has_unit(parts[1]):
+            raise InputError(f"the second length of {text!r} has no unit", "write '1 x 2mm' or '1mm x 2mm'")
+        parts[0] += quantity.unit_in(parts[1])  # "1x2mm": of both, as people write it
+    return tuple(Amount(LENGTH, "a side length")(part) for part in parts)
+
+
+def points(text: str) -> tuple[int, int]:
+    """Return the number of points ``(ny, nx)`` of "512" (a square) or "512x256" (rows x columns)."""
+    match = re.fullmatch(r"\s*(\d+)\s*(?:[x*]\s*(\d+)\s*)?", text)
+    if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
+        raise InputError(f"{text!r} is no number of points", "write 512 or 512x256 (rows x columns)")
+    return int(match[1]), int(match[2] or match[1])
+
+
+def ranges(text: str) -> tuple[slice, ...]:
+    """Return the cells of ``0:512,100:612`` (rows, columns), of a line ``0:512``; an end may be left open."""
+    matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
+    if len(matches) > 2 or not all(matches):
+        raise InputError(
+            f"{text!r} is no part of a map", "write rows,columns such as 0:512,100:612, or 0:512 of a profile"
+        )
+    found = [[int(end) if end else None for end in match.groups()] for match in matches if match]
+    for first, last in found:
+        if last is not None and last <= (first or 0):
+            raise InputError(
+                f"{first or 0}:{last} holds no cell",
+                f"end above {first or 0}, such as at {(first or 0) + 100}",
+            )
+    return tuple(slice(*ends) for ends in found)
+
+
+def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
+    ends = text.split(":")
+    if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
+        raise InputError(f"{text!r} is no range", f"write from:to:count, such as {example}")
+    low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
+    if not 2 <= count <= MOST_LOADS:
+        raise InputError(f"a range holds from 2 to {MOST_LOADS} loads, not {count}", "give another count")
+    return low, high, count
+
+
+def _parsed(text: str, kind: Kind) -> float:
+    """Return a quantity in SI; a number without a unit is in SI already."""
+    return quantity.parse(text, kind)

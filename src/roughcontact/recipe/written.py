@@ -1,0 +1,284 @@
+"""Recipes as plain values and as files: TOML to read and to edit, JSON inside results."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import tomllib
+import types
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, fields, is_dataclass, replace
+from pathlib import Path
+from typing import Any, Union, get_args, get_origin
+
+import tomli_w
+
+from roughcontact.errors import InputError, every, together, within
+from roughcontact.files.aside import written_aside
+from roughcontact.files.file_errors import ContentError, ReadError
+from roughcontact.files.fingerprint import fingerprint
+from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.jobs import JOBS, Job
+from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
+from roughcontact.recipe.source import Combined, File, Source
+
+__all__ = [
+    *("FORMAT", "carried", "field_at", "from_plain", "located", "pinned", "read_job", "require_same_files"),
+    *("to_plain", "with_files", "write_job"),
+]
+
+FORMAT = 1  # of recipes: to be raised when what was written before means something else
+
+
+def to_plain(job: Job) -> dict[str, Any]:
+    """Return a job as nested dictionaries of texts and flags: what differs from the defaults, and the format."""
+    return {"format": FORMAT, "job": job.NAME, **_plain(job)}
+
+
+def _plain(part: Any) -> dict[str, Any]:
+    kind = {"kind": part.KIND} if hasattr(part, "KIND") else {}
+    found = {name: _plain(value) if is_dataclass(value) else value for name, value in given(part).items()}
+    return {
+        **kind,
+        **{
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in found.items()
+            if value != {}
+        },
+    }
+
+
+def from_plain(plain: Mapping[str, Any]) -> Job:
+    """Return the job that nested dictionaries state.
+
+    Raises
+    ------
+    InputError
+        If they state none: all that is wrong, each with its part and field as its place.
+    """
+    values = dict(plain)
+    number = values.pop("format", FORMAT)
+    if number != FORMAT:
+        raise InputError(
+            f"the recipe has the format {number!r}, and this version reads {FORMAT}",
+            "take the version of roughcontact that wrote it",
+            "format",
+        )
+    name = values.pop("job", None)
+    if not isinstance(name, str) or name not in JOBS:
+        raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
+    job: Job = _part(JOBS[name], values)
+    return job
+
+
+def _part(kind: Any, values: Any) -> Any:
+    """Return a part made of its fields, each of the type that is declared."""
+    if not isinstance(values, Mapping):
+        raise refused(values, "no table of fields", f"give a table of {_names(kind)}")
+    hints, known = hints_of(kind), {each.name: each for each in fields(kind)}
+    mistakes = [
+        InputError(f"{name} is missing", f"give {name}", name)
+        for name, each in known.items()
+        if name not in values and each.default is MISSING and each.default_factory is MISSING
+    ]
+    made = {}
+    for name, value in values.items():
+        try:
+            if name not in known:
+                near = difflib.get_close_matches(str(name), known, 1)
+                remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
+                raise InputError(f"there is no {name!r} here", remedy, str(name))
+            made[name] = _value(name, hints[name], value)
+        except InputError as error:
+            mistakes += every(error)
+    if mistakes:
+        raise together(mistakes)
+    return kind(**made)
+
+
+def field_at(plain: Mapping[str, Any], name: str) -> Spec:
+    """Return what is known of the field at a dotted name of a recipe in plain values, such as ``"bodies.modulus"``.
+
+    Raises
+    ------
+    InputError
+        If there is no such field.
+    """
+    kind: Any = JOBS.get(plain.get("job", ""), SurfaceJob)
+    for each in name.split("."):
+        found: dict[str, Spec | None] = {one.name: one.metadata.get("spec") for one in fields(kind)}
+        if each not in found:
+            raise InputError(f"there is no {each!r} here", f"there are {_names(kind)}", name)
+        if (spec := found[each]) is not None:
+            return spec
+        plain = plain.get(each, {})
+        hint = hints_of(kind)[each]
+        members = {one.KIND: one for one in get_args(hint)} if _is_union(hint) else {}
+        kind = members.get(plain.get("kind", File.KIND), File) if members else hint
+    raise InputError(f"{name} is no single value", f"there are {_names(kind)}", name)
+
+
+def _value(name: str, kind: Any, value: Any) -> Any:
+    members = [each for each in get_args(kind) if is_dataclass(each)] if _is_union(kind) else []
+    with within(name):
+        if members:
+            return _of_kind(members, value)
+        return _part(kind, value) if is_dataclass(kind) else value
+
+
+def _of_kind(members: list[Any], values: Any) -> Any:
+    """Return a part of the kind that its table names; a table with a file is a file."""
+    if not isinstance(values, Mapping):
+        raise refused(
+            values, "no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
+        )
+    kinds = {each.KIND: each for each in members}
+    left = {name: value for name, value in values.items() if name != "kind"}
+    kind = values.get("kind", File.KIND if "file" in values else None)
+    if not isinstance(kind, str) or kind not in kinds:
+        raise InputError(f"there is no kind {kind!r} of it", f"choose of {', '.join(kinds)}", "kind")
+    return _part(kinds[kind], left)
+
+
+def _is_union(kind: Any) -> bool:
+    return get_origin(kind) in (Union, types.UnionType)
+
+
+def _names(kind: Any) -> str:
+    return ", ".join(each.name for each in fields(kind))
+
+
+def read_job(path: Path) -> Job:
+    """Return the job in a file: TOML, or a result (JSON, NetCDF) that carries its recipe. Its files lie where it lies.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    InputError
+        If it states no job.
+    """
+    from roughcontact.files.content import content  # late, with NumPy
+
+    plain = _result_in(path)
+    if plain is None:
+        with content(path) as (_, data):
+            plain = _toml(data)
+    elif plain.get("recipe") is None:
+        raise ReadError(
+            str(path),
+            "it carries no recipe",
+            "name a job (.toml), or a result of press, curve or adhesion",
+        )
+    else:
+        plain = plain["recipe"]
+    return located(from_plain(plain), path.parent)
+
+
+def _result_in(path: Path) -> dict[str, Any] | None:
+    """Return the record in a result, of NetCDF its recipe alone; None of a file that is neither JSON nor NetCDF.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+    """
+    from roughcontact.files.content import content  # late, with NumPy
+    from roughcontact.files.netcdf import opened
+
+    kind = path.suffix.casefold()
+    if kind not in (".json", ".nc"):
+        return None
+    with content(path) as (_, data):
+        if kind == ".json":
+            return _record(data.decode())
+        with opened(data) as (_, attributes):
+            return {"recipe": _record(str(attributes["recipe"])) if "recipe" in attributes else None}
+
+
+def _record(text: str) -> dict[str, Any]:
+    try:
+        found = json.loads(text)
+    except ValueError as error:
+        raise ContentError(
+            f"it holds no JSON ({error})", "copy the file again, or do the job again"
+        ) from error
+    if not isinstance(found, dict):
+        raise ContentError("it holds no result", "name a result, such as curve.json")
+    return found
+
+
+def _toml(data: bytes) -> dict[str, Any]:
+    try:
+        return tomllib.loads(data.decode())
+    except ValueError as error:
+        raise ContentError(f"it is no TOML ({error})", "write it as docs/recipes.md shows") from error
+
+
+def carried(job: Job, folder: Path | None) -> dict[str, Any]:
+    """Return the recipe that a result in a folder carries: file names count from there, or from the current folder."""
+    return to_plain(pinned(job, folder or Path()))
+
+
+def located(job: Job, folder: Path) -> Job:
+    """Return a job whose relative file names, which count from a folder, count from the current one."""
+    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+
+
+def write_job(job: Job, path: Path) -> None:
+    """Write a job as TOML; its files are named from the folder of the file, with their fingerprints.
+
+    Raises
+    ------
+    WriteError
+        If it cannot be written.
+    ReadError
+        If one of its files cannot be read.
+    """
+    text = tomli_w.dumps(to_plain(pinned(job, path.parent)))
+    with written_aside(path) as aside:
+        aside.write_text(text, encoding="utf-8")
+
+
+def pinned(job: Job, folder: Path) -> Job:
+    """Return a job whose files are named from a folder, with their fingerprints."""
+
+    def pin(file: File) -> File:
+        # Bytes of a name that are no letters have no place in a text.
+        name = os.path.relpath(file.file, folder).encode("utf-8", "replace").decode("utf-8")
+        return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
+
+    return with_files(job, pin)
+
+
+def require_same_files(job: Job) -> None:
+    """Refuse a job of which a file is not the one that it was.
+
+    Raises
+    ------
+    InputError
+        If the fingerprint of a file differs from the one that the recipe states.
+    """
+
+    def require(file: File) -> File:
+        if file.sha256 is not None and fingerprint(Path(file.file)) != file.sha256:
+            raise InputError(
+                f"{file.file} is not the file that the recipe was written for: its SHA-256 differs",
+                "give that file, or leave out sha256 to take this one",
+                "source.sha256",
+            )
+        return file
+
+    with_files(job, require)
+
+
+def with_files(job: Job, change: Callable[[File], File]) -> Job:
+    """Return a job with each of its files changed by a function."""
+
+    def changed(source: Source) -> Source:
+        if isinstance(source, Combined):
+            return replace(source, lower=changed(source.lower), upper=changed(source.upper))
+        return change(source) if isinstance(source, File) else source
+
+    return replace(job, source=changed(job.source))

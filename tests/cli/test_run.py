@@ -1,0 +1,160 @@
+"""The command ``run``: jobs from files, results that are repeated, and loads that are kept."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from roughcontact.cli.app import app
+
+RUNNER = CliRunner()
+JOB = """
+format = 1
+job = "curve"
+[source]
+kind = "self-affine"
+hurst = "0.8"
+rms = "1um"
+size = "1mm"
+points = "32"
+[bodies]
+modulus = "110GPa"
+[loads]
+forces = "100N:1kN:{count}"
+"""
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def written(text=JOB, count=4):
+    Path("job.toml").write_text(text.format(count=count), encoding="utf-8")
+
+
+def ran(*words, status=0):
+    result = RUNNER.invoke(app, ["run", *map(str, words)])
+    assert result.exit_code == status, result.output
+    return result
+
+
+def record(name="job/curve.json"):
+    return json.loads(Path(name).read_text(encoding="utf-8"))
+
+
+def test_an_answer_carries_its_recipe_and_is_repeated():
+    written()
+    ran("job.toml")
+    recipe = record()["recipe"]
+    assert recipe["job"] == "curve"
+    assert recipe["loads"] == {"forces": "100N:1kN:4"}
+    for result in ("job/curve.json", "job/curve.nc"):
+        again = ran(result)
+        assert "Note: same numbers" in again.stderr
+        assert "are in" not in again.stderr
+    assert sorted(path.name for path in Path().iterdir()) == ["job", "job.toml"]
+
+
+def test_a_number_that_differs_is_named():
+    written()
+    ran("job.toml")
+    changed = record()
+    changed["depth"][2] *= 1 + 1e-6
+    changed["spots"] = changed["spots"][:2]
+    Path("job/curve.json").write_text(json.dumps(changed), encoding="utf-8")
+    told = ran("job/curve.json", status=1).stderr
+    assert "Note: 2 quantities differ:" in told
+    assert "Note: depth: 1 of 4 differ, by at most" in told
+    assert "Note: spots: 2 numbers before, 4 now" in told
+
+
+def test_loads_that_are_stored_are_kept(monkeypatch):
+    written(count=3)
+    ran("job.toml")
+    before = record()
+    written(count=5)  # of which three are those of before
+    told = ran("job.toml").stderr
+    assert "3 of 5 loads are in job already" in told
+    after = record()
+    assert after["depth"][::2] == before["depth"]
+    assert after["depth"] == sorted(after["depth"])
+    assert len(after["depth"]) == 5
+    whole = ran("job.toml").stderr
+    assert "5 of 5 loads are in job already" in whole
+    assert record()["depth"] == after["depth"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('modulus = "110GPa"', 'modulus = "120GPa"'),
+        ('rms = "1um"', 'rms = "2um"'),
+        ("[loads]", '[contact]\ntolerance = "1e-9"\n[loads]'),
+        ("[loads]", '[plastic]\nhardness = "20GPa"\n[loads]'),
+        ("[loads]", "[errors]\nerrors = true\n[loads]"),
+        ("forces", "pressures"),
+    ],
+)
+def test_of_another_contact_nothing_is_kept(old, new):
+    written(JOB)
+    ran("job.toml")
+    text = JOB.replace(old, new)
+    written(text.replace("100N:1kN", "100MPa:1GPa") if new == "pressures" else text)
+    assert "are kept" not in ran("job.toml").stderr
+
+
+def test_a_damaged_answer_is_replaced():
+    written()
+    ran("job.toml")
+    before = record()
+    Path("job/curve.nc").write_bytes(b"damaged")
+    assert "are kept" not in ran("job.toml").stderr
+    assert record()["depth"] == before["depth"]
+    other = record()
+    other["provenance"]["source"] = "roughcontact 0.0"
+    Path("job/curve.json").write_text(json.dumps(other), encoding="utf-8")
+    assert "are kept" not in ran("job.toml").stderr
+
+
+def test_one_load_that_is_stored_is_not_pressed_again():
+    text = (
+        JOB.replace('"curve"', '"press"')
+        .replace("[loads]\nforces", "[load]\nforce")
+        .replace("100N:1kN:{count}", "100N")
+    )
+    written(text)
+    ran("job.toml")
+    told = ran("job.toml", "--json")
+    assert "job holds the answer of this job already" in told.stderr
+    assert json.loads(told.stdout) == record("job/press.json")
+    assert "same numbers" in ran("job/press.json").stderr
+    written(text.replace("100N", "200N"))
+    assert "already" not in ran("job.toml").stderr
+
+
+def test_what_is_no_job_is_refused():
+    Path("job.toml").write_text("format = [", encoding="utf-8")
+    assert "job.toml: it is no TOML" in ran("job.toml", status=2).stderr
+    Path("list.json").write_text("[1]", encoding="utf-8")
+    assert "list.json: it holds no result" in ran("list.json", status=2).stderr
+    Path("old.json").write_text('{"force": [1.0]}', encoding="utf-8")
+    assert "old.json: it carries no recipe" in ran("old.json", status=2).stderr
+    assert "none.toml: it cannot be opened" in ran("none.toml", status=2).stderr
+    written(JOB.replace("forces", "force"))
+    assert "Error: loads.force: there is no 'force' here" in ran("job.toml", status=2).stderr
+
+
+def test_another_file_under_the_name_is_refused():
+    def done(words):
+        result = RUNNER.invoke(app, words.split())
+        assert result.exit_code == 0, result.output
+
+    done("surface make a.npz --hurst 1 --rms 1um --size 1mm --points 16")
+    done("press a.npz --force 10N --modulus 1GPa --out result")
+    assert record("result/press.json")["recipe"]["source"]["file"] == "../a.npz"
+    assert "same numbers" in ran("result/press.json").stderr
+    done("surface make a.npz --hurst 1 --rms 2um --size 1mm --points 16")
+    told = ran("result/press.json", status=2).stderr
+    assert "its SHA-256 differs; give that file, or leave out sha256" in told

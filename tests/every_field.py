@@ -1,0 +1,108 @@
+"""Every field of every part and source of a recipe, and a small job in which it has a meaning."""
+
+import copy
+from dataclasses import is_dataclass
+from typing import get_type_hints
+
+import pytest
+
+from roughcontact.errors import InputError
+from roughcontact.recipe.jobs import JOBS
+from roughcontact.recipe.recipe_fields import specs
+from roughcontact.recipe.source import SOURCES
+from roughcontact.recipe.written import from_plain
+
+FILE = {"file": "part.x3p"}
+BODIES = {"modulus": "110GPa"}
+ADHESION = {"work": "10mJ/m^2", "range": "20nm"}
+SMALLEST = {
+    "surface": {},
+    "press": {"load": {"depth": "1um"}, "bodies": BODIES},
+    "curve": {"bodies": BODIES},
+    "adhesion press": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": ADHESION},
+    "adhesion curve": {"loads": {"depths": "0nm,5nm"}, "bodies": BODIES, "adhesion": ADHESION},
+    "adhesion loop": {"turn": {"depth": "5nm"}, "bodies": BODIES, "adhesion": ADHESION},
+    "adhesion detach": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": {"work": "10mJ/m^2"}},
+}
+SOURCE = {
+    "file": FILE,
+    "self-affine": {"kind": "self-affine", "hurst": "0.8", "rms": "1um", "size": "1mm"},
+    "shape": {"kind": "shape", "shape": "sphere", "radius": "5mm", "size": "1mm"},
+    "example": {"kind": "example", "example": "ground"},
+    "combined": {"kind": "combined", "lower": FILE, "upper": {"kind": "example", "example": "ground"}},
+    "python": {"kind": "python", "surface_sha256": "0" * 64},
+}
+
+_YOUNG = {"modulus": None, "young": "210GPa", "poisson": "0.3"}
+_WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
+# What stands beside a field where it has a meaning; None where it takes the place of another.
+BESIDE = {
+    "Preparation.tip_shape": {"tip": "2um"},
+    "Preparation.alias": {"downsample": "2"},
+    "Preparation.share": {"window": "tukey"},
+    **{f"OneLoad.{name}": {"depth": None} for name in ("force", "pressure")},
+    **{f"AdhesiveLoad.{name}": {"force": None} for name in ("pressure", "depth", "mean_gap")},
+    **{f"AdhesiveLoads.{name}": {"depths": None} for name in ("forces", "pressures", "mean_gaps")},
+    "Bodies.materials": {"modulus": None},
+    **{f"Bodies.{name}": _YOUNG for name in ("young", "poisson")},
+    **{f"Bodies.{name}": _YOUNG | {"young2": "70GPa", "poisson2": "0.3"} for name in ("young2", "poisson2")},
+    **{f"{part}.flow": {"hardness": "2GPa"} for part in ("AfterLoad", "LoopOfLoads")},
+    "AfterLoad.after": {"hardness": "2GPa"},
+    "LoopOfLoads.loop": {"hardness": "2GPa"},
+    "Errors.shortest_wave": {"errors": True},
+    "Theories.hurst": {"theory": "finite-size"},
+    "Theories.rolloff": {"theory": "finite-size"},
+    "Theories.radius": {"theory": "hertz"},
+    "InterfaceTables.table_area": {"table": "lammps"},
+    "SmoothBody.slope": {"shape": "cone", "radius": None},
+    "SmoothBody.amplitude": _WAVE,
+    "SmoothBody.wavelength": _WAVE,
+}
+
+
+def smallest(job, kind="file"):
+    """Return the smallest job of a name, as plain values."""
+    return copy.deepcopy({"job": job, "source": SOURCE[kind], **SMALLEST[job]})
+
+
+def _parts():
+    """Yield each part: its class, a job that has it, under which name, and the kind of source."""
+    seen = set()
+    for job in JOBS.values():
+        for name, kind in get_type_hints(job).items():
+            if is_dataclass(kind) and kind not in seen:
+                seen.add(kind)
+                yield kind, job.NAME, name, "file"
+    for source in SOURCES:
+        yield source, "surface", "source", source.KIND
+
+
+FIELDS = {
+    f"{part.__name__}.{each.name}": (each, spec, job, name, source)
+    for part, job, name, source in _parts()
+    for each, spec in specs(part)
+}
+
+
+def with_value(field, value):
+    """Return a small job with another value of a field, and what stands beside it."""
+    each, _, job, name, source = FIELDS[field]
+    plain = smallest(job, source)
+    part = plain.get(name, {}) | BESIDE.get(field, {}) | {each.name: value}
+    return plain | {name: part}
+
+
+def place_of(field):
+    """Return the place that errors name."""
+    each, _, _, name, _ = FIELDS[field]
+    return f"{name}.{each.name}"
+
+
+def refused(plain):
+    """Return the error about a recipe that is refused before any file is looked for."""
+    with pytest.raises(InputError) as met:
+        from_plain(plain)
+    error = met.value
+    assert error.remedy, error
+    assert error.place
+    return error
