@@ -1,6 +1,7 @@
 """The command ``run``: jobs from files, results that are repeated, and loads that are kept."""
 
 import json
+import signal
 from pathlib import Path
 
 import pytest
@@ -143,7 +144,7 @@ def test_what_is_no_job_is_refused():
     assert "old.json: it carries no recipe" in ran("old.json", status=2).stderr
     assert "none.toml: it cannot be opened" in ran("none.toml", status=2).stderr
     written(JOB.replace("forces", "force"))
-    assert "Error: loads.force: there is no 'force' here" in ran("job.toml", status=2).stderr
+    assert "Error: recipe.loads.force: there is no 'force' here" in ran("job.toml", status=2).stderr
 
 
 def test_another_file_under_the_name_is_refused():
@@ -158,3 +159,68 @@ def test_another_file_under_the_name_is_refused():
     done("surface make a.npz --hurst 1 --rms 2um --size 1mm --points 16")
     told = ran("result/press.json", status=2).stderr
     assert "its SHA-256 differs; give that file, or leave out sha256" in told
+
+
+def test_several_mistakes_are_told_apart():
+    written(JOB.replace("forces", "force").replace('hurst = "0.8"', 'hurst = "8"'))
+    found = json.loads(ran("job.toml", "--json", status=2).stdout)
+    assert [each["place"] for each in found["mistakes"]] == ["recipe.source.hurst", "recipe.loads.force"]
+    assert all(each["message"] and each["remedy"] for each in found["mistakes"])
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("format = 7", "recipe.format: the recipe has the format 7"),
+        ("format = 1", "no job is named"),
+        ('case = "curve"', "run it by 'roughcontact study run'"),
+    ],
+)
+def test_what_states_no_job_is_refused_with_what_to_do(text, told):
+    Path("job.toml").write_text(text, encoding="utf-8")
+    assert told in ran("job.toml", status=2).stderr
+
+
+def test_a_folder_stands_for_the_result_in_it():
+    written()
+    ran("job.toml")
+    assert "same numbers" in ran("job").stderr
+    Path("empty").mkdir()
+    assert "empty holds no result of a job" in ran("empty", status=2).stderr
+    assert "curve.csv: it is no job and no result" in ran("job/curve.csv", status=2).stderr
+
+
+def test_a_program_reads_what_differs():
+    written()
+    ran("job.toml")
+    assert json.loads(ran("job/curve.json", "--json").stdout)["different"] == []
+    changed = record()
+    changed["depth"][0] *= 2
+    Path("job/curve.json").write_text(json.dumps(changed), encoding="utf-8")
+    [told] = json.loads(ran("job/curve.json", "--json", status=1).stdout)["different"]
+    assert told.startswith("depth: 1 of 4 differ")
+
+
+def test_the_answer_of_another_recipe_is_replaced_with_a_word():
+    written()
+    ran("job.toml")
+    assert "is replaced" not in ran("job.toml").stderr
+    written(JOB.replace("110GPa", "120GPa"))
+    assert "job holds the answer of another recipe, which is replaced" in ran("job.toml").stderr
+
+
+def test_files_are_written_to_the_end(monkeypatch):
+    from roughcontact.cli.contact import curve_answer
+
+    write = curve_answer.CurveAnswer.write
+
+    def interrupted(self, *given):
+        signal.raise_signal(signal.SIGINT)
+        write(self, *given)
+
+    monkeypatch.setattr(curve_answer.CurveAnswer, "write", interrupted)
+    written()
+    before = signal.getsignal(signal.SIGINT)
+    assert "the files are being written" in ran("job.toml").stderr
+    assert signal.getsignal(signal.SIGINT) == before
+    assert len(record()["depth"]) == 4

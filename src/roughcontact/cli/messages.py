@@ -113,7 +113,12 @@ def _refused(
     told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
     typer.echo(f"Error: {told}", err=True)
     if beside is not None:
-        emit_error(kind, told.message, BAD_INPUT, told.remedy, told.place, beside)
+        several = [
+            {"message": typed(each.message), "remedy": typed(each.remedy), "place": _as_options(each.place)}
+            for each in error.parts
+        ]
+        whole = beside | ({"mistakes": several} if several else {})
+        emit_error(kind, told.message, BAD_INPUT, told.remedy, told.place, whole)
 
 
 def _as_options(place: str | None) -> str | None:
@@ -125,7 +130,11 @@ def _as_options(place: str | None) -> str | None:
     context = import_module(f"{home}.globals").get_current_context(silent=True)
     known = set() if context is None else {name for each in context.command.params for name in each.opts}
     options = {part: option_of(part.rpartition(".")[2]) for part in place.split(", ")}
-    return ", ".join(option if option in known else part for part, option in options.items())
+    inside = "recipe."  # of a file, and of no option
+    return ", ".join(
+        option if option in known and not part.startswith(inside) else part
+        for part, option in options.items()
+    )
 
 
 @contextmanager

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 import shlex
+import signal
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from roughcontact.cli.job import communicator_of_job
-from roughcontact.cli.messages import UsageError, plain
+from roughcontact.cli.messages import UsageError, note, plain
 
-__all__ = ["all_or_none", "command_line", "output"]
+__all__ = ["all_or_none", "command_line", "output", "writing"]
 
 
 @contextmanager
@@ -54,6 +56,25 @@ def all_or_none(folder: Path) -> Iterator[Path]:
             _check_free(folder / file.name)
         for file in files:
             os.replace(file, folder / file.name)
+
+
+@contextmanager
+def writing() -> Iterator[None]:
+    """Write to the end what took long to compute: the first Ctrl-C meanwhile is passed over, with a word."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.getsignal(signal.SIGINT) or signal.default_int_handler
+
+    def pass_over(*_: object) -> None:
+        signal.signal(signal.SIGINT, before)
+        note("the files are being written; Ctrl-C once more stops that")
+
+    signal.signal(signal.SIGINT, pass_over)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def command_line() -> str:

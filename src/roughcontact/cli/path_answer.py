@@ -13,7 +13,7 @@ from roughcontact.cached import cached_property
 from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.messages import note
-from roughcontact.cli.output import all_or_none, command_line
+from roughcontact.cli.output import all_or_none, command_line, writing
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import (
     emit,
@@ -116,7 +116,7 @@ class PathAnswer:
             self.surface, control=control, command=command_line(), recipe=self._recipe, **scales
         )
         dataset = self.found.to_dataset()
-        with task("Writing files"), all_or_none(folder) as aside:
+        with task("Writing files"), writing(), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
             write_csv(dataset, aside / f"{self.stem}.csv", source)
             event = self.events.rpartition("_")[2].removesuffix("s")

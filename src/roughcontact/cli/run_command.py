@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json as json_text
 import tempfile
-from contextlib import ExitStack
+from collections.abc import Sequence
+from contextlib import ExitStack, nullcontext, redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,14 +14,16 @@ import typer
 
 from roughcontact.cli.commands import do
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import note, reported
+from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument
 from roughcontact.cli.options import FORMAT, JSON, OUT, Answer, PictureFormat
 from roughcontact.cli.report import emit
+from roughcontact.errors import within
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:
     from roughcontact.recipe.jobs import Job
+    from roughcontact.recipe.repeated import Difference
 
 __all__ = ["EXAMPLES", "run"]
 
@@ -30,7 +34,9 @@ roughcontact run job.toml --out result
 roughcontact run result/curve.json
 """
 }
-_SOURCE = argument("A job (.toml), or a result that carries its recipe (.json, .nc).", "JOB.toml|RESULT")
+_SOURCE = argument(
+    "A job (.toml), or a result that carries its recipe (.json, .nc, or its folder).", "JOB.toml|RESULT"
+)
 _RESULTS = (".json", ".nc")
 # How the files of the jobs are called.
 _STEMS = {
@@ -59,10 +65,13 @@ def run(
 
 
 def _run(source: Path, out: Path | None, format: PictureFormat | None, *, json: bool) -> None:
+    from roughcontact.recipe.repeated import differences
     from roughcontact.recipe.written import read_job, require_same_files
 
-    job = read_job(source)
-    require_same_files(job)
+    source = _result_in(source)
+    with within("recipe"):
+        job = read_job(source)
+        require_same_files(job)
     if source.suffix.casefold() not in _RESULTS:
         folder = out or Path(source.stem)
         if _is_stored(job, folder):
@@ -70,19 +79,54 @@ def _run(source: Path, out: Path | None, format: PictureFormat | None, *, json: 
             if json:
                 emit(_numbers(_file(job, folder)))
             return
+        _note_replaced(job, folder)
         do(job, Answer(folder, format, json))
         return
     with ExitStack() as stack:
         folder = out or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="roughcontact-")))
         end: typer.Exit | None = None
         try:
-            do(job, Answer(folder, format, json, is_kept=out is not None))
+            with redirect_stdout(StringIO()) if json else nullcontext():
+                do(job, Answer(folder, format, json, is_kept=out is not None))
         except typer.Exit as missed:
             end = missed
         before = _numbers(source)
-        _compare(before, _again(job, folder, source.suffix, before))
-        if end is not None:
-            raise end
+        found = differences(before, _again(job, folder, source.suffix, before))
+        if json:
+            emit({"command": "run", "file": str(source), "different": [str(each) for each in found]})
+        else:
+            _tell(found)
+        if found or end is not None:
+            raise end or typer.Exit(MISSED)
+
+
+def _result_in(source: Path) -> Path:
+    """Return the result that a folder holds; another source as it is.
+
+    Raises
+    ------
+    UsageError
+        If the folder holds no result, or several.
+    """
+    if not source.is_dir():
+        return source
+    found = [path for stem in _STEMS.values() if (path := source / f"{stem}.json").exists()]
+    if len(found) != 1:
+        held = ", ".join(path.name for path in found) or "no result of a job"
+        raise UsageError(f"{source} holds {held}", "name a file: a job (.toml) or a result (.json, .nc)")
+    return found[0]
+
+
+def _note_replaced(job: Job, folder: Path) -> None:
+    """Say that the folder holds the answer of another recipe, which is replaced."""
+    from roughcontact.recipe.written import carried, contact_in
+
+    try:
+        kept = _numbers(_file(job, folder)).get("recipe")
+    except (OSError, ValueError, KeyError):
+        return
+    if kept is not None and contact_in(kept) != contact_in(carried(job, folder)):
+        note(f"{folder} holds the answer of another recipe, which is replaced")
 
 
 def _file(job: Job, folder: Path, ending: str = ".json") -> Path:
@@ -128,14 +172,11 @@ def _is_stored(job: Job, folder: Path) -> bool:
     )
 
 
-def _compare(before: dict[str, Any], after: dict[str, Any]) -> None:
-    """Print whether the numbers are the same; end with an error where they are not."""
-    from roughcontact.recipe.repeated import differences
-
-    if not (found := differences(before, after)):
+def _tell(found: Sequence[Difference]) -> None:
+    """Say whether the numbers are the same."""
+    if not found:
         note("same numbers")
         return
     note("1 quantity differs:" if len(found) == 1 else f"{len(found)} quantities differ:")
     for each in found:
         note(str(each))
-    raise typer.Exit(MISSED)

@@ -88,8 +88,10 @@ def _by_number(value: Any) -> Any:
 
 def _same(old: Any, new: Any) -> bool:
     first, second = _numbers(old), _numbers(new)
-    if first is None or second is None:
+    if first is None and second is None:
         return bool(old == new)
+    if first is None or second is None:
+        return False
     return first.shape == second.shape and not _count(first, second)
 
 

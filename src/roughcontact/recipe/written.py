@@ -24,11 +24,25 @@ from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 
 __all__ = [
-    *("FORMAT", "carried", "field_at", "from_plain", "located", "pinned", "read_job", "require_same_files"),
+    *(
+        "FORMAT",
+        "carried",
+        "contact_in",
+        "field_at",
+        "from_plain",
+        "located",
+        "pinned",
+        "read_job",
+        "require_same_files",
+    ),
     *("to_plain", "with_files", "write_job"),
 ]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
+
+
+# Parts of a recipe that do not change what is computed under a load.
+_BESIDE = {"loads", "theories", "errors", "conduction", "tables", "units"}
 
 
 def to_plain(job: Job) -> dict[str, Any]:
@@ -66,6 +80,10 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
             "format",
         )
     name = values.pop("job", None)
+    if name is None and "case" in values:
+        raise InputError("this is a study, and no job", "run it by 'roughcontact study run'", "job")
+    if name is None:
+        raise InputError("no job is named", f'write job = "press", or one of {", ".join(JOBS)}', "job")
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
     job: Job = _part(JOBS[name], values)
@@ -161,6 +179,10 @@ def read_job(path: Path) -> Job:
     """
     from roughcontact.files.content import content  # late, with NumPy
 
+    if path.suffix.casefold() not in (".toml", ".json", ".nc"):
+        raise ReadError(
+            str(path), "it is no job and no result", "name a job (.toml) or a result (.json, .nc)"
+        )
     plain = _result_in(path)
     if plain is None:
         with content(path) as (_, data):
@@ -219,6 +241,11 @@ def _toml(data: bytes) -> dict[str, Any]:
 def carried(job: Job, folder: Path | None) -> dict[str, Any]:
     """Return the recipe that a result in a folder carries: file names count from there, or from the current folder."""
     return to_plain(pinned(job, folder or Path()))
+
+
+def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a recipe in plain values says of the states that are computed, whatever the loads are."""
+    return {name: value for name, value in recipe.items() if name not in _BESIDE}
 
 
 def located(job: Job, folder: Path) -> Job:

@@ -20,7 +20,7 @@ from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, note
 from roughcontact.cli.options import Answer
-from roughcontact.cli.output import output
+from roughcontact.cli.output import output, writing
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
 from roughcontact.progress.events import task
@@ -119,7 +119,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             source = found.source(
                 f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
             )
-            with task("Writing files"):
+            with task("Writing files"), writing():
                 found.write(folder, source, answer.ending)
                 more = write_tables(job.tables, folder, computed, surface, conductors)
                 if loop is not None:

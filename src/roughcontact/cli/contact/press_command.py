@@ -67,7 +67,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
             if answer.out is not None:
                 source = _source(solution, _control(job), record["recipe"])
                 drawn = _write(solution, record, folder, source, theory, answer.ending)
-            if folder is not None and solution.problem.flow is not None:
+            if folder is not None and solution.flow is not None and solution.flow.volume:
                 drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
     per_area = job.load.pressure is not None or all(surface.grid.periodic)
     _tell(solution, record, pressed, errors, json=answer.json, per_area=per_area)

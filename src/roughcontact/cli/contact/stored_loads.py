@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.cli.messages import note
+from roughcontact.recipe.written import contact_in
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
     from roughcontact.solver.loads import Loads
 
 __all__ = ["StoredLoads", "stored_loads"]
-
-# Parts of a recipe that do not change what is computed under a load.
-_BESIDE = {"loads", "theories", "errors", "conduction", "tables", "units"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +63,7 @@ def stored_loads(
     except (OSError, ValueError, ReadError):  # no curve, or a damaged one, which is replaced
         return None
     [(kind, stored)] = record.get("loads", {"": []}).items()
-    same = _contact(record.get("recipe", {})) == _contact(recipe) and kind == f"{loads.kind}s"
+    same = contact_in(record.get("recipe", {})) == contact_in(recipe) and kind == f"{loads.kind}s"
     version = record.get("provenance", {}).get("source")
     chosen = np.isin(stored, loads.values)
     if not same or version != f"roughcontact {__version__}" or len(stored) != len(curve) or not chosen.any():
@@ -75,7 +73,3 @@ def stored_loads(
     )
     notes = tuple(line for line in record["notes"] if not line.startswith("stopped"))
     return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)
-
-
-def _contact(recipe: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in recipe.items() if name not in _BESIDE}

@@ -44,11 +44,12 @@ def from_(
     """Make a study of a job that works: any of its fields may vary, and what is random is drawn anew."""
     with reported(source, out, as_json=json):
         from roughcontact.files.aside import require_target
-        from roughcontact.recipe.written import read_job
+        from roughcontact.recipe.written import read_job, require_same_files
         from roughcontact.study.job_study import is_random, job_study
 
         require_target(out)
         job = read_job(source)
+        require_same_files(job)
         study = job_study(job, _varied(vary), samples=samples, path=out)
         study.write(out)
         combinations = len(study.combinations())
