@@ -149,3 +149,12 @@ def test_bad_points_are_refused(text):
 @pytest.mark.parametrize("text", ["400W/m/K", "400 W/(m*K)", "400 W/( m · K )", "0.4 kW/(m*K)", "400"])
 def test_conductivities_as_people_write_them(text):
     assert parse(text, CONDUCTIVITY) == pytest.approx(400.0)
+
+
+def test_a_force_per_length_without_a_profile_is_met_with_the_remedy():
+    with pytest.raises(InputError) as refused:
+        rising_loads("1N/mm:10N/mm:3", FORCE)
+    assert refused.value.remedy == "say that it is a profile by `profile`, or write a force such as 10N"
+    with pytest.raises(InputError) as refused:
+        rising_loads("1K", FORCE)
+    assert refused.value.remedy == "write a force such as 10N"

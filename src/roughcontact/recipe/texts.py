@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
-from roughcontact.files.quantity import LENGTH, PRESSURE, Kind
+from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Kind
 from roughcontact.recipe.library_calls import Call
 
 if TYPE_CHECKING:
@@ -273,4 +273,18 @@ def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
 
 def _parsed(text: str, kind: Kind) -> float:
     """Return a quantity in SI; a number without a unit is in SI already."""
-    return quantity.parse(text, kind)
+    try:
+        return quantity.parse(text, kind)
+    except InputError as error:
+        if kind is FORCE and _is_per_length(text):
+            remedy = "say that it is a profile by `profile`, or write a force such as 10N"
+            raise InputError(error.message, remedy) from error
+        raise
+
+
+def _is_per_length(text: str) -> bool:
+    try:
+        quantity.parse(text, FORCE_PER_LENGTH)
+    except InputError:
+        return False
+    return True
