@@ -432,7 +432,7 @@ def test_a_wrong_file_ends_run_with_its_place_and_leaves_no_folder(text, words, 
     assert answer.exit_code == 2
     error = json.loads(answer.stdout)["error"]
     assert words in error["message"]
-    assert error["place"] == place or place is None
+    assert place is None or error["place"] == f"recipe.{place}"
     assert error["remedy"]
     assert answer.stderr.startswith("Error: ")
     assert [path.name for path in tmp_path.iterdir()] == ["job.toml"]
