@@ -40,7 +40,8 @@ SPRINGS = {"profile": "winkler"}
 RULES = [
     (smallest("press") | {"format": 2}, "format", "the recipe has the format 2", [smallest("press")]),
     (smallest("press") | {"job": "pres"}, "job", "no job 'pres'", [smallest(job) for job in JOBS]),
-    (smallest("press") | {"job": None}, "job", "no job None", [smallest(job) for job in JOBS]),
+    (smallest("press") | {"job": None}, "job", "no job is named", [smallest(job) for job in JOBS]),
+    ({"name": "hurst", "case": "curve"}, "job", "this is a study, and no job", [smallest("curve")]),
     (smallest("press") | {"job": ["press"]}, "job", "no job ['press']", [smallest("press")]),
     (with_parts("press", loads={"force": "1N"}), "loads", "no 'loads' here", [smallest("press")]),
     (with_parts("press", load=None), "load", "load is missing", [smallest("press")]),
