@@ -40,7 +40,8 @@ SPRINGS = {"profile": "winkler"}
 RULES = [
     (smallest("press") | {"format": 2}, "format", "the recipe has the format 2", [smallest("press")]),
     (smallest("press") | {"job": "pres"}, "job", "no job 'pres'", [smallest(job) for job in JOBS]),
-    (smallest("press") | {"job": None}, "job", "no job None", [smallest(job) for job in JOBS]),
+    (smallest("press") | {"job": None}, "job", "no job is named", [smallest(job) for job in JOBS]),
+    ({"name": "hurst", "case": "curve"}, "job", "this is a study, and no job", [smallest("curve")]),
     (smallest("press") | {"job": ["press"]}, "job", "no job ['press']", [smallest("press")]),
     (with_parts("press", loads={"force": "1N"}), "loads", "no 'loads' here", [smallest("press")]),
     (with_parts("press", load=None), "load", "load is missing", [smallest("press")]),
@@ -432,7 +433,7 @@ def test_a_wrong_file_ends_run_with_its_place_and_leaves_no_folder(text, words, 
     assert answer.exit_code == 2
     error = json.loads(answer.stdout)["error"]
     assert words in error["message"]
-    assert error["place"] == place or place is None
+    assert place is None or error["place"] == f"recipe.{place}"
     assert error["remedy"]
     assert answer.stderr.startswith("Error: ")
     assert [path.name for path in tmp_path.iterdir()] == ["job.toml"]
