@@ -105,7 +105,7 @@ def test_a_curve_has_the_columns_at_once(invoke, rough):
         (("--resistivity=-1"), "must not be negative"),
         (("--resistivity", "1,2,3"), "give one for both or two"),
         (("--conductivity", "400W/m"), "is not a thermal conductivity"),
-        (("--resistivity", "0"), "no limit"),
+        (("--resistivity", "0"), "both bodies have the resistivity 0"),
     ],
 )
 def test_nonsense_is_one_line(invoke, curve, words, message):

@@ -16,6 +16,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 import numpy as np
+import psutil
 import pytest
 from typer.testing import CliRunner
 
@@ -323,9 +324,12 @@ def test_the_files_of_a_tab_go_with_it(desk, tab, part):
 def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
     tab.example("Large map")
     tab.wait("() => document.getElementById('said').textContent.startsWith('Pressing')")
-    for worker in desk.served.workers:
+    killed = desk.served.workers
+    for worker in killed:
         worker.kill()
     tab.wait("() => document.getElementById('said').textContent.includes('A new one takes over')")
+    # What is asked of a process before the server knows of its end is answered as above.
+    assert psutil.wait_procs(killed, timeout=30)[1] == []
     tab.example("Fractal patch")
     tab.settled()
     assert tab.facts["surface"].startswith("256 x 256 cells")

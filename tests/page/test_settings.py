@@ -192,7 +192,7 @@ def test_a_crop_is_dragged_typed_and_taken_back(person, part):
     person.write("preparation.crop", "16:40,16:49")
     assert "--crop 16:40,16:49" in person.command
     person.write("preparation.crop", "40:40,16:49")
-    person.trouble("preparation.crop", "Nothing is left")
+    person.trouble("preparation.crop", "40:40 holds no cell")
     person.write("preparation.crop", "")
     assert "--crop" not in person.command
 
