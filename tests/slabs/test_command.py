@@ -103,7 +103,8 @@ def test_what_several_cannot_do_is_refused_once(made, arguments, words):
     done = run(2, *(made if each == "FILE" else each for each in arguments))
     assert done.returncode == 2
     assert done.stderr.count("Error: ") == 1
-    assert words in json.loads(done.stdout)["error"]["message"]
+    error = json.loads(done.stdout)["error"]
+    assert words in f"{error['message']} {error['remedy']}"
 
 
 @pytest.mark.parametrize("fault", ["killed", "failed"])

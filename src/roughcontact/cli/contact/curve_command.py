@@ -114,11 +114,12 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         errors = errors_of(job.errors, outer)
         beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out, loop)
         found = CurveAnswer(job, computed, surface, notes, *beside)
-        if folder is not None:
+        if answer.out is not None:  # by all processes of a job, each of which holds some rows
             unit = kinds_of(profile)[loads.kind].unit
             source = found.source(
                 f"{loads.kind}s from {done[0]:g} to {done[-1]:g} {unit}, {done.size} of them"
             )
+        if folder is not None:
             with task("Writing files"), writing():
                 found.write(folder, source, answer.ending)
                 more = write_tables(job.tables, folder, computed, surface, conductors)
