@@ -70,7 +70,7 @@ from roughcontact.cli.app import app
 from roughcontact.page.forms import forms
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.jobs import calls_of
-from roughcontact.recipe.library_calls import python_of
+from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.written import read_job, to_plain
 from recipe_page import recipes
 

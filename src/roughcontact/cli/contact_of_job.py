@@ -15,8 +15,8 @@ from roughcontact.files.file_errors import ReadError
 from roughcontact.progress.events import task
 from roughcontact.recipe.bodies import hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.job_calls import Call, perform
 from roughcontact.recipe.jobs import Job, known_names, surface_calls
-from roughcontact.recipe.library_calls import Call, perform
 from roughcontact.recipe.plastic_flow import yields_at
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.source import File, Source

@@ -1,4 +1,4 @@
-"""How far a command is, on standard error: bars on a terminal, JSON lines for programs, a line a minute in a log."""
+"""Progress of a command on standard error: bars on a terminal, JSON lines for programs, a line a minute in a log."""
 
 from __future__ import annotations
 

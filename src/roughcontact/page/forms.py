@@ -6,14 +6,14 @@ from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
 from roughcontact.recipe.jobs import JOBS
-from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Units
+from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 
 __all__ = ["forms"]
 
 _LEFT_OUT = ("file", "profile")  # a file is dropped, and what a page presses is a map
-_WITHOUT = (Errors, PressureTheory, InterfaceTables, Units)  # parts whose answers a page does not show
+_SHOWN = Theories  # of the parts of an answer, the one that a page shows
 
 
 def forms() -> dict[str, Any]:
@@ -27,7 +27,11 @@ def forms() -> dict[str, Any]:
             source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)
         },
         "jobs": {
-            name: {part: _form(kind) for part, kind in _parts(job).items() if not issubclass(kind, _WITHOUT)}
+            name: {
+                part: _form(kind)
+                for part, kind in _parts(job).items()
+                if kind is _SHOWN or kind not in OUTPUTS
+            }
             for name, job in JOBS.items()
         },
         "about": {name: str(job.__doc__) for name, job in JOBS.items()},

@@ -1,4 +1,4 @@
-"""How far long work is: events of the library, who listens to them, and a bar for notebooks and scripts."""
+"""Progress of long tasks: events of the library, listeners, and a bar for notebooks and scripts."""
 
 from roughcontact.progress.bar import bar as bar
 from roughcontact.progress.events import (

@@ -1,4 +1,4 @@
-"""How far long work is: events of tasks, sent to whoever listens. Nothing is printed here.
+"""Progress of long tasks as events, sent to a listener. Nothing is printed here.
 
 A task reports in the thread that computes, and only to a listener of that thread's context: threads that a caller
 starts and worker processes report nothing, so that of a study in several processes the parent reports finished cases.
@@ -62,9 +62,9 @@ class Event:
 
 @dataclass(slots=True, eq=False)
 class _Listener:
-    """Who is told, how often, and about what."""
+    """The function that takes events, how often, and what it has been sent."""
 
-    tell: Callable[[Event], None] | None
+    callback: Callable[[Event], None] | None
     interval: float
     count: int = 0
     level: int = 0
@@ -111,7 +111,7 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
         yield
     finally:
         _listener.reset(token)
-        listener.tell = None  # a generator that is closed later reports nothing
+        listener.callback = None  # a generator that is closed later reports nothing
 
 
 @dataclass(slots=True, eq=False)
@@ -132,7 +132,7 @@ class RunningTask:
     _listener: _Listener
     _last: Event
     _due: float = 0.0
-    _told: bool = False
+    _sent: bool = False
 
     def __enter__(self) -> Self:
         listener = self._listener
@@ -142,7 +142,7 @@ class RunningTask:
         now = time.monotonic()
         self._due = now + listener.interval
         if not self._last.level or not listener.interval:
-            self._tell(self._last)
+            self._send(self._last)
         return self
 
     def reached(self, done: float, note: str = "") -> None:
@@ -159,10 +159,10 @@ class RunningTask:
         done = max(done if last.total is None else min(done, last.total), last.done)
         self._last = replace(last, state="running", done=done, note=note)
         if (now := time.monotonic()) >= self._due:
-            if not self._told:
-                self._tell(replace(last, state="started"))
+            if not self._sent:
+                self._send(replace(last, state="started"))
             self._due = now + self._listener.interval
-            self._tell(self._last)
+            self._send(self._last)
 
     def advance(self) -> None:
         """Report that one more is done.
@@ -184,13 +184,13 @@ class RunningTask:
         last = self._last
         # Whoever takes a known number of states of a path need not ask whether another one follows.
         whole = kind is None or (kind is GeneratorExit and last.done == last.total)
-        if self._told:
-            self._tell(replace(last, state="finished" if whole else "stopped"))
+        if self._sent:
+            self._send(replace(last, state="finished" if whole else "stopped"))
 
-    def _tell(self, event: Event) -> None:
-        self._told = True
-        if self._listener.tell is not None:
-            self._listener.tell(event)
+    def _send(self, event: Event) -> None:
+        self._sent = True
+        if self._listener.callback is not None:
+            self._listener.callback(event)
 
 
 _UNHEARD: AbstractContextManager[None] = nullcontext()

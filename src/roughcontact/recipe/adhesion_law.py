@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from roughcontact.files.quantity import ENERGY_PER_AREA, LENGTH
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice
 

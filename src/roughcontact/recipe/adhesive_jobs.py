@@ -11,7 +11,7 @@ from roughcontact.files.quantity import LENGTH
 from roughcontact.recipe.adhesion_law import AdhesionLaw, Sticking
 from roughcontact.recipe.bodies import Bodies
 from roughcontact.recipe.contact import Contact, pressed
-from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import AdhesiveLoad, AdhesiveLoads, FallingLoads, OneLoad
 from roughcontact.recipe.recipe_fields import check, described, value_of

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, PureNumber, known_material
 

@@ -1,4 +1,4 @@
-"""How heights are pressed, whatever by."""
+"""How heights are pressed, whatever the load."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Choice, PureNumber
 

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
-from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
@@ -160,11 +160,9 @@ class CurveJob:
         loads = self.loads.named(self.contact.profile)
         flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
         named = {**loads, **_hardness(self), **flow, **self.contact.named()}
-        if self.plastic.loop:
-            yield pressed("rc.loading_loop", named, "loop", "loads")
-            yield Call("getattr", (Name("loop"), "loading"), result="curve", place="loads")
-        else:
-            yield pressed("rc.loading_curve", named, "curve", "loads")
+        function, result = ("rc.loading_loop", "loop") if self.plastic.loop else ("rc.loading_curve", "curve")
+        yield pressed(function, named, result, "loads")
+        curve = "loop.loading" if self.plastic.loop else "curve"
         if names := self.theories.names():
             known = self.theories.known() | _hardness(self)
             given = (Name("surface"), Name("modulus"), list(names))
@@ -172,11 +170,11 @@ class CurveJob:
         conducting = self.conduction.named()
         if conducting:
             of = {} if self.conduction.of == "interface" else {"of": self.conduction.of}
-            yield _call("rc.conductance", "curve", conducting | of, "conductance")
+            yield _call("rc.conductance", curve, conducting | of, "conductance")
         if self.tables.names():
             yield _call(
                 "rc.interface_table",
-                "curve",
+                curve,
                 {**conducting, "area": value_of(self.tables, "table_area")},
                 "table",
             )

@@ -9,12 +9,11 @@ from typing import Any, TypeAlias
 from roughcontact.errors import within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
-from roughcontact.recipe.library_calls import Call, performed
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.source import File, SmoothBody
 
 __all__ = [
     *("JOBS", "Job", "calls_of", "contact_calls", "is_of_profile", "known_names", "surface_calls"),
-    "surface_of",
 ]
 
 Job: TypeAlias = (
@@ -67,11 +66,6 @@ def contact_calls(job: Job) -> Iterator[Call]:
         yield from job.calls()
 
 
-def surface_of(job: Job) -> Any:
-    """Return the surface of a job, prepared."""
-    return performed(surface_calls(job), known_names())["surface"]
-
-
 def known_names() -> dict[str, Any]:
     """Return the modules that calls begin with."""
     # By name, as calls are made: the package opens studies, and these do jobs.
@@ -79,7 +73,6 @@ def known_names() -> dict[str, Any]:
         "rc": import_module("roughcontact"),
         "np": import_module("numpy"),
         "float": float,
-        "getattr": getattr,
     }
 
 
@@ -87,5 +80,5 @@ def _default_level(job: Job) -> str:
     """Return how the heights of a job are levelled where nothing is said."""
     if isinstance(job, SurfaceJob) or isinstance(job.source, SmoothBody):
         return "none"
-    # A file that does not say that its map repeats itself says nothing about a tilt.
+    # A measured map that the user, not the file, takes for periodic may be tilted.
     return "plane" if isinstance(job.source, File) and job.source.periodic else "auto"

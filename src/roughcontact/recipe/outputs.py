@@ -12,7 +12,16 @@ from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AR
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
 
-__all__ = ["TABLES", "THEORIES", "Errors", "InterfaceTables", "PressureTheory", "Theories", "Units"]
+__all__ = [
+    "OUTPUTS",
+    "TABLES",
+    "THEORIES",
+    "Errors",
+    "InterfaceTables",
+    "PressureTheory",
+    "Theories",
+    "Units",
+]
 
 # Those of `theory.laws`, which needs NumPy: the help and the completion of options do not wait for it.
 THEORIES = (
@@ -165,3 +174,7 @@ class Units:
 
     def __post_init__(self) -> None:
         check(self)
+
+
+OUTPUTS = (Errors, PressureTheory, InterfaceTables, Theories, Units)
+"""The parts of a job that say what is shown beside its numbers: no state depends on them."""

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.recipe.bodies import Bodies, hardness_of
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described
 from roughcontact.recipe.texts import METALS, Choice
 

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import LENGTH
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, specs, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 

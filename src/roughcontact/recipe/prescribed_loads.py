@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Kind
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, given
 from roughcontact.recipe.texts import Amount, linear_loads, rising_loads
 

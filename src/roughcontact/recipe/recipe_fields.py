@@ -164,7 +164,7 @@ def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
             f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
         )
     with placed(name):
-        object.__setattr__(part, name, _as_declared(value, hint, spec))
+        object.__setattr__(part, name, _as_declared(value, hint))
     value_of(part, name)
 
 
@@ -188,7 +188,7 @@ def _quoted(name: str) -> str:
     return f"`{name}`"
 
 
-def _as_declared(value: Any, kind: Any, spec: Spec) -> Any:
+def _as_declared(value: Any, kind: Any) -> Any:
     """Return a value as the type of its field: a flag, a text, or texts."""
     if kind == tuple[str, ...]:
         parts = value if isinstance(value, list | tuple) else [value]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 from roughcontact.errors import InputError, placed, within
 from roughcontact.files.length_units import length_factor
 from roughcontact.files.quantity import LENGTH
-from roughcontact.recipe.library_calls import Call, Name
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, points, size, whole
 
@@ -273,7 +273,7 @@ class Combined:
         for name, source in (("lower", self.lower), ("upper", self.upper)):
             with within(name):
                 yield from source.calls(line=line)
-            yield Call("surface.levelled", ("plane",), result=name, place=f"source.{name}", doing="Levelling")
+            yield Call("surface.levelled", ("auto",), result=name, place=f"source.{name}", doing="Levelling")
         given = {} if self.turned_about == "y" else {"turned_about": self.turned_about}
         yield Call("rc.combined", (Name("lower"), Name("upper")), given, result="surface", place="source")
 

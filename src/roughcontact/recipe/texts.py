@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Kind
-from roughcontact.recipe.library_calls import Call
+from roughcontact.recipe.job_calls import Call
 
 if TYPE_CHECKING:
     from roughcontact.materials import Material

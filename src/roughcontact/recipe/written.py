@@ -15,34 +15,22 @@ from typing import Any, Union, get_args, get_origin
 import tomli_w
 
 from roughcontact.errors import InputError, every, together, within
-from roughcontact.files.aside import written_aside
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.fingerprint import fingerprint
-from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.bodies import Conduction
+from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
+from roughcontact.recipe.outputs import OUTPUTS
+from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 
 __all__ = [
-    *(
-        "FORMAT",
-        "carried",
-        "contact_in",
-        "field_at",
-        "from_plain",
-        "located",
-        "pinned",
-        "read_job",
-        "require_same_files",
-    ),
-    *("to_plain", "with_files", "write_job"),
+    *("FORMAT", "carried", "contact_in", "field_at", "from_plain", "located", "pinned", "read_job"),
+    *("require_same_files", "to_plain", "toml_of", "with_files"),
 ]
 
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
-
-
-# Parts of a recipe that do not change what is computed under a load.
-_BESIDE = {"loads", "theories", "errors", "conduction", "tables", "units"}
 
 
 def to_plain(job: Job) -> dict[str, Any]:
@@ -244,8 +232,11 @@ def carried(job: Job, folder: Path | None) -> dict[str, Any]:
 
 
 def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a recipe in plain values says of the states that are computed, whatever the loads are."""
-    return {name: value for name, value in recipe.items() if name not in _BESIDE}
+    """Return what a recipe in plain values says of the states of a curve, whatever its loads are."""
+    beside = {
+        name for name, kind in hints_of(CurveJob).items() if kind in (*OUTPUTS, Conduction, RisingLoads)
+    }
+    return {name: value for name, value in recipe.items() if name not in beside}
 
 
 def located(job: Job, folder: Path) -> Job:
@@ -253,19 +244,9 @@ def located(job: Job, folder: Path) -> Job:
     return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
 
 
-def write_job(job: Job, path: Path) -> None:
-    """Write a job as TOML; its files are named from the folder of the file, with their fingerprints.
-
-    Raises
-    ------
-    WriteError
-        If it cannot be written.
-    ReadError
-        If one of its files cannot be read.
-    """
-    text = tomli_w.dumps(to_plain(pinned(job, path.parent)))
-    with written_aside(path) as aside:
-        aside.write_text(text, encoding="utf-8")
+def toml_of(recipe: Mapping[str, Any]) -> str:
+    """Return a recipe in plain values as TOML."""
+    return tomli_w.dumps(recipe)
 
 
 def pinned(job: Job, folder: Path) -> Job:

@@ -13,7 +13,7 @@ from roughcontact.cli.output import output
 from roughcontact.cli.path_answer import PathAnswer, collected
 from roughcontact.cli.report import adhesive_curve_facts, law_facts
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob
-from roughcontact.recipe.library_calls import perform
+from roughcontact.recipe.job_calls import perform
 from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.recipe_fields import value_of
 

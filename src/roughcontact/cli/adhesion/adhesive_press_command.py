@@ -15,7 +15,7 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import adhesive_facts, emit, print_facts
 from roughcontact.progress.events import task
 from roughcontact.recipe.adhesive_jobs import AdhesivePressJob
-from roughcontact.recipe.library_calls import perform
+from roughcontact.recipe.job_calls import perform
 from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
 
@@ -55,8 +55,9 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
                 "kind": pressed.kind.value,
                 **state.to_record(),
                 "converged": state.status.converged,
-                "recipe": carried(job, answer.out),
             }
+            if answer.json or answer.out is not None:
+                record["recipe"] = carried(job, answer.out)
             if folder is not None:
                 [(name, value)] = job.load.named(job.contact.profile).items()
                 control = f"{name.replace('_', ' ')} = {value!r} {kinds_of(job.contact.profile)[name].unit}"

@@ -12,8 +12,8 @@ from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, load_table, print_facts, print_table
 from roughcontact.files.installed import lacking
 from roughcontact.recipe.bodies import Conduction
+from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.jobs import known_names
-from roughcontact.recipe.library_calls import Call
 
 if TYPE_CHECKING:
     import xarray

@@ -27,11 +27,11 @@ from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
-from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from roughcontact.cli.contact.stored_loads import StoredLoads
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
@@ -69,8 +69,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
     import numpy as np
 
-    from roughcontact.cli.contact.stored_loads import stored_loads
-    from roughcontact.contact.join_curves import joined
+    from roughcontact.cli.contact.stored_loads import can_be_continued, stored_loads
     from roughcontact.solver.loads import Loads
 
     profile, plastic, in_slabs = job.contact.profile, job.plastic, slabs_of_job() is not None
@@ -93,19 +92,12 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             "operator": operator,
             "flow": plastic.flow or "removed",
         }
-        stored = None if in_slabs else stored_loads(job, carried(job, answer.out), loads, answer.out)
-        new = loads.values if stored is None else np.setdiff1d(loads.values, stored.values)
-        if new.size or stored is None:
-            wanted = Loads(loads.kind, new)
-            computed, notes, outer, loop = _load(surface, modulus, wanted, limits, loop=plastic.loop)
-            done = new[: len(computed)]
-            if stored is not None:
-                computed, done = joined(stored.curve, computed), np.union1d(stored.values, done)
-        else:
-            computed, done, notes, outer, loop = stored.curve, stored.values, stored.notes, [], None
+        stored = None if in_slabs else stored_loads(job, loads, answer.out)
+        computed, done, notes, outer, loop = _computed(surface, modulus, loads, limits, stored, job)
         left = np.setdiff1d(loads.values, done)
         if left.size:
-            notes += (_rest(job, loads, left, answer.out),)
+            resumes = answer.out is not None and not in_slabs and can_be_continued(job)
+            notes += (_rest(loads, left, answer.out, resumes=resumes),)
         if job.errors.errors and not outer:
             note("no errors: no load is resolved")
         if plastic.loop and loop is None:
@@ -133,10 +125,36 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise typer.Exit(MISSED)
 
 
-def _rest(job: CurveJob, loads: Loads, left: Array, out: Path | None) -> str:
+def _computed(
+    surface: Surface,
+    modulus: float,
+    loads: Loads,
+    limits: dict[str, Any],
+    stored: StoredLoads | None,
+    job: CurveJob,
+) -> tuple[Curve, Array, tuple[str, ...], list[Solution], Loop | None]:
+    """Return what `_load` returns of all loads that are known now, and which these are: the stored ones are kept."""
+    import numpy as np
+
+    from roughcontact.contact.join_curves import joined
+    from roughcontact.solver.loads import Loads
+
+    if stored is None:
+        curve, notes, outer, loop = _load(surface, modulus, loads, limits, loop=job.plastic.loop)
+        return curve, loads.values[: len(curve)], notes, outer, loop
+    new = np.setdiff1d(loads.values, stored.values)
+    if not new.size:
+        return stored.curve, stored.values, stored.notes, [], None
+    curve, notes, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, loop=False)
+    done = np.union1d(stored.values, new[: len(curve)])
+    last = stored.notes if stored.values[-1] == done[-1] else notes
+    return joined(stored.curve, curve), done, last, outer, None
+
+
+def _rest(loads: Loads, left: Array, out: Path | None, *, resumes: bool) -> str:
     """Return how to compute the loads that a curve was stopped before."""
     words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
-    if out is not None and job.plastic.hardness is None and not job.errors.errors:
+    if resumes:
         return f"{words}; the same command computes the others"
     elsewhere = "" if out is None else ", and a new --out: this folder would be replaced"
     rest = ",".join(f"{load:.12g}" for load in left)

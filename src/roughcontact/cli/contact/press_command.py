@@ -62,7 +62,9 @@ def press(job: PressJob, *, answer: Answer) -> None:
         errors = errors_of(job.errors, [solution])
         drawn: tuple[str, ...] = ()
         with task("Stiffness, spots and files"):
-            record = _record(solution, job, pressed) | {"recipe": carried(job, answer.out)}
+            record = _record(solution, job, pressed)
+            if answer.json or answer.out is not None:
+                record["recipe"] = carried(job, answer.out)
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:
                 source = _source(solution, _control(job), record["recipe"])

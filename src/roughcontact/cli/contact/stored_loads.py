@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.cli.messages import note
-from roughcontact.recipe.written import contact_in
+from roughcontact.contact.join_curves import part_of
+from roughcontact.files.read_curve import read_curve
+from roughcontact.recipe.written import carried, contact_in
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from roughcontact.recipe.elastic_jobs import CurveJob
     from roughcontact.solver.loads import Loads
 
-__all__ = ["StoredLoads", "stored_loads"]
+__all__ = ["StoredLoads", "can_be_continued", "stored_loads"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,33 +44,28 @@ class StoredLoads:
     notes: tuple[str, ...]
 
 
-def stored_loads(
-    job: CurveJob, recipe: Mapping[str, Any], loads: Loads, out: Path | None
-) -> StoredLoads | None:
-    """Return the wanted `loads` that a folder holds of the same contact, by this version; None where it holds none.
+def can_be_continued(job: CurveJob) -> bool:
+    """Return whether states do not depend on the loads before them, and none is wanted but for its numbers."""
+    return not (job.plastic.hardness or job.plastic.loop or job.plastic.flow or job.errors.errors)
 
-    Under a hardness each state depends on the loads before it, and errors need the states themselves: then nothing is
-    taken from a folder.
-    """
-    from roughcontact.contact.join_curves import part_of
-    from roughcontact.files.file_errors import ReadError
-    from roughcontact.files.read_curve import read_curve
 
-    if out is None or job.plastic.hardness or job.plastic.loop or job.plastic.flow or job.errors.errors:
+def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads | None:
+    """Return the wanted `loads` that a folder holds of the same contact, by this version; None where it holds none."""
+    if out is None or not can_be_continued(job):
         return None
     try:
         record = json.loads((out / "curve.json").read_text(encoding="utf-8"))
         curve = read_curve(out / "curve.nc")
-    except (OSError, ValueError, ReadError):  # no curve, or a damaged one, which is replaced
+        [(kind, stored)] = record["loads"].items()
+        recipe, version = record["recipe"], record["provenance"]["source"]
+        notes = tuple(line for line in record["notes"] if not line.startswith("stopped"))
+    except (OSError, ValueError, KeyError, TypeError):  # none, or a damaged one, which is replaced
         return None
-    [(kind, stored)] = record.get("loads", {"": []}).items()
-    same = contact_in(record.get("recipe", {})) == contact_in(recipe) and kind == f"{loads.kind}s"
-    version = record.get("provenance", {}).get("source")
+    same = contact_in(recipe) == contact_in(carried(job, out)) and kind == f"{loads.kind}s"
     chosen = np.isin(stored, loads.values)
     if not same or version != f"roughcontact {__version__}" or len(stored) != len(curve) or not chosen.any():
         return None
     note(
         f"{int(chosen.sum())} of {loads.values.size} loads are in {out} already, of the same recipe: they are kept"
     )
-    notes = tuple(line for line in record["notes"] if not line.startswith("stopped"))
     return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)

@@ -8,8 +8,8 @@ from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.job_calls import Call, performed
 from roughcontact.recipe.jobs import known_names
-from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.plastic_flow import yields_at
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.texts import RIGID

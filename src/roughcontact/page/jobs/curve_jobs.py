@@ -16,8 +16,8 @@ from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.page.stopping import Stopped
 from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.job_calls import performed
 from roughcontact.recipe.jobs import Job, known_names
-from roughcontact.recipe.library_calls import performed
 from roughcontact.recipe.recipe_fields import given
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from roughcontact.labels.column import shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, CONDUCTION_PER_AREA, POINTS, STATE_NAMES
 from roughcontact.labels.labelled import plain_values, values_of
 from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.jobs import Job, known_names
-from roughcontact.recipe.library_calls import Call, Name
 
 __all__ = ["columns_of", "point_of"]
 

@@ -12,8 +12,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import tomli_w
-
 from roughcontact.errors import InputError
 from roughcontact.page.jobs.curve_jobs import compared
 from roughcontact.page.jobs.session_cache import SessionCache
@@ -21,10 +19,11 @@ from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
+from roughcontact.recipe.job_calls import Call, python_of
 from roughcontact.recipe.jobs import calls_of, contact_calls, known_names
-from roughcontact.recipe.library_calls import Call, python_of
-from roughcontact.recipe.recipe_fields import given
+from roughcontact.recipe.recipe_fields import given, value_of
 from roughcontact.recipe.source import File
+from roughcontact.recipe.written import toml_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -84,7 +83,7 @@ def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None
         for file, write in ({} if isinstance(each.job, SurfaceJob) else _files(each, cache)).items():
             write(folder / file)
         name = each.job.NAME.replace(" ", "-")
-        (folder / f"{name}-job.toml").write_text(tomli_w.dumps(each.recipe), encoding="utf-8")
+        (folder / f"{name}-job.toml").write_text(toml_of(each.recipe), encoding="utf-8")
     # What makes the surface stands once.
     commands = dict.fromkeys(line for each in asked for line in each.statement["command"].splitlines())
     (folder / "commands.sh").write_text("\n".join(commands) + "\n", encoding="utf-8")
@@ -109,8 +108,7 @@ def _load_files(request: PageRequest, cache: SessionCache) -> Writers:
     [(name, value)] = request.job.load.named(request.job.contact.profile).items()
     dataset = solution_dataset(solution)
     numbers = dataset[[name for name, values in dataset.items() if not values.dims]]
-    scales = solution.problem.modulus, solution.problem.tolerance
-    source = _provenance(request, cache, f"{name} = {value!r}", *scales)
+    source = _provenance(request, cache, f"{name} = {value!r}", solution.problem.modulus)
     return _writers(
         "pressure",
         dataset,
@@ -124,7 +122,7 @@ def _load_files(request: PageRequest, cache: SessionCache) -> Writers:
 
 def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
     found = cache.curve(request.job)
-    source = _provenance(request, cache, request.job.NAME, getattr(found, "loading", found).modulus, 1e-8)
+    source = _provenance(request, cache, request.job.NAME, getattr(found, "loading", found).modulus)
     stem = request.job.NAME.replace(" ", "-")
     if (figure := shown_curve(found).figure) is not None:
         record = found.to_record()
@@ -169,14 +167,14 @@ def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, A
     return dataset, record, drawn
 
 
-def _provenance(
-    request: PageRequest, cache: SessionCache, control: str, modulus: float, tolerance: float
-) -> Mapping[str, Any]:
+def _provenance(request: PageRequest, cache: SessionCache, control: str, modulus: float) -> Mapping[str, Any]:
     from roughcontact.files.provenance import provenance
 
     command = request.statement["command"]
+    job: Any = request.job  # of a kind that presses
     given: dict[str, Any] = {"control": control, "command": command, "recipe": request.recipe}
-    return provenance(cache.surface(request.job), modulus=modulus, tolerance=tolerance, **given)
+    tolerance = value_of(job.contact, "tolerance")
+    return provenance(cache.surface(job), modulus=modulus, tolerance=tolerance, **given)
 
 
 def _writers(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError, within
-from roughcontact.recipe.library_calls import Call, perform
+from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
     from roughcontact.solver.loads import Loads

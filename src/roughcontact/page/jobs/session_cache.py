@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from roughcontact.errors import InputError
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.page.jobs.followed import Followed, collected, follow, up_to_path
+from roughcontact.recipe.job_calls import Call, performed
 from roughcontact.recipe.jobs import Job, contact_calls, known_names, surface_calls
-from roughcontact.recipe.library_calls import Call, performed
 from roughcontact.recipe.source import SelfAffine, SmoothBody
 from roughcontact.recipe.texts import points
 

@@ -13,8 +13,8 @@ from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
+from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import Job, calls_of
-from roughcontact.recipe.library_calls import python_of
 from roughcontact.recipe.source import File
 from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array

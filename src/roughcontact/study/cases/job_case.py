@@ -12,10 +12,10 @@ from pydantic import ConfigDict, Field, model_validator
 
 from roughcontact.errors import InputError, every, placed, together
 from roughcontact.files.fingerprint import fingerprint
+from roughcontact.recipe.job_calls import Call, Name, perform
 from roughcontact.recipe.jobs import Job, calls_of, known_names
-from roughcontact.recipe.library_calls import Call, Name, perform
 from roughcontact.recipe.numbers_of_fields import number_at, number_reader
-from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
+from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.source import File
 from roughcontact.recipe.written import (
     from_plain,
@@ -31,7 +31,6 @@ __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
 _ANSWERS = ("loop", "curve", "state", "solution")  # whichever comes first is what the others were made for
 _KEPT = {"load", "axis"}  # dimensions of a record: no maps, no spots
-_OUTPUTS = (Errors, PressureTheory, InterfaceTables, Theories, Units)
 
 
 class JobParameters(Parameters):
@@ -59,7 +58,7 @@ class JobParameters(Parameters):
         try:
             job = from_plain(plain)
             if job.NAME == "surface":
-                raise InputError("of a surface, a study keeps nothing", "take press or curve", "job")
+                raise InputError("a study keeps no numbers of a surface alone", "take press or curve", "job")
             with placed("source"):
                 job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
         except InputError as error:
@@ -122,7 +121,7 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
 def without_outputs(job: Job) -> Job:
     """Return a job without what is shown beside its numbers."""
     parts = {each.name: getattr(job, each.name) for each in fields(job)}
-    aside: Any = {name: type(part)() for name, part in parts.items() if isinstance(part, _OUTPUTS)}
+    aside: Any = {name: type(part)() for name, part in parts.items() if isinstance(part, OUTPUTS)}
     return replace(job, **aside)
 
 
