@@ -79,6 +79,7 @@ class Person:
 
     def unfold(self, name):
         """Open what a field is folded in."""
+        self.field(name).wait_for(state="attached")  # forms are made when the server has answered
         self.page.evaluate(
             """(id) => {
               let folded = document.getElementById(id).closest("details");
