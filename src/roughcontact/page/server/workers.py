@@ -72,7 +72,8 @@ class _Worker:
 
     @property
     def alive(self) -> bool:
-        return not self.listener.done()
+        out = self.process.stdout  # its end is seen before the process is reaped, which takes a thread
+        return out is not None and not out.at_eof() and not self.listener.done()
 
     def begin(self, request: Mapping[str, Any]) -> None:
         """Send it a request."""
