@@ -332,7 +332,9 @@ def test_the_answer_on_four_times_as_many_cells_lies_within(cutoff, periodic):
         assert budget.sources[-1].kind == "order of magnitude"
         missed.append([value(fine, name) / budget[name].value - 1 for name in names])
         biases = [budget[name].parts[:-1] for name in names]  # other maps are another question
-        claimed.append([math.hypot(*each) / budget[name].value for name, each in zip(names, biases, strict=True)])
+        claimed.append(
+            [math.hypot(*each) / budget[name].value for name, each in zip(names, biases, strict=True)]
+        )
     assert (rms(missed) <= rms(claimed)).all()
     # What is claimed says something: the stiffness is known better than the area of a surface that is rough below.
     assert rms(claimed)[1] < 0.3

@@ -91,7 +91,10 @@ def test_errors_are_bars_and_what_other_maps_would_give_is_written_below(per_are
     plain = (areal_figure if per_area else curve_figure)(curve)
     names = ("interfacial_stiffness_per_area", "contact_fraction", "mean_gap")
     for axes, bare, name in zip(
-        figure.axes[:3], plain.axes[:3], names if per_area else ("stiffness", "contact_area", "depth"), strict=True
+        figure.axes[:3],
+        plain.axes[:3],
+        names if per_area else ("stiffness", "contact_area", "depth"),
+        strict=True,
     ):
         assert bars(bare) == []
         assert axes.get_ylim() == bare.get_ylim()

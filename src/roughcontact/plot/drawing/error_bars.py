@@ -37,6 +37,8 @@ def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, S
 
 def sampling_lines(figure: Figure, errors: Errors) -> None:
     """Write below a figure, for each load, how much another map of the surface would differ."""
-    lines = [f"at {written(force, 'N')}, {budget.sampling}" for force, budget in errors.items() if budget.sampling]
+    lines = [
+        f"at {written(force, 'N')}, {budget.sampling}" for force, budget in errors.items() if budget.sampling
+    ]
     if lines:
         figure.supxlabel("\n".join(lines), fontsize=TICK)

@@ -23,7 +23,7 @@ from roughcontact.validation import Array
 
 __all__ = ["Sampling", "sampling_of"]
 
-SPOTS = 10  # with fewer, the scatter of quarters is half of that of maps (docs/errors.md)
+SPOTS = 10  # with fewer, quarters show 0.6 of the scatter of maps (docs/errors.md)
 CELLS = 4  # along each axis of a quarter
 MEASURED = 0.5  # of the cells of a quarter
 LENGTHS = ("depth", "mean_gap")  # numbers that are not larger on a larger area
@@ -81,9 +81,7 @@ def sampling_of(solution: Solution) -> Sampling:
     for window, body in tracked(pairs, "Errors: pressing quarters", "quarters"):
         part = surface.cropped(*window)
         force = Force(solution.force * int(part.measured.sum()) / int(surface.measured.sum()))
-        quarter = replace(
-            problem, separation=separation_of(part), operator=body, surface=part, control=force
-        )
+        quarter = replace(problem, separation=separation_of(part), operator=body, surface=part, control=force)
         pressed.append(solve(quarter))
         if not pressed[-1].status.converged:
             raise ConvergenceError(pressed[-1])
@@ -112,7 +110,9 @@ def _no_estimate(solution: Solution, measured: list[float]) -> str:
         spots = f"{count} spot{'s' if count != 1 else ''}"
         return f"{spots}: one map cannot say how much another map of this surface would differ"
     if min(shape) < 2 * CELLS:
-        return f"a map of {' x '.join(map(str, shape))} cells has no quarters of {CELLS} cells along each axis"
+        return (
+            f"a map of {' x '.join(map(str, shape))} cells has no quarters of {CELLS} cells along each axis"
+        )
     if min(measured) < MEASURED:
         return "more than half of the heights of one quarter are missing"
     return ""

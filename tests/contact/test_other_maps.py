@@ -10,7 +10,7 @@ import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import REMEDIES, notes_on_sources
 from roughcontact.evaluation.error_numbers import NUMBERS
-from roughcontact.evaluation.sampling import LENGTHS, OF_JOINT, SPOTS, sampling_of
+from roughcontact.evaluation.other_maps import LENGTHS, OF_JOINT, SPOTS, sampling_of
 
 MODULUS, PRESSURE = 1e9, 1e6
 EXACT = 1e-6  # of a number: two solves of one contact, each certified to 1e-8 of its largest displacement
@@ -181,6 +181,11 @@ def test_forms_depths_and_patches_have_none():
     assert any("quarters are other bodies" in note for note in form.notes)
     assert any("maps differ by their highest points" in note for note in at_depth.notes)
     assert not any("ampling" in note for note in patches.notes)
+    # What the notes advise gives the line.
+    assert any("levelled('quadratic')" in note for note in form.notes)
+    assert any(note.endswith("Prescribe the force or the pressure.") for note in at_depth.notes)
+    for budget in (rc.error_budget(pressed(each)) for each in (ball.levelled("quadratic"), flat)):
+        assert budget.sources[-1].name == "sampling"
 
 
 def test_a_note_names_it_where_it_is_nearly_all_of_an_error():
