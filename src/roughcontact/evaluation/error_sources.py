@@ -36,9 +36,9 @@ CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none 
 OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
 OF_FORM = (
     "Levelling and sampling are left out: a form larger than the roughness is the body itself, and its quarters are "
-    "other bodies. Remove it if it is not (levelled('quadratic'), --level quadratic)."
+    "other bodies. Remove the form if it is not (levelled('quadratic'), --level quadratic)."
 )
-AT_DEPTH = "Sampling is left out: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
+AT_DEPTH = "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
 SAME = 1e-9  # relative difference up to which two loads or spacings are one
 
 

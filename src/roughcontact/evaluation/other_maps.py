@@ -27,10 +27,8 @@ SPOTS = 10  # with fewer, quarters show 0.6 of the scatter of maps (docs/errors.
 CELLS = 4  # along each axis of a quarter
 MEASURED = 0.5  # of the cells of a quarter
 LENGTHS = ("depth", "mean_gap")  # numbers that are not larger on a larger area
-OF_JOINT = (
-    *("interfacial_stiffness_per_area", "contact_fraction", "corrected_contact_fraction"),
-    "mean_gap",
-)  # numbers that a map of any size has
+# Numbers that a map of any size has.
+OF_JOINT = ("interfacial_stiffness_per_area", "contact_fraction", "corrected_contact_fraction", "mean_gap")
 HOW = "four free quarters at the same nominal pressure, their relative standard deviation over two"
 
 Window = tuple[slice, ...]
