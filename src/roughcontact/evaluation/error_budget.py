@@ -177,10 +177,10 @@ class ErrorBudget:
         """
         facts = [(source.name, str(source)) for source in self.sources]
         if self.bias_of_size:
-            each = ", ".join(
+            each = "; ".join(
                 f"{VARIABLES[name].label} {_percent(bias, '+')}" for name, bias in self.bias_of_size.items()
             )
-            facts.append(("bias of size", f"{each}: quarters against the map; no error, and not subtracted"))
+            facts.append(("bias of size", f"{each} (quarters against the map; no error, not subtracted)"))
         return facts
 
     @property

@@ -38,7 +38,9 @@ OF_FORM = (
     "Levelling and sampling are left out: a form larger than the roughness is the body itself, and its quarters are "
     "other bodies. Remove the form if it is not (levelled('quadratic'), --level quadratic)."
 )
-AT_DEPTH = "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
+AT_DEPTH = (
+    "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
+)
 SAME = 1e-9  # relative difference up to which two loads or spacings are one
 
 
