@@ -1,10 +1,12 @@
 import dataclasses
 import errno
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
+from matplotlib.text import Text
 
 import roughcontact as rc
 from roughcontact.cli.report import solution_facts
@@ -333,16 +335,17 @@ def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
 
 
 def test_errors_are_told_in_units_that_suit(invoke, rough):
-    told = invoke("press", rough, *FORCE, *MODULUS, "--errors").stdout
-    table = told.partition("errors at 10 mN\n")[2].splitlines()
-    assert table[0].split() == ["value", "error", "grid", "short", "cut-off", "levelling"]
+    force = ("--force", "0.5N")  # 11 spots
+    told = invoke("press", rough, *force, *MODULUS, "--errors").stdout
+    table = told.partition("errors at 500 mN\n")[2].splitlines()
+    assert table[0].split() == ["value", "error", "grid", "short", "cut-off", "levelling", "sampling"]
     stiffness = next(line for line in table if line.lstrip().startswith("interfacial stiffness"))
-    record = json.loads(invoke("press", rough, *FORCE, *MODULUS, "--errors", "--json").stdout)["errors"]
+    record = json.loads(invoke("press", rough, *force, *MODULUS, "--errors", "--json").stdout)["errors"]
     known = record["interfacial_stiffness"]
     value, _, error, unit = stiffness.split()[2:6]
-    assert unit == "kN/m"
-    assert float(error) == pytest.approx(known["error"] * 1e-3, rel=0.05)
-    assert float(value) == pytest.approx(known["value"] * 1e-3, abs=float(error) / 10)
+    assert unit == "MN/m"
+    assert float(error) == pytest.approx(known["error"] * 1e-6, rel=0.05)
+    assert float(value) == pytest.approx(known["value"] * 1e-6, abs=float(error) / 10)
     assert "short cut-off   bias: Gaussian low-pass at" in told
     # A periodic map has no levelling, and stands for a joint: numbers per area.
     joint = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--periodic").stdout.partition("errors at")[
@@ -350,6 +353,40 @@ def test_errors_are_told_in_units_that_suit(invoke, rough):
     ]
     assert "levelling" not in joint
     assert "K/A0" in joint
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.findobj(Text)]
+
+
+def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, rough, tmp_path, monkeypatch):
+    """A sentence with 3 spots, at 10 mN; a number with 11, at 0.5 N."""
+    drawn = []
+    monkeypatch.setattr(figures, "save", lambda figure, path: drawn.append(figure) or Path(path).touch())
+    answers = {}
+    for force in ("10mN", "0.5N"):
+        words = ("press", rough, "--force", force, *MODULUS, "--errors")
+        answers[force] = invoke(*words, "--out", tmp_path / force), invoke(*words, "--json")
+    sentence = "3 spots: one map cannot say how much another map of this surface would differ"
+    (told, record), (known, numbers) = (
+        (answer.stdout.partition("errors at")[2], json.loads(json_answer.stdout)["errors"])
+        for answer, json_answer in answers.values()
+    )
+    assert f"sampling        {sentence}" in told
+    assert "+- unknown" in told
+    assert "bias of size" not in told
+    assert record["sources"]["sampling"] == {"kind": "unknown", "how": sentence}
+    assert record["interfacial_stiffness"]["sampling"] is record["interfacial_stiffness"]["error"] is None
+    assert record["bias_of_size"] == {}
+    assert f"at 10 mN, {sentence}" in texts(drawn[0])
+    assert "sampling        order of magnitude: four free quarters" in known
+    assert "bias of size    interfacial stiffness per area K/A0 " in known
+    assert "unknown" not in next(line for line in known.splitlines() if "mean gap" in line)
+    number = numbers["interfacial_stiffness"]
+    assert 0 < number["sampling"] <= number["error"]
+    part = 100 * number["sampling"] / number["value"]
+    words = f"at 500 mN, sampling, in order of magnitude: interfacial stiffness {part:.0f} %"
+    assert any(text.startswith(words) for text in texts(drawn[1]))
 
 
 def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):

@@ -92,8 +92,8 @@ class Errors:
 
     TITLE: ClassVar = "Errors"
     errors: bool = described(
-        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling. "
-        "As long as two or three loads more; of a curve at its first and last resolved load.",
+        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling, other "
+        "maps. As long as three or four loads more; of a curve at its first and last resolved load.",
         default=False,
         needs_whole=True,
     )

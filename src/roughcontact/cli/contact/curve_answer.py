@@ -271,10 +271,10 @@ class CurveAnswer:
         """Return the picture: of a joint against pressure, of a patch against force."""
         from roughcontact.plot.canvas import areal_figure, curve_figure
 
-        laws = self.drawn
+        laws, errors = self.drawn, {each.force: each.budget for each in self.errors}
         if self.per_area:
-            return areal_figure(self.curve, self.fit, laws, self.units)
-        return curve_figure(self.curve, self.fit, laws)
+            return areal_figure(self.curve, self.fit, laws, self.units, errors)
+        return curve_figure(self.curve, self.fit, laws, errors)
 
 
 def _in_unit(column: xarray.DataArray, unit: Scale) -> xarray.DataArray:

@@ -50,7 +50,7 @@ class LoadErrors:
 
         typer.echo(f"\nerrors at {quantity('force', self.force)}")
         print_table(*self.budget.table(names, in_unit))
-        print_facts([(source.name, f"{source.kind}: {source.how}") for source in self.budget.sources])
+        print_facts(self.budget.facts())
         for line in self.budget.notes:
             note(line)
 

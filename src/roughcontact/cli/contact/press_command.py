@@ -24,6 +24,7 @@ from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
+    from roughcontact.evaluation.error_budget import ErrorBudget
 
 __all__ = ["EXAMPLES", "press"]
 
@@ -68,7 +69,8 @@ def press(job: PressJob, *, answer: Answer) -> None:
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:
                 source = _source(solution, _control(job), record["recipe"])
-                drawn = _write(solution, record, folder, source, theory, answer.ending)
+                budget = errors[0].budget if errors else None
+                drawn = _write(solution, record, folder, source, theory, answer.ending, budget)
             if folder is not None and solution.flow is not None and solution.flow.volume:
                 drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
     per_area = job.load.pressure is not None or all(surface.grid.periodic)
@@ -129,6 +131,7 @@ def _write(
     source: dict[str, Any],
     theory: str | None,
     ending: str,
+    errors: ErrorBudget | None,
 ) -> tuple[str, ...]:
     """Write a loaded state into the folder that the first process of a job has; return the names of its pictures."""
     from roughcontact.evaluation.theories import persson_pressures
@@ -145,7 +148,7 @@ def _write(
 
         def write() -> None:
             if drawn is not None:
-                save(solution_figure(drawn), aside / f"pressure.{ending}")
+                save(solution_figure(drawn, errors), aside / f"pressure.{ending}")
             if theory is not None:
                 theories = {theory: persson_pressures(solution)}
                 save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
