@@ -11,6 +11,7 @@ import xarray
 from roughcontact.statistics import averages
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study import Store, export
+from tables import read_table
 
 PAGE = Path(__file__).parents[2] / "docs" / "studies.md"
 TEXT = """
@@ -58,7 +59,7 @@ def test_averages_are_written_as_netcdf_and_as_a_table(invoke, study, averaged, 
         invoke("study", "average", study, "--out", tmp_path / "a.csv", *WINDOW, "--json").stdout
     )
     assert told["cases"] == 6
-    table = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True, comments="#")
+    table = read_table(tmp_path / "a.csv")
     assert len(table) == 2 * 8
     np.testing.assert_array_equal(table["stiffness_mean"], averaged["stiffness_mean"].to_numpy().ravel())
     np.testing.assert_array_equal(table["exponent"][::8], averaged["exponent"])
