@@ -141,7 +141,7 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
 
     The first line names the columns with their units: ``force [N]``. Each further line is a point, every number with
     all its digits; truth values are 1 and 0. Scales such as the modulus are columns of equal values.
-    `pandas.read_csv`, `numpy.genfromtxt` (``delimiter=",", names=True``) and spreadsheets read it without further options.
+    `pandas.read_csv` and spreadsheets read it without options, `numpy.genfromtxt` with ``delimiter=",", names=True``.
     A vector with a ``component`` or an ``axis`` takes one column for each: ``tangential_force_x``, ``lengths_y``.
 
     Parameters
