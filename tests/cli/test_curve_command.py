@@ -11,6 +11,7 @@ from roughcontact.cli.report import quantity
 from roughcontact.contact import loading
 from roughcontact.plot import canvas
 from roughcontact.theory.random_surfaces.waves import Waves
+from tables import read_table
 
 MODULUS = ("--modulus", "110GPa")
 FORCES = ("--forces", "1mN:1N:12")
@@ -102,7 +103,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     names = ["curve.csv", "curve.json", "curve.nc", "curve.png"]
     assert sorted(path.name for path in out.iterdir()) == names
     record = json.loads(answer.stdout)
-    table = np.genfromtxt(out / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    table = read_table(out / "curve.csv")
     with xarray.open_dataset(out / "curve.nc") as dataset:
         for name in ("force", "stiffness"):
             assert table[name].tolist() == record[name]
@@ -278,9 +279,7 @@ def test_units_are_those_of_the_user(invoke, rough, tmp_path):
     assert record["units"]["interfacial_stiffness_per_area"] == "Pa m-1"
     expected = {"nominal_pressure": ("bar", np.array(record["nominal_pressure"]) / 1e5)}
     expected["interfacial_stiffness_per_area"] = "MPa/mm", areal / 1e9
-    table = np.genfromtxt(
-        tmp_path / "out" / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
-    )
+    table = read_table(tmp_path / "out" / "curve.csv")
     with xarray.open_dataset(tmp_path / "out" / "curve.nc") as dataset:
         for name, (unit, values) in expected.items():
             np.testing.assert_allclose(dataset[name], values, rtol=1e-15)

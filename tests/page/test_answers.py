@@ -155,7 +155,7 @@ def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
         shared = ours.keys() & theirs.keys() - {"theories"}
         assert {"force", "depth", "stiffness", "contact_area"} <= shared
         assert {key: ours[key] for key in shared} == {key: theirs[key] for key in shared}
-    assert rows(archive.read("curve.csv").decode())[0].startswith("force,")
+    assert rows(archive.read("curve.csv").decode())[0].startswith("force [N],")
     space = {}
     exec(archive.read("same.py"), space)
     assert space["solution"].force == json.loads(archive.read("press.json"))["force"]

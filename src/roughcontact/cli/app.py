@@ -31,6 +31,7 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         averages_command as averages_command,
         study_command as study_command,
         study_from_command as study_from_command,
+        table_command as table_command,
     )
     from roughcontact.cli.surface import (
         prepare_command as prepare_command,

@@ -35,7 +35,7 @@ STUDY = {
     "add": "study.study_command",
     "average": "study.averages_command",
     "plot": "study.averages_command",
-    "table": "study.averages_command",
+    "table": "study.table_command",
 }
 
 

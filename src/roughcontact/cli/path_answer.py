@@ -118,9 +118,9 @@ class PathAnswer:
         dataset = self.found.to_dataset()
         with task("Writing files"), writing(), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
-            write_csv(dataset, aside / f"{self.stem}.csv", source)
+            write_csv(dataset, aside / f"{self.stem}.csv")
             event = self.events.rpartition("_")[2].removesuffix("s")
-            write_csv(dataset, aside / f"{self.events}.csv", source, dimension=event)
+            write_csv(dataset, aside / f"{self.events}.csv", dimension=event)
             save(drawn(self.found), aside / f"{self.stem}.{self.answer.ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 

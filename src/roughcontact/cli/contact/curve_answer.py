@@ -223,7 +223,7 @@ class CurveAnswer:
 
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
-            write_csv(self.dataset, aside / "curve.csv", source)
+            write_csv(self.dataset, aside / "curve.csv")
             save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
