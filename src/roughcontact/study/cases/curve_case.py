@@ -111,4 +111,4 @@ def _full_contact_stiffness(points: int, periodic: bool) -> float:
     return contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0, tolerance=_LIMIT)
 
 
-CASE = Case("curve", 2, CurveParameters, run)
+CASE = Case("curve", 3, CurveParameters, run)

@@ -58,4 +58,4 @@ def run(parameters: PatchParameters, rng: np.random.Generator) -> Record:
     return curve_of(patch, moments_of(whole), parameters)
 
 
-CASE = Case("patch", 1, PatchParameters, run)
+CASE = Case("patch", 2, PatchParameters, run)
