@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -296,8 +297,8 @@ class Solution:
         load = 0.0
         for count, ends in zip(grid.shape, grid.ends, strict=True):
             for end in {end % count for end in ends}:
-                rim: tuple[slice | int, ...] = (*inner, end)
-                load += float(xp.sum(as_like(weights[rim], pressure) * pressure[rim]))
+                rim: Any = (*inner, end, ...)
+                load += float(xp.sum(as_like(weights[rim].copy(), pressure) * pressure[rim]))
             inner = (*inner, slice(1 if 0 in ends else 0, -1 if ends else None))
         return load / self.force if load else 0.0
 
