@@ -523,3 +523,52 @@ def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):
     answer = invoke("curve", rough, *MODULUS, *given)
     assert answer.exit_code == 2
     assert says in " ".join(answer.stderr.split())
+
+
+def test_the_edge_of_the_map_is_named_once_and_last(invoke, rough):
+    """Under forces of a free map of 24 x 32 cells: a hundredth of the force lies on its edge at every load."""
+    words = ("curve", rough, "--pressures", "1MPa,5MPa,20MPa", *MODULUS, "--errors")
+    answer = invoke(*words)
+    notes = [line for line in answer.stderr.splitlines() if line.startswith("Note: ")]
+    assert "reaches the edge" in notes[-1]
+    assert len(notes) == len(set(notes))
+    assert sum("reaches the edge" in note for note in notes) == 1
+    assert not any("reaches the edge" in line for line in invoke(*words, "--periodic").stderr.splitlines())
+
+
+def test_stored_notes_keep_their_order(invoke, rough, tmp_path):
+    words = ("curve", rough, "--forces", "1uN,2uN", *MODULUS)
+    first, second = (invoke(*words, "--out", tmp_path / "out") for _ in range(2))
+    assert "2 of 2 loads are in" in second.stderr
+    told = [
+        [line for line in answer.stderr.splitlines() if "loads are in" not in line]
+        for answer in (first, second)
+    ]
+    assert told[0] == told[1]
+    record = json.loads((tmp_path / "out" / "curve.json").read_text())
+    assert record["note_ranks"][0] == "wrong"
+    assert len(record["note_ranks"]) == len(record["notes"])
+
+
+@pytest.mark.parametrize("areal", [True, False])
+def test_a_loop_tells_the_stiffness_of_unloading_at_each_load(invoke, rough, tmp_path, areal):
+    loads = ("--pressures", "2MPa,5MPa,10MPa") if areal else ("--forces", "5mN,10mN,20mN")
+    words = ("curve", rough, *loads, *MODULUS, "--hardness", "2GPa", "--loop", "--out", tmp_path / "out")
+    answer = invoke(*words, *(("--unit-stiffness", "MPa/mm") if areal else ()))
+    assert answer.exit_code == 0
+    lines = answer.stdout.splitlines()
+    [at] = [k for k, line in enumerate(lines) if "mean gap [" in line]
+    header = [cell.strip() for cell in lines[at].split("  ") if cell.strip()]
+    label = "interfacial stiffness per area K/A0" if areal else "stiffness"
+    unit = "MPa/mm" if areal else "kN/m"
+    place = header.index(f"{label} on unloading [{unit}]")
+    name = "interfacial_stiffness_per_area" if areal else "stiffness"
+    factor = 1e-9 if areal else 1e-3
+    with xarray.open_dataset(tmp_path / "out" / "loop.nc") as loop:
+        on_unloading = loop[name].to_numpy()[loop["branch"].to_numpy() == "unloading"][::-1]
+    shown = [float(line.split()[place]) for line in lines[at + 1 : at + 4]]
+    np.testing.assert_allclose(shown, on_unloading * factor, rtol=5e-4)
+    with xarray.open_dataset(tmp_path / "out" / "curve.nc") as curve:
+        np.testing.assert_allclose(
+            curve[f"unloaded_{name}"], on_unloading * (factor if areal else 1.0), rtol=1e-12
+        )

@@ -104,6 +104,25 @@ def test_a_person_gets_a_table(invoke, rough):
     assert "tolerance 1e-08: met" in lines["certificate"]
 
 
+def test_numbers_per_area_are_told_in_the_units_of_the_user(invoke, rough):
+    words = ("press", rough, "--pressure", "5MPa", *MODULUS)
+    record = json.loads(invoke(*words, "--json").stdout)
+    areal = record["interfacial_stiffness"] / record["nominal_area"]
+    assert record["interfacial_stiffness_per_area"] == pytest.approx(areal, rel=1e-15)
+    assert record["nominal_area"] == pytest.approx(48e-6 * 32e-6, rel=1e-12)
+
+    def told(*more):
+        lines = invoke(*words, *more).stdout.splitlines()
+        facts = dict(line.split("   ", 1) for line in lines if "   " in line)
+        return [facts[name].split() for name in ("interfacial stiffness per area K/A0", "nominal pressure")]
+
+    assert told() == [[f"{areal / 1e12:.4g}", "N/µm/mm²"], ["5", "MPa"]]
+    units = ("--unit-stiffness", "MPa/mm", "--unit-pressure", "bar")
+    assert told(*units) == [[f"{areal / 1e9:.4g}", "MPa/mm"], ["50", "bar"]]
+    errors = invoke(*words, *units, "--errors").stdout.partition("errors at")[2]
+    assert any("K/A0" in line and "MPa/mm" in line for line in errors.splitlines())
+
+
 def test_a_gap_that_is_mere_rounding_is_none(invoke, rough):
     answer = invoke("press", rough, "--force", "1e9N", *MODULUS)
     (gap,) = (line.split()[2:] for line in answer.stdout.splitlines() if line.startswith("mean gap"))
@@ -117,8 +136,11 @@ def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):
     heights[0, 0] = 2 * np.nanmax(heights)
     np.savez(rough, heights=heights, spacing=np.array(surface.grid.spacing), unit=np.array("m"))
     answer = invoke("press", rough, *FORCE, *MODULUS)
-    assert "Note: 2 cells hold no height" in answer.stderr
-    assert "Note: Contact reaches the edge of the map" in answer.stderr
+    tilt, *notes = answer.stderr.splitlines()
+    assert "the tilt is removed" in tilt
+    assert [line.split(maxsplit=2)[1:2] for line in notes[:1]] in ([["A"]], [["Not"]])  # what is wrong
+    assert "Note: 2 cells hold no height" in notes[-2]
+    assert "Note: Contact reaches the edge of the map" in notes[-1]
 
 
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):

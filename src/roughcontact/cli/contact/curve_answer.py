@@ -15,7 +15,7 @@ from roughcontact.cli.contact.curve_theories import deviations, exponents, param
 from roughcontact.cli.contact.load_errors import notes_on_errors
 from roughcontact.cli.contact.units_of_job import units_of_job
 from roughcontact.cli.contact_of_job import name_of
-from roughcontact.cli.messages import note, note_all
+from roughcontact.cli.messages import note_all
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
@@ -102,14 +102,18 @@ class CurveAnswer:
         """Whether every load met the tolerance."""
         return all(status.converged for status in self.curve.status)
 
-    @cached_property
+    @property
     def fit(self) -> PowerLaw | None:
         """The power law through the resolved points, if they allow one."""
+        return self._fitted[0]
+
+    @cached_property
+    def _fitted(self) -> tuple[PowerLaw | None, str]:
+        """The power law, or why there is none."""
         try:
-            return self.curve.fit()
-        except ValueError as error:
-            note(f"no power law: {error}")
-            return None
+            return self.curve.fit(), ""
+        except InputError as error:
+            return None, str(error)
 
     @cached_property
     def comparisons(self) -> dict[str, Comparison]:
@@ -265,8 +269,11 @@ class CurveAnswer:
         if missed:
             text = f"{missed} of {len(curve)} loads missed the tolerance: see their status"
             yield Note(Rank.WRONG, text)
-        if self.fit is not None and not self.fit.straight:
-            yield Note(Rank.DOUBTFUL, report.bend_words(self.fit))
+        law, why_none = self._fitted
+        if law is None:
+            yield Note(Rank.LIMITED, f"no power law: {why_none}")
+        elif not law.straight:
+            yield Note(Rank.DOUBTFUL, report.bend_words(law))
         for name, why in self.left_out.items():
             yield Note(Rank.LIMITED, f"theory {name} is left out: {why}")
         if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
