@@ -122,8 +122,8 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
         ("stiffness on unloading", quantity("stiffness", float(unloading.stiffness[0]), kind)),
         (
             "mean gap at the largest load",
-            f"{quantity('mean_gap', gap)} on first loading, where the gap of cells that flow counts as minus the depth "
-            f"of their flow; {quantity('mean_gap', flattened)} on unloading, of the flattened surface",
+            f"{quantity('mean_gap', gap)} on first loading, where cells that flow have a negative gap; "
+            f"{quantity('mean_gap', flattened)} on unloading, where it is zero",
         ),
         ("volume of flow", quantity("flow_volume", loop.flow.volume, kind)),
         ("work of first loading", quantity("work", work, kind)),
