@@ -439,6 +439,14 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     whole_curve = rc.read_curve(tmp_path / "out" / "curve.nc")
     assert whole_curve.depth[:2].tolist() == kept.depth.tolist()
     np.testing.assert_allclose(whole_curve.force, [1e-6, 2e-6, 4e-6, 8e-6])
+    # Nothing is computed then; the notes on the stored loads are those that were given, in their order.
+    stored = invoke(*words).stderr.splitlines()
+    assert "4 of 4 loads are in" in "".join(stored)
+    kept_notes = [line for line in stored if "loads are in" not in line]
+    assert kept_notes == [line for line in again.stderr.splitlines() if "loads are in" not in line]
+    record = json.loads((tmp_path / "out" / "curve.json").read_text())
+    assert record["note_ranks"][0] == "wrong"
+    assert len(record["note_ranks"]) == len(record["notes"])
 
 
 def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, tmp_path, monkeypatch):
@@ -466,6 +474,11 @@ def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, sur
     np.testing.assert_allclose(flat.heights, loop.flattened.heights, rtol=0, atol=1e-15)
     assert "raised by" in flat.provenance[-2] + flat.provenance[-1]
     assert rc.read_curve(tmp_path / "out" / "curve.nc").flow is not None
+    with xarray.open_dataset(tmp_path / "out" / "curve.nc") as curve:
+        areal = curve["unloaded_interfacial_stiffness_per_area"]
+        unloading = loop.unloading.interfacial_stiffness_per_area[::-1]
+        np.testing.assert_allclose(areal, unloading, rtol=1e-5)
+        assert areal.units == "Pa m-1"
     told = invoke(*words, "--loop").stdout
     assert all(line in told for line in ("residual depth", "stiffness on unloading", "dissipated work"))
 
@@ -524,3 +537,33 @@ def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):
     answer = invoke("curve", rough, *MODULUS, *given)
     assert answer.exit_code == 2
     assert says in " ".join(answer.stderr.split())
+
+
+def test_the_edge_of_the_map_is_named_once_and_last(invoke, rough):
+    """Under forces of a free map of 24 x 32 cells: a hundredth of the force lies on its edge at every load."""
+    words = ("curve", rough, "--pressures", "1MPa,5MPa,20MPa", *MODULUS, "--errors")
+    answer = invoke(*words)
+    notes = [line for line in answer.stderr.splitlines() if line.startswith("Note: ")]
+    assert "reaches the edge" in notes[-1]
+    assert len(notes) == len(set(notes))
+    assert sum("reaches the edge" in note for note in notes) == 1
+    assert not any("reaches the edge" in line for line in invoke(*words, "--periodic").stderr.splitlines())
+
+
+@pytest.mark.parametrize("areal", [True, False])
+def test_a_loop_tells_the_stiffness_of_unloading_at_each_load(invoke, rough, areal):
+    loads = ("--pressures", "2MPa,5MPa,10MPa") if areal else ("--forces", "5mN,10mN,20mN")
+    words = ("curve", rough, *loads, *MODULUS, "--hardness", "2GPa", "--loop")
+    name, label, unit, factor = "stiffness", "stiffness", "kN/m", 1e-3
+    if areal:
+        words = (*words, "--unit-stiffness", "MPa/mm")
+        name, label = "interfacial_stiffness_per_area", "interfacial stiffness per area K/A0"
+        unit, factor = "MPa/mm", 1e-9
+    lines = invoke(*words).stdout.splitlines()
+    [at] = [k for k, line in enumerate(lines) if "mean gap [" in line]
+    header = [cell.strip() for cell in lines[at].split("  ") if cell.strip()]
+    place = header.index(f"{label} on unloading [{unit}]")
+    shown = [float(line.split()[place]) for line in lines[at + 1 : at + 4]]
+    unloading = json.loads(invoke(*words, "--json").stdout)["loop"]["unloading"]
+    # Four digits are shown.
+    np.testing.assert_allclose(shown, np.array(unloading[name])[::-1] * factor, rtol=5e-4)

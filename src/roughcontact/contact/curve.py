@@ -15,10 +15,10 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.compare import Comparison, Law
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.solution import Solution
+from roughcontact.contact.solution import Solution, mean_pressure
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
 from roughcontact.labels.variables import force_unit, unit_of
@@ -47,9 +47,11 @@ class Curve:
 
     Attributes
     ----------
-    force, depth, stiffness, interfacial_stiffness, contact_area, mean_gap, elastic_energy : array, shape (n,)
-        [N], [m], [N/m], [N/m], [m^2], [m], [J]. `stiffness` is dF/dd at the frozen contact region (a
+    force, depth, stiffness, interfacial_stiffness : array, shape (n,)
+        [N], [m], [N/m], [N/m]. `stiffness` is dF/dd at the frozen contact region (a
         staircase in load); `secant_stiffness` is the finite difference that averages over its steps.
+    contact_area, max_pressure, mean_gap, elastic_energy : array, shape (n,)
+        [m^2], [Pa], [m], [J]; `max_pressure` is the largest of a cell.
     spots : int array, shape (n,)
         Number of contact spots.
     residual, stiffness_residual : array, shape (n,)
@@ -90,6 +92,7 @@ class Curve:
     stiffness: Array
     interfacial_stiffness: Array
     contact_area: Array
+    max_pressure: Array
     mean_gap: Array
     elastic_energy: Array
     spots: npt.NDArray[np.intp]
@@ -152,6 +155,11 @@ class Curve:
     def nominal_pressure(self) -> Array:
         """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
         return self.force / self.nominal_area
+
+    @property
+    def mean_pressure(self) -> Array:
+        """Force over the real contact area [Pa]; NaN without contact."""
+        return mean_pressure(self.force, self.contact_area)
 
     @property
     def contact_fraction(self) -> Array:
@@ -390,10 +398,3 @@ def collect(path: Iterable[Solution]) -> Curve:
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
     )
-
-
-def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
-    """Return the length L of the dimensionless numbers [m]."""
-    if geometry is Geometry.RING:
-        return math.sqrt(math.pi) * lengths[0]
-    return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]
