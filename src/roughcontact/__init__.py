@@ -73,6 +73,7 @@ if TYPE_CHECKING or _LATE is None:
         interface_table as interface_table,
     )
     from roughcontact.evaluation.theories import loading_laws as loading_laws
+    from roughcontact.evaluation.theory_table import theory_table as theory_table
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read, read_line as read_line
@@ -152,6 +153,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.generation.midpoint import (
         midpoint_line as midpoint_line,
         midpoint_surface as midpoint_surface,
+    )
+    from roughcontact.surface.generation.specification import (
+        Specification as Specification,
+        specified as specified,
     )
     from roughcontact.surface.generation.spectrum import (
         DirectionalSpectrum as DirectionalSpectrum,

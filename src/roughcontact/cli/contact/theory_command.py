@@ -1,0 +1,153 @@
+"""The command ``theory``: what theories say of a joint that is known by rms height and slope, without heights."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli import report
+from roughcontact.cli.contact_of_job import note_materials
+from roughcontact.cli.messages import note
+from roughcontact.cli.options import Answer
+from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.recipe.job_calls import performed
+from roughcontact.recipe.jobs import calls_of, known_names
+from roughcontact.recipe.theory_job import TheoryJob
+from roughcontact.recipe.written import carried
+
+if TYPE_CHECKING:
+    import xarray
+
+    from roughcontact.surface.generation.specification import Specification
+
+__all__ = ["EXAMPLES", "theory"]
+
+EXAMPLES = {
+    "theory": """
+roughcontact theory --sigma 1.2um --slope 0.12 --materials copper,steel --theory cmy,mikic --pressures 1MPa:10MPa:3
+roughcontact theory --sigma 1um,2um --slope 0.1,0.12 --modulus 57GPa --theory mikic --pressures 5MPa --out result
+roughcontact theory --ra 1um --slope 0.1 --nayak 20 --modulus 57GPa --theory mikic,gw --pressures 1MPa,5MPa
+""",
+}
+
+
+_COLUMNS = (
+    *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area", "mean_gap"),
+    *("thermal_conductance_per_area", "electrical_conductance_per_area"),
+)
+_VACUUM = "the spots in vacuum: gas in the gap, films and radiation are not in it"
+
+
+def theory(job: TheoryJob, *, answer: Answer) -> None:
+    """Say what theories predict of a joint known by rms height and slope: area, stiffness, conductance, per area.
+
+    Both numbers suffice for cmy and mikic. Other theories need the bandwidth of the roughness, and the error says how
+    to give it.
+    """
+    with output(answer.out) as folder:
+        note_materials(job.bodies)
+        known = performed(calls_of(job), known_names())
+        joint, table = known["joint"], known["table"]
+        record = _record(job, table, answer)
+        if folder is not None:
+            _write(record, table, folder)
+    if answer.json:
+        report.emit(record)
+    else:
+        report.print_facts(_facts(job, joint, table))
+        _print(table)
+    answer.note_files(folder, ("theory.csv", "theory.json", "theory.nc"))
+
+
+def _facts(job: TheoryJob, joint: Specification, table: xarray.Dataset) -> list[tuple[str, str]]:
+    """Return what the theories take, line by line."""
+    words = [f"sigma {report.quantity('rms', joint.sigma)}"]
+    if joint.slope is not None or joint.has_spectrum:
+        mean = math.sqrt(2 * joint.m2 / math.pi)
+        words.append(f"mean absolute slope m {mean:.4g} (rms slope of a profile {math.sqrt(joint.m2):.4g})")
+    facts = [("both faces together", ", ".join(words))]
+    if joint.has_spectrum:
+        law = joint.spectrum
+        ends = (2 * math.pi / q for q in (law.q_rolloff, law.q_max))
+        longest, shortest = (report.quantity("lengths", end) for end in ends)
+        words = [f"H {law.hurst:g}", f"roll-off {longest}", f"shortest wave {shortest}"]
+        facts.append(("spectrum", ", ".join([*words, f"Nayak's parameter {law.moments().nayak:.4g}"])))
+    facts.append(("reduced modulus E*", report.quantity("modulus", float(table["modulus"]))))
+    if "hardness" in table:
+        of = f", of {job.bodies.softer}" if job.theories.hardness is None else ""
+        facts.append(("hardness", report.quantity("hardness", float(table["hardness"])) + of))
+    if any("conductance" in str(name) for name in table):
+        facts.append(("conductance of", _VACUUM))
+    return facts
+
+
+def _print(table: xarray.Dataset) -> None:
+    """Print the predictions: a row for each theory and pressure."""
+    flat = _flat(table)
+    zero = flat["nominal_pressure"] * 0  # of gaps that are differences of a depth, which these are not
+    header, rows = report.load_table(flat.assign(depth=zero), [name for name in _COLUMNS if name in flat])
+    names = flat["theory"].to_numpy().tolist()
+    rows = [
+        [name, *("-" if cell == "nan" else cell for cell in row)]
+        for name, row in zip(names, rows, strict=True)
+    ]
+    report.print_table(["theory", *header], rows)
+    if any("-" in row for row in rows):
+        note("-: the theory does not say, or the pressure is beyond the one up to which it holds")
+
+
+def _flat(table: xarray.Dataset) -> xarray.Dataset:
+    """Return the predictions along one dimension, theory by theory."""
+    import numpy as np
+
+    count, loads = table.sizes["theory"], table["nominal_pressure"]
+    columns = {
+        "nominal_pressure": ("load", np.tile(loads, count), loads.attrs),
+        **{
+            str(name): ("load", values.to_numpy().ravel(), values.attrs) if values.ndim else values
+            for name, values in table.data_vars.items()
+        },
+        "theory": ("load", np.repeat(table["theory"].to_numpy(), loads.size)),
+    }
+    return table.drop_vars(list(table.variables)).assign(columns)
+
+
+def _record(job: TheoryJob, table: xarray.Dataset, answer: Answer) -> dict[str, Any]:
+    """Return the predictions as plain values."""
+    from roughcontact.labels.labelled import plain_values
+
+    scales = {str(name): float(values) for name, values in table.data_vars.items() if not values.ndim}
+    found = {
+        name: {
+            str(column): plain_values(values.sel(theory=name).to_numpy())
+            for column, values in table.data_vars.items()
+            if values.ndim
+        }
+        for name in job.names()
+    }
+    units = {
+        str(name): values.attrs["units"]
+        for name, values in table.variables.items()
+        if "units" in values.attrs
+    }
+    return {
+        "command": job.NAME,
+        **scales,
+        "nominal_pressure": plain_values(table["nominal_pressure"].to_numpy()),
+        "theories": found,
+        "units": units,
+        "converged": True,  # there is nothing to solve
+        "recipe": carried(job, answer.out),
+    }
+
+
+def _write(record: dict[str, Any], table: xarray.Dataset, folder: Path) -> None:
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv, write_json, write_netcdf
+
+    source = provenance(modulus=record["modulus"], command=command_line(), recipe=record["recipe"])
+    with all_or_none(folder) as aside:
+        write_netcdf(table, aside / "theory.nc", source)
+        write_csv(_flat(table), aside / "theory.csv", source)
+        write_json(record, aside / "theory.json", source)
