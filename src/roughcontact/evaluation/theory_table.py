@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.errors import InputError
 from roughcontact.evaluation.conduction import Conductors
-from roughcontact.labels.labelled import described, variable
+from roughcontact.labels.labelled import variable
 from roughcontact.material import Solid, as_modulus
 from roughcontact.surface.generation.specification import Specification
 from roughcontact.theory import laws
@@ -117,7 +117,7 @@ def theory_table(
     if hardness is not None:
         scales["hardness"] = variable("hardness", (), hardness)
     coordinates = {
-        "theory": described("theory", wanted, "theory of the joint", ""),
+        "theory": ("theory", wanted, {"long_name": "theory of the joint"}),
         "nominal_pressure": variable("nominal_pressure", ("load",), loads),
     }
     return xarray.Dataset(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -16,60 +16,54 @@ from roughcontact.recipe.texts import Amount, PureNumber
 if TYPE_CHECKING:
     from roughcontact.surface.generation.specification import Specification
 
-__all__ = ["Specified", "SpecifiedJoint"]
+__all__ = ["Specified", "SpecifiedJoint", "specification"]
 
 
 @dataclass(frozen=True, slots=True)
 class _OfFaces:
     """Reads a number of both faces together, or one of each face."""
 
-    read: Callable[[str], float]
-    kind: Kind | None = None
+    read: Amount | PureNumber
+
+    @property
+    def kind(self) -> Kind | None:
+        """The kind of quantity, if it has a unit."""
+        return getattr(self.read, "kind", None)
 
     def __call__(self, text: str) -> float | tuple[float, float]:
         """Return the number, or the pair, that a text states."""
-        values = [self.read(part.strip()) for part in text.split(",")]
-        if len(values) > 2:
-            raise InputError(f"{text!r} are {len(values)} numbers, of two faces", "give one number or two")
-        return values[0] if len(values) == 1 else (values[0], values[1])
+        first, *others = values = [self.read(part.strip()) for part in text.split(",")]
+        if len(others) > 1:
+            raise InputError(f"{text!r} are {len(values)} numbers, of two faces", "leave out all but two")
+        return (first, others[0]) if others else first
 
 
-_HEIGHT = _OfFaces(Amount(LENGTH, "a height"), LENGTH)
-_WAVE = Amount(LENGTH, "a wavelength")
+_HEIGHT, _WAVE = _OfFaces(Amount(LENGTH, "a height")), Amount(LENGTH, "a wavelength")
+_RATIO = PureNumber(1, 1000, "the ratio of Rz and Ra", "6")
+_MEAN_SLOPE = _OfFaces(PureNumber(0, 100, "the slope", "0.12", ends=False))
+_EXPONENT = PureNumber(0, 1, "the Hurst exponent", "0.8")
+_BANDWIDTH = PureNumber(1.5, 1e9, "Nayak's parameter", "20", ends=False)
+
 _SIGMA = described(
-    "Rms height of both faces together, or of one face and the other.",
-    "1.2um[,1.2um]",
-    read=_HEIGHT,
-    everyday=True,
+    "Rms height of both faces together, or that of each face (1um,2um).", "1.2um", read=_HEIGHT, everyday=True
 )
-_RA = described(
-    "Ra instead: of Gaussian heights sigma is 1.2533 Ra.", "1um[,1um]", read=_HEIGHT, everyday=True
-)
-_RZ = described("Rz instead, which needs the ratio of Rz and Ra.", "6um[,6um]", read=_HEIGHT)
-_RZ_OVER_RA = described(
-    "Ratio of Rz and Ra, as measured on faces that were made alike.",
-    "6",
-    read=PureNumber(1, 1000, "the ratio of Rz and Ra", "6"),
-    needs="rz",
-)
+_RA = described("Ra instead: of Gaussian heights sigma is 1.2533 Ra.", "1um", read=_HEIGHT, everyday=True)
+_RZ = described("Rz instead, which needs the ratio of Rz and Ra.", "6um", read=_HEIGHT)
+_RZ_OVER_RA = described("Ratio of Rz and Ra, as measured on such faces.", "6", read=_RATIO, needs="rz")
 _SLOPE = described(
-    "Mean absolute slope m of a profile, likewise: 0.80 of the rms slope of a profile (Rdq) or 0.56 of that of a "
+    "Mean absolute slope m of a profile, likewise: 0.80 of the rms slope of a profile (Rdq), 0.56 of that of a "
     "surface (Sdq).",
-    "0.12[,0.12]",
-    read=_OfFaces(PureNumber(0, 100, "the slope", "0.12", ends=False)),
+    "0.12",
+    read=_MEAN_SLOPE,
     everyday=True,
 )
 _HURST = described(
     "Hurst exponent. It settles the spectrum, with two numbers of slope, nayak and the lengths.",
     "0.8",
-    read=PureNumber(0, 1, "the Hurst exponent", "0.8"),
+    read=_EXPONENT,
     everyday=True,
 )
-_NAYAK = described(
-    "Nayak's parameter m0 m4/m2^2: the bandwidth.",
-    "20",
-    read=PureNumber(1.5, 1e9, "Nayak's parameter", "20", ends=False),
-)
+_NAYAK = described("Nayak's parameter m0 m4/m2^2: the bandwidth.", "20", read=_BANDWIDTH)
 _ROLLOFF = described(
     "Roll-off: the spectrum of longer waves is constant.", "100um", read=_WAVE, everyday=True
 )
@@ -101,21 +95,7 @@ class SpecifiedJoint:
 
     def __post_init__(self) -> None:
         check(self)
-        self.known()
-
-    def call(self) -> Call:
-        """Return the call that makes the specification."""
-        return _specification(self)
-
-    def known(self) -> Specification:
-        """Return the specification.
-
-        Raises
-        ------
-        InputError
-            If its numbers do not go together.
-        """
-        return _known(self)
+        _known(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,7 +135,7 @@ class Specified:
             )
         generator = Call("np.random.default_rng", (value_of(self, "seed"),))
         yield grid_call(self, line=False)
-        yield _specification(self)
+        yield specification(self)
         yield Call(
             "joint.surface",
             (Name("grid"), generator),
@@ -165,7 +145,8 @@ class Specified:
         )
 
 
-def _specification(part: SpecifiedJoint | Specified) -> Call:
+def specification(part: SpecifiedJoint | Specified) -> Call:
+    """Return the call that makes the specification."""
     names = [each.name for each, _ in specs(SpecifiedJoint)]
     named = {name: value for name in names if (value := value_of(part, name)) is not None}
     return Call("rc.specified", (), named, result="joint", place="source")
@@ -174,5 +155,5 @@ def _specification(part: SpecifiedJoint | Specified) -> Call:
 def _known(part: SpecifiedJoint | Specified) -> Specification:
     from roughcontact.surface.generation.specification import specified  # late, with NumPy
 
-    found: Any = specified(**_specification(part).named)
+    found: Any = specified(**specification(part).named)
     return found  # type: ignore[no-any-return]

@@ -11,7 +11,7 @@ from roughcontact.files.quantity import PRESSURE
 from roughcontact.recipe.bodies import Bodies, Conduction, hardness_of
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.specified import SpecifiedJoint
+from roughcontact.recipe.specified import SpecifiedJoint, specification
 from roughcontact.recipe.texts import METALS, Names, rising_loads
 
 __all__ = ["JOINT_THEORIES", "JointTheories", "NominalPressures", "TheoryJob"]
@@ -119,7 +119,7 @@ class TheoryJob:
 
     def calls(self) -> Iterator[Call]:
         """Yield the calls that make the table."""
-        yield self.source.call()
+        yield specification(self.source)
         yield from self.bodies.calls()
         hardness = self.hardness()
         named: dict[str, Any] = {} if hardness is None else {"hardness": hardness}

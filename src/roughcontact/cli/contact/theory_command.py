@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli import report
 from roughcontact.cli.contact_of_job import note_materials
 from roughcontact.cli.messages import note
-from roughcontact.cli.options import Answer
+from roughcontact.cli.options import JSON, OUT, Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.recipe.job_calls import performed
 from roughcontact.recipe.jobs import calls_of, known_names
@@ -39,25 +40,53 @@ _COLUMNS = (
 _VACUUM = "the spots in vacuum: gas in the gap, films and radiation are not in it"
 
 
-def theory(job: TheoryJob, *, answer: Answer) -> None:
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Where an answer goes that has no pictures; see `Answer`."""
+
+    PANEL: ClassVar = Answer.PANEL
+    out: Path | None = OUT
+    json: bool = JSON
+    is_kept: bool = True  # no option, see `Answer`
+
+
+def theory(job: TheoryJob, *, answer: Tables) -> None:
     """Say what theories predict of a joint known by rms height and slope: area, stiffness, conductance, per area.
 
     Both numbers suffice for cmy and mikic. Other theories need the bandwidth of the roughness, and the error says how
     to give it.
     """
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv, write_json, write_netcdf
+    from roughcontact.labels.labelled import plain_values
+
     with output(answer.out) as folder:
         note_materials(job.bodies)
         known = performed(calls_of(job), known_names())
-        joint, table = known["joint"], known["table"]
-        record = _record(job, table, answer)
+        table = _by_row(known["table"])
+        columns = {str(name): plain_values(values.to_numpy()) for name, values in table.data_vars.items()}
+        units = {name: unit for name in columns if (unit := table[name].attrs.get("units"))}
+        record = {"command": job.NAME, **columns, "units": units}
+        record |= {"converged": True, "recipe": carried(job, answer.out)}  # there is nothing to solve
         if folder is not None:
-            _write(record, table, folder)
+            source = provenance(modulus=columns["modulus"], command=command_line(), recipe=record["recipe"])
+            with all_or_none(folder) as aside:
+                write_netcdf(known["table"], aside / "theory.nc", source)
+                write_csv(table, aside / "theory.csv", source)
+                write_json(record, aside / "theory.json", source)
     if answer.json:
         report.emit(record)
     else:
-        report.print_facts(_facts(job, joint, table))
+        report.print_facts(_facts(job, known["joint"], table))
         _print(table)
-    answer.note_files(folder, ("theory.csv", "theory.json", "theory.nc"))
+    if folder is not None and answer.is_kept:
+        note(f"theory.csv, theory.json and theory.nc are in {folder}")
+
+
+def _by_row(table: xarray.Dataset) -> xarray.Dataset:
+    """Return the predictions along one dimension, theory by theory."""
+    rows = table.reset_coords("nominal_pressure").stack(row=("theory", "load")).reset_index("row")
+    return rows.drop_vars("load").rename(row="load").reset_coords("theory")
 
 
 def _facts(job: TheoryJob, joint: Specification, table: xarray.Dataset) -> list[tuple[str, str]]:
@@ -84,70 +113,14 @@ def _facts(job: TheoryJob, joint: Specification, table: xarray.Dataset) -> list[
 
 def _print(table: xarray.Dataset) -> None:
     """Print the predictions: a row for each theory and pressure."""
-    flat = _flat(table)
-    zero = flat["nominal_pressure"] * 0  # of gaps that are differences of a depth, which these are not
-    header, rows = report.load_table(flat.assign(depth=zero), [name for name in _COLUMNS if name in flat])
-    names = flat["theory"].to_numpy().tolist()
-    rows = [
+    zero = table["nominal_pressure"] * 0  # of gaps that are differences of a depth, which these are not
+    shown = [name for name in _COLUMNS if name in table]
+    header, rows = report.load_table(table.assign(depth=zero), shown)
+    names = table["theory"].to_numpy().tolist()
+    lines = [
         [name, *("-" if cell == "nan" else cell for cell in row)]
         for name, row in zip(names, rows, strict=True)
     ]
-    report.print_table(["theory", *header], rows)
-    if any("-" in row for row in rows):
+    report.print_table(["theory", *header], lines)
+    if any("-" in line for line in lines):
         note("-: the theory does not say, or the pressure is beyond the one up to which it holds")
-
-
-def _flat(table: xarray.Dataset) -> xarray.Dataset:
-    """Return the predictions along one dimension, theory by theory."""
-    import numpy as np
-
-    count, loads = table.sizes["theory"], table["nominal_pressure"]
-    columns = {
-        "nominal_pressure": ("load", np.tile(loads, count), loads.attrs),
-        **{
-            str(name): ("load", values.to_numpy().ravel(), values.attrs) if values.ndim else values
-            for name, values in table.data_vars.items()
-        },
-        "theory": ("load", np.repeat(table["theory"].to_numpy(), loads.size)),
-    }
-    return table.drop_vars(list(table.variables)).assign(columns)
-
-
-def _record(job: TheoryJob, table: xarray.Dataset, answer: Answer) -> dict[str, Any]:
-    """Return the predictions as plain values."""
-    from roughcontact.labels.labelled import plain_values
-
-    scales = {str(name): float(values) for name, values in table.data_vars.items() if not values.ndim}
-    found = {
-        name: {
-            str(column): plain_values(values.sel(theory=name).to_numpy())
-            for column, values in table.data_vars.items()
-            if values.ndim
-        }
-        for name in job.names()
-    }
-    units = {
-        str(name): values.attrs["units"]
-        for name, values in table.variables.items()
-        if "units" in values.attrs
-    }
-    return {
-        "command": job.NAME,
-        **scales,
-        "nominal_pressure": plain_values(table["nominal_pressure"].to_numpy()),
-        "theories": found,
-        "units": units,
-        "converged": True,  # there is nothing to solve
-        "recipe": carried(job, answer.out),
-    }
-
-
-def _write(record: dict[str, Any], table: xarray.Dataset, folder: Path) -> None:
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv, write_json, write_netcdf
-
-    source = provenance(modulus=record["modulus"], command=command_line(), recipe=record["recipe"])
-    with all_or_none(folder) as aside:
-        write_netcdf(table, aside / "theory.nc", source)
-        write_csv(_flat(table), aside / "theory.csv", source)
-        write_json(record, aside / "theory.json", source)

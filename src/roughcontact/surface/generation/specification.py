@@ -179,17 +179,27 @@ class Specification:
             )
         law = self.spectrum
         longest, shortest = 2 * math.pi / law.q_rolloff, 2 * math.pi / law.q_max
-        made = math.sqrt(grid_moments(grid, law.scaled(self.sigma, grid)).m2 / law.moments().m2)
-        if abs(made - 1) > SLOPE_ERROR:
+        moments = grid_moments(grid, law.scaled(self.sigma, grid))
+        made = math.sqrt(moments.m2 / law.moments().m2)
+        if made < 1 - SLOPE_ERROR:
+            points = " x ".join(str(math.ceil(4 * length / shortest)) for length in grid.lengths)
             raise InputError(
-                f"the waves of this grid have {made:.2f} times the slope of the specification",
-                f"take cells of at most {shortest / 4:.2g} m, a quarter of the shortest wave, and sides of at least "
-                f"{8 * longest:.2g} m, eight roll-offs",
-                "grid",
+                f"the waves of this grid have {made:.3g} times the slope that was specified: the shortest wave, "
+                f"{shortest:.3g} m, has {shortest / max(grid.spacing):.2g} cells",
+                f"give it four cells: {points} points on the same sides",
+            )
+        if made > 1 + SLOPE_ERROR:
+            raise InputError(
+                f"the waves of this grid have {made:.3g} times the slope that was specified: a side holds "
+                f"{min(grid.lengths) / longest:.2g} roll-offs of {longest:.3g} m",
+                f"make each side at least {8 * longest:.3g} m long, eight roll-offs, with cells as they are",
             )
         surface = self_affine(grid, law.hurst, self.sigma, rng, rolloff=longest, short_cutoff=shortest)
-        stated = self._words("sigma", "hurst", *self._given)
-        return replace(surface, provenance=(*surface.provenance, f"as specified: {stated}".replace("`", "")))
+        stated = self._words("sigma", "hurst", *self._given).replace("`", "")
+        line = (
+            f"as specified: {stated}; its waves have the mean slope {math.sqrt(2 * moments.m2 / math.pi):.4g}"
+        )
+        return replace(surface, provenance=(*surface.provenance, line))
 
     @property
     def _given(self) -> tuple[str, ...]:
@@ -256,7 +266,7 @@ class Specification:
             missing.append(f"{('two', 'one')[len(given)]} of {', '.join(f'`{name}`' for name in left)}")
         or_else = f"`{instead}`, or " if instead else ""
         return InputError(
-            f"{' and '.join(known)} leave the bandwidth of the roughness open",
+            f"{', '.join(known[:-1])} and {known[-1]} leave the bandwidth of the roughness open",
             f"give {or_else}{' and '.join(missing)}",
             instead or ("hurst" if self.hurst is None else ", ".join(left)),
         )
