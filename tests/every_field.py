@@ -72,7 +72,11 @@ BESIDE = {
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
     "InterfaceTables.table_area": {"table": "lammps"},
-    **{f"{part}.{name}": beside for part in ("Specified", "SpecifiedJoint") for name, beside in _OF_JOINT.items()},
+    **{
+        f"{part}.{name}": beside
+        for part in ("Specified", "SpecifiedJoint")
+        for name, beside in _OF_JOINT.items()
+    },
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,

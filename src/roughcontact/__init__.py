@@ -155,7 +155,7 @@ if TYPE_CHECKING or _LATE is None:
         midpoint_surface as midpoint_surface,
     )
     from roughcontact.surface.generation.specification import (
-        Specification as Specification,
+        SurfaceSpecification as SurfaceSpecification,
         specified as specified,
     )
     from roughcontact.surface.generation.spectrum import (

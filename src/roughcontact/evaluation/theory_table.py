@@ -12,7 +12,7 @@ from roughcontact.errors import InputError
 from roughcontact.evaluation.conduction import Conductors
 from roughcontact.labels.labelled import variable
 from roughcontact.material import Solid, as_modulus
-from roughcontact.surface.generation.specification import Specification
+from roughcontact.surface.generation.specification import SurfaceSpecification
 from roughcontact.theory import laws
 from roughcontact.theory.law import LoadingLaw
 from roughcontact.theory.random_surfaces.waves import Waves
@@ -38,7 +38,7 @@ _PER_AREA = {
 
 @numeric(modulus="Pa", pressures="Pa", hardness="Pa", resistivities="ohm*m", conductivities="W/m/K")
 def theory_table(
-    joint: Specification,
+    joint: SurfaceSpecification,
     modulus: float | Solid | tuple[Solid, Solid],
     names: str | Sequence[str],
     pressures: npt.ArrayLike,
@@ -51,7 +51,7 @@ def theory_table(
 
     Parameters
     ----------
-    joint : Specification
+    joint : SurfaceSpecification
         As `roughcontact.specified` returns it.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
@@ -85,9 +85,9 @@ def theory_table(
     >>> joint = rc.specified(sigma=(1.2e-6, 1.2e-6), slope=(0.12, 0.12))
     >>> found = rc.theory_table(joint, 50e9, "cmy", [1e6, 1e7], hardness=1e9, conductivities=(167.0, 16.2))
     >>> found["thermal_conductance_per_area"].values.round(-1).tolist()
-    [[5210.0, 46430.0]]
+    [[5210.0, 46480.0]]
     """
-    if not isinstance(joint, Specification):
+    if not isinstance(joint, SurfaceSpecification):
         raise InputError(
             "a joint is known by its specification here",
             "give rc.specified(sigma=..., slope=...), or take rc.loading_laws for a surface",
@@ -125,7 +125,7 @@ def theory_table(
     )
 
 
-def _law(name: str, joint: Specification, modulus: float, hardness: float | None) -> LoadingLaw:
+def _law(name: str, joint: SurfaceSpecification, modulus: float, hardness: float | None) -> LoadingLaw:
     """Return a law of one square metre of a joint, whose forces are its pressures."""
     if name not in WITHOUT_SIZE:
         why = "needs the size of the joint" if name in laws.LAWS else "is not known"

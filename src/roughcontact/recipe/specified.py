@@ -14,7 +14,7 @@ from roughcontact.recipe.recipe_fields import check, described, specs, value_of
 from roughcontact.recipe.texts import Amount, PureNumber
 
 if TYPE_CHECKING:
-    from roughcontact.surface.generation.specification import Specification
+    from roughcontact.surface.generation.specification import SurfaceSpecification
 
 __all__ = ["Specified", "SpecifiedJoint", "specification"]
 
@@ -152,7 +152,7 @@ def specification(part: SpecifiedJoint | Specified) -> Call:
     return Call("rc.specified", (), named, result="joint", place="source")
 
 
-def _known(part: SpecifiedJoint | Specified) -> Specification:
+def _known(part: SpecifiedJoint | Specified) -> SurfaceSpecification:
     from roughcontact.surface.generation.specification import specified  # late, with NumPy
 
     found: Any = specified(**specification(part).named)

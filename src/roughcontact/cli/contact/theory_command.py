@@ -20,7 +20,7 @@ from roughcontact.recipe.written import carried
 if TYPE_CHECKING:
     import xarray
 
-    from roughcontact.surface.generation.specification import Specification
+    from roughcontact.surface.generation.specification import SurfaceSpecification
 
 __all__ = ["EXAMPLES", "theory"]
 
@@ -41,7 +41,7 @@ _VACUUM = "the spots in vacuum: gas in the gap, films and radiation are not in i
 
 
 @dataclass(frozen=True, slots=True)
-class Tables:
+class TableAnswer:
     """Where an answer goes that has no pictures; see `Answer`."""
 
     PANEL: ClassVar = Answer.PANEL
@@ -50,7 +50,7 @@ class Tables:
     is_kept: bool = True  # no option, see `Answer`
 
 
-def theory(job: TheoryJob, *, answer: Tables) -> None:
+def theory(job: TheoryJob, *, answer: TableAnswer) -> None:
     """Say what theories predict of a joint known by rms height and slope: area, stiffness, conductance, per area.
 
     Both numbers suffice for cmy and mikic. Other theories need the bandwidth of the roughness, and the error says how
@@ -89,7 +89,7 @@ def _by_row(table: xarray.Dataset) -> xarray.Dataset:
     return rows.drop_vars("load").rename(row="load").reset_coords("theory")
 
 
-def _facts(job: TheoryJob, joint: Specification, table: xarray.Dataset) -> list[tuple[str, str]]:
+def _facts(job: TheoryJob, joint: SurfaceSpecification, table: xarray.Dataset) -> list[tuple[str, str]]:
     """Return what the theories take, line by line."""
     words = [f"sigma {report.quantity('rms', joint.sigma)}"]
     if joint.slope is not None or joint.has_spectrum:

@@ -15,7 +15,7 @@ from roughcontact.surface.moments import grid_moments
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import RngLike, exactly_one, numeric, positive, require, require_numbers
 
-__all__ = ["Specification", "specified"]
+__all__ = ["SurfaceSpecification", "specified"]
 
 SLOPE_ERROR = (
     0.02  # of a surface: the waves of a grid are no integral, and those at the short cut-off come in steps
@@ -31,7 +31,7 @@ _UNITS = {"sigma": " m", "rolloff": " m", "correlation_length": " m", "short_cut
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Specification:
+class SurfaceSpecification:
     """Rms height and mean slope of a joint, both faces together, and what else is known of its roughness.
 
     It has the profile moments of an isotropic Gaussian surface, so that theories take it in place of a surface's
@@ -60,7 +60,7 @@ class Specification:
     Examples
     --------
     >>> import roughcontact as rc
-    >>> joint = rc.Specification(sigma=1.2e-6, slope=0.12)
+    >>> joint = rc.SurfaceSpecification(sigma=1.2e-6, slope=0.12)
     >>> f"rms height {joint.m0**0.5 * 1e6:.1f} um, rms slope of a profile {joint.m2**0.5:.4f}"
     'rms height 1.2 um, rms slope of a profile 0.1504'
     """
@@ -288,7 +288,7 @@ def specified(
     rolloff: float | None = None,
     correlation_length: float | None = None,
     short_cutoff: float | None = None,
-) -> Specification:
+) -> SurfaceSpecification:
     """Return a joint known by the numbers of a specification: heights and slope, and what settles its spectrum.
 
     Heights and slope are those of both faces together, or a pair of numbers, one of each face, which are combined:
@@ -320,13 +320,13 @@ def specified(
 
     Returns
     -------
-    Specification
+    SurfaceSpecification
 
     Raises
     ------
     ValueError
         If not exactly one height is given, a pair stands beside a single number, Rz is given without its ratio, or
-        `Specification` refuses the numbers.
+        `SurfaceSpecification` refuses the numbers.
 
     Examples
     --------
@@ -336,7 +336,7 @@ def specified(
     'sigma 1.697 um, m 0.1697'
     >>> ground = rc.specified(ra=0.8e-6, slope=0.1, hurst=0.8, correlation_length=20e-6)
     >>> f"roll-off {ground.spectrum.rolloff * 1e6:.0f} um, shortest wave {ground.spectrum.short_cutoff * 1e6:.1f} um"
-    ''
+    'roll-off 82 um, shortest wave 4.2 um'
     """
     name, height = exactly_one(sigma=sigma, ra=ra, rz=rz)
     if (rz is None) != (rz_over_ra is None):
@@ -352,7 +352,7 @@ def specified(
             f"{name}, slope",
         )
     factor = 1.0 if name == "sigma" else math.sqrt(math.pi / 2) / (1.0 if rz_over_ra is None else rz_over_ra)
-    return Specification(
+    return SurfaceSpecification(
         sigma=factor * _together(height, name),
         slope=None if slope is None else _together(slope, "slope"),
         hurst=hurst,
