@@ -1,7 +1,7 @@
 """Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.
 
-Get a surface: `read`, `Surface`, `self_affine`, `shapes`, `examples`; `read_line` for a profile. Its methods prepare
-it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
+Get a surface: `read`, `Surface`, `self_affine`, `specified`, `shapes`, `examples`; `read_line` for a profile. Its
+methods prepare it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
 
 Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` where surfaces
 attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer.

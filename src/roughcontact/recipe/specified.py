@@ -72,7 +72,6 @@ _CORRELATION = described(
 )
 _SHORT = described("Shorter waves are absent.", "5um", read=_WAVE)
 _ONE_OF = ("sigma", "ra", "rz")
-_AT_MOST = ("rolloff", "correlation_length")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +80,6 @@ class SpecifiedJoint:
 
     TITLE: ClassVar = "Specification"
     ONE_OF: ClassVar = _ONE_OF
-    AT_MOST: ClassVar = _AT_MOST
     sigma: str | None = _SIGMA
     ra: str | None = _RA
     rz: str | None = _RZ
@@ -105,7 +103,6 @@ class Specified:
     KIND: ClassVar = "specified"
     TITLE: ClassVar = "Specified surface"
     ONE_OF: ClassVar = _ONE_OF
-    AT_MOST: ClassVar = _AT_MOST
     sigma: str | None = _SIGMA
     ra: str | None = _RA
     rz: str | None = _RZ

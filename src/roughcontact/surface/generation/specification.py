@@ -79,7 +79,7 @@ class SurfaceSpecification:
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):
                 raise InputError(
-                    f"`{name}` must be positive and finite, not {value}", "give another number", name
+                    f"`{name}` must be positive and finite, not {value}", "give a positive number", name
                 )
         if self.hurst is not None and not 0 <= self.hurst <= 1:
             raise InputError(
@@ -207,7 +207,7 @@ class SurfaceSpecification:
 
     def _spectrum(self, instead: str = "") -> SelfAffineSpectrum:
         """Return the spectrum; an error about what is open names what may be given `instead` of it."""
-        if self.hurst is None or len(self._given) < 2:
+        if self.hurst is None or not self.has_spectrum:
             raise self._open(instead)
         hurst, (first, last) = self.hurst, self._given
         wanted: float = getattr(self, last)
