@@ -26,6 +26,7 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         conductance_command as conductance_command,
         curve_command as curve_command,
         press_command as press_command,
+        theory_command as theory_command,
     )
     from roughcontact.cli.study import (
         averages_command as averages_command,

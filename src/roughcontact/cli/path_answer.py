@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
     from roughcontact.cli.options import Answer
-    from roughcontact.recipe.jobs import Job
+    from roughcontact.recipe.jobs import JobOfHeights
     from roughcontact.surface.surface import Surface
 
 __all__ = ["PathAnswer", "collected"]
@@ -70,7 +70,7 @@ class PathAnswer:
 
     Parameters
     ----------
-    job : Job
+    job : JobOfHeights
     surface : Surface
     found : AdhesiveCurve or DetachmentCurve
     whole : bool
@@ -83,7 +83,7 @@ class PathAnswer:
         Where it goes.
     """
 
-    job: Job
+    job: JobOfHeights
     surface: Surface
     found: AdhesiveCurve | DetachmentCurve
     whole: bool

@@ -64,7 +64,8 @@ _FEWEST = 3  # resolved loads that a power law takes
 def curve(job: CurveJob, *, answer: Answer) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
-    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
+    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size. Of a
+    joint known by rms height and slope only, 'surface specified' makes a map, and 'theory' needs none.
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
