@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
-from roughcontact.contact.curve import DECADE, length_scale
+from roughcontact.contact.curve import length_scale
 from roughcontact.contact.loads.load_ends import with_ends
 from roughcontact.contact.loads.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
@@ -23,7 +23,7 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.control import Force
-from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.statistics.fit_window import CELLS, DECADE, FULL_CONTACT_SHARE
 from roughcontact.surface.preparation.spikes import find_spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, whole
