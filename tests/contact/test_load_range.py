@@ -137,8 +137,8 @@ def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
     inside = curve.force >= found.lowest * (1 - 5e-3)
     assert curve.resolved[inside].sum() >= 10
     assert curve.force[inside].max() > 10 * curve.force[inside].min()
-    # Of twenty loads nineteen steps are even in the sum of both ways. Each way is within a factor of two of the mean, as
-    # exponents of k and A are, and another two where the curve of the search, known at four loads a decade, is bent.
+    # Of twenty loads nineteen steps are even in the sum of both ways. Each way is within a factor of two of the mean,
+    # as exponents of k and A are, and another two where the curve of the search, known at four loads a decade, is bent.
     for quantity in (curve.force, curve.stiffness, curve.contact_area):
         steps = np.diff(np.log(quantity[inside]))
         assert steps.max() < 4 * steps.mean()
