@@ -7,8 +7,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import roughcontact as rc
-from roughcontact.adhesion.adhesive_notes import SHORT_RANGE
-from roughcontact.adhesion.highest_summit import SHALLOW, HighestSummit, highest_summit
+from roughcontact.adhesion.model_limits import SHALLOW, SHORT_RANGE, HighestSummit, highest_summit
 from roughcontact.contact.problem import separation_of
 from roughcontact.theory import maugis
 

@@ -11,12 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
-from roughcontact.adhesion.adhesive_notes import notes_on_loads, notes_on_model, notes_on_range
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
-from roughcontact.adhesion.highest_summit import HighestSummit
 from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
+from roughcontact.adhesion.model_limits import HighestSummit, notes_on_loads, notes_on_model, notes_on_range
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE

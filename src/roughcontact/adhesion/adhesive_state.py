@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact import methods
-from roughcontact.adhesion.adhesive_notes import notes_on_model
 from roughcontact.adhesion.attraction import Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import detached
-from roughcontact.adhesion.highest_summit import HighestSummit, highest_summit
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
 from roughcontact.adhesion.quasi_static import Jump, PathPoint
 from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope

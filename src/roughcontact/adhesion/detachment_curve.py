@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 
 from roughcontact import methods
-from roughcontact.adhesion.adhesive_notes import notes_on_loads
 from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.detachment_path import force_unit_of, states_drawn_back
 from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.adhesion.model_limits import notes_on_loads
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE

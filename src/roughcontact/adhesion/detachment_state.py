@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact import methods
-from roughcontact.adhesion.adhesive_notes import notes_on_model
 from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.highest_summit import HighestSummit, highest_summit
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
 from roughcontact.cached import cached_property
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution

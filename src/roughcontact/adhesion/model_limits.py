@@ -1,4 +1,4 @@
-r"""The radius of a body at its highest summit, and the contact that Johnson, Kendall and Roberts give it.
+r"""Where the models of surfaces that stick end: the contact of the highest summit against its radius, and notes.
 
 For a sphere of radius R (Proc. R. Soc. A 324, 301 (1971); Maugis, J. Colloid Interface Sci. 150, 243 (1992)) and a
 cylinder (Barquins, J. Adhes. 26, 1 (1988)), a being the radius or half width of the contact,
@@ -14,16 +14,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.grid import RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.surface.generation.about_centre import RIM, squared
 from roughcontact.validation import Array
 
-__all__ = ["SHALLOW", "HighestSummit", "highest_summit"]
+__all__ = [
+    *("SHALLOW", "SHORT_RANGE", "HighestSummit", "highest_summit"),
+    *("notes_on_loads", "notes_on_model", "notes_on_range"),
+]
 
 # Of the radius: a contact up to it is small. At half the radius the force on a sphere (Sneddon, Int. J. Eng. Sci. 3, 47
 # (1965)) exceeds Hertz's, that on a paraboloid, by 2/5 (a/R)^2, a tenth.
@@ -31,6 +36,9 @@ SHALLOW = 0.5
 NARROWEST = 2  # cells: the smallest distance over which a curvature is found
 # Of the radius: as far as a paraboloid is fitted. A sphere's least squares there give 0.85 of its radius.
 FITTED = 0.75
+# Tabor's number, below which the pull-off force of a sphere by Maugis' equations (`theory.maugis`) exceeds that of
+# Johnson, Kendall and Roberts by more than a tenth: lambda is 0.725 there, and 1.127 times Tabor's number.
+SHORT_RANGE = 0.64
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +121,54 @@ def highest_summit(
         if reach**2 >= farthest or (summit.shallow and summit.unloaded_radius <= reach):
             return found
         reach *= math.sqrt(2)
+
+
+def notes_on_model(summit: HighestSummit, unresolved: bool = False) -> tuple[str, ...]:
+    """Return where neither the grid nor linear elasticity describes these bodies."""
+    notes = []
+    if unresolved:
+        notes.append(
+            "Unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
+            "state; what jumps and sticks here is the lattice, not the body."
+        )
+    if not summit.shallow:
+        a, r = summit.unloaded_radius, summit.radius
+        notes.append(
+            "The contact is not small against the body: without load, the contact of Johnson, Kendall and Roberts has "
+            f"a radius of {a:.3g} m, {a / r:.2g} times the radius of the highest summit, {r:.3g} m (w/(E* R) is "
+            f"{summit.work / (summit.modulus * r):.2g}). Linear elasticity of half-spaces is good up to {SHALLOW:g} "
+            "times that radius: take these numbers as orders of magnitude."
+        )
+    return tuple(notes)
+
+
+def notes_on_loads(
+    *, lowest: float, first: float, last: float, unit: str, control: Literal["depth", "force"], rel: float = 0
+) -> tuple[str, ...]:
+    """Return whether the lowest force of a retreat is that of its first or its last load: no pull-off force."""
+    if lowest >= last - rel * abs(last):
+        return (
+            f"The retreat ends at its lowest force, {lowest:.3g} {unit}, with the surfaces still together: that is not "
+            f"their pull-off force. Continue to lower {control}s until they are apart.",
+        )
+    if lowest >= first - rel * abs(first):
+        return (
+            f"The retreat begins at its lowest force, {lowest:.3g} {unit}, so that this force depends on where it "
+            "begins: it is not the pull-off force. Bring the surfaces closer before you draw them back.",
+        )
+    return ()
+
+
+def notes_on_range(summit: HighestSummit, adhesion: Adhesion) -> tuple[str, ...]:
+    """Return whether a pull-off force depends on the range of the attraction."""
+    number = adhesion.tabor(summit.radius, summit.modulus)
+    if summit.line or number >= SHORT_RANGE:
+        return ()
+    return (
+        f"The pull-off force depends on the range of {adhesion.range:.3g} m: Tabor's number of the highest summit is "
+        f"{number:.2g}, and below {SHORT_RANGE:g} a sphere's pull-off force exceeds the limit of a vanishing range by "
+        "more than a tenth. State the range with the force.",
+    )
 
 
 def _radius(distances: Array, gaps: Array) -> float:
