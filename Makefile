@@ -1,6 +1,6 @@
 # Everything a checkout can do, on a machine with Python (3.11 or later), pip and make.
 #
-#   make demo               press two rough surfaces: tables, files and pictures in out/demo/
+#   make demo               press three rough surfaces: tables, files and pictures in out/demo/
 #   make demo FILE=part.x3p the same with a measured surface of yours (where it lacks them: ARGS="--unit nm --size 1mm";
 #                           of what bodies: ARGS="--materials steel,aluminium")
 #   make thesis FIG=fig27   compute and draw a figure of the thesis in out/thesis/ (FIG=list: which there are)

@@ -24,6 +24,7 @@ QUESTIONS = {
     "friction loop": "tutorials/friction",
     "periodic or free": "gallery/bodies/periodic_and_free",
     "adhesion": "adhesion",
+    "afm tip": "afm",
     "method of adhesion": "method-adhesion",
     "memory": "memory",
     "hardness": "plastic",

@@ -1,26 +1,26 @@
-"""From a rough surface to its stiffness curve: a fractal square and a landscape; or --file part.x3p."""
+"""From rough faces to stiffness curves: a flange, a ground face, a fractal square; or --file part.x3p."""
 
 import argparse
-import math
 import shlex
 import sys
+import textwrap
 import warnings
 from pathlib import Path
 
 import numpy as np
-from matplotlib.cbook import get_sample_data
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError, output_folder
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.provenance import provenance
 from roughcontact.files.write import write_csv, write_netcdf
-from roughcontact.plot.canvas import curve_figure, save, solution_figure
+from roughcontact.plot.canvas import areal_figure, curve_figure, save, solution_figure
 
-GRANITE = rc.Solid(young_modulus=60e9, poisson_ratio=0.25)
-ON_GRANITE = "granite on granite (both 60 GPa, Poisson's ratio 0.25)"
-METRES_PER_DEGREE = 6371e3 * math.pi / 180  # of latitude, on a sphere of the Earth's mean radius
-SHOWN = 20  # which of the thirty loads is drawn as a map
+MEGAPASCAL = 1e6
+PER_AREA = 1e12  # N/um/mm^2 in Pa/m
+FACES = {"flange": "turned", "ground": "ground"}  # maps of rc.examples that stand for machined faces
+FLANGE = {"area": 60e-4, "bolts": 4, "force": 15e3}  # m^2 of the face; N in each bolt
+PRESSURES = np.geomspace(1, 100, 24) * MEGAPASCAL  # of the flange; the others get loads that suit them
 TOLERANCE = 1e-8
 RESOLVED = (
     "resolved: stiffer than twenty single cells and well below full contact; others say more of the grid"
@@ -33,24 +33,19 @@ def fractal():
     return rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
 
 
-def landscape():
-    """Return the elevation model that comes with matplotlib: the fault of Jacksboro, Tennessee."""
-    data = get_sample_data("jacksboro_fault_dem.npz")
-    latitude = math.radians((data["ymin"] + data["ymax"]) / 2)
-    spacing = (data["dy"] * METRES_PER_DEGREE, data["dx"] * METRES_PER_DEGREE * math.cos(latitude))
-    return rc.Surface(data["elevation"], rc.Grid(data["elevation"].shape, spacing), ("Jacksboro fault",))
-
-
-def demonstrate(name, surface, modulus, folder):
+def demonstrate(name, surface, modulus, folder, pressures=None):
     """Press `surface` by rising loads; print, write and draw; return the curve."""
-    curve = rc.loading_curve(surface, modulus, tolerance=TOLERANCE)
-    solution = rc.press(surface, modulus, force=curve.force[SHOWN], tolerance=TOLERANCE)
+    curve = rc.loading_curve(surface, modulus, pressures=pressures, tolerance=TOLERANCE)
     tell(name, surface, curve)
-    law = power_law(curve)
+    if name == "flange":
+        joint(curve)
+    drawn = areal_figure(curve) if name in FACES else curve_figure(curve, power_law(curve))
+    shown = curve.force[-5]  # a load whose contact is large enough to be seen
+    solution = rc.press(surface, modulus, force=shown, tolerance=TOLERANCE)
 
     command = shlex.join(["demo.py", *sys.argv[1:]])
     source = provenance(surface, modulus=modulus, tolerance=TOLERANCE, command=command)
-    pictures = {"curve": (curve, curve_figure(curve, law)), "pressure": (solution, solution_figure(solution))}
+    pictures = {"curve": (curve, drawn), "pressure": (solution, solution_figure(solution))}
     for kind, (what, picture) in pictures.items():
         write_netcdf(what.to_dataset(), folder / f"{name}_{kind}.nc", source)
         save(picture, folder / f"{name}_{kind}.png")
@@ -61,14 +56,30 @@ def demonstrate(name, surface, modulus, folder):
 def tell(name, surface, curve):
     """Print one line a load."""
     ny, nx = surface.grid.shape
-    print(f"\n{name}: {ny} x {nx} cells, rms height {surface.rms:.3g} m ({'; '.join(surface.provenance)})")
-    print("   force [N]   depth [m]  stiffness [N/m]  contact area  spots  certificate  resolved")
-    share = curve.contact_area / surface.grid.area
-    columns = (curve.force, curve.depth, curve.stiffness, share, curve.spots, curve.residual)
+    about = (
+        f"{name}: {ny} x {nx} cells, rms height {surface.rms * 1e6:.3g} um ({'; '.join(surface.provenance)})"
+    )
+    print("", textwrap.fill(about, 100, subsequent_indent="  "), sep="\n")
+    print("   force [N]     p [MPa]  K/A0 [N/um/mm^2]  contact area  spots  certificate  resolved")
+    pressure = curve.nominal_pressure / MEGAPASCAL
+    stiffness = curve.interfacial_stiffness_per_area / PER_AREA
+    columns = (curve.force, pressure, stiffness, curve.contact_fraction, curve.spots, curve.residual)
     for resolved, *numbers in zip(curve.resolved, *columns, strict=True):
-        line = "{:12.4g}{:12.4g}{:17.5g}{:14.3%}{:7d}{:13.1e}".format(*numbers)
+        line = "{:12.4g}{:12.4g}{:18.4g}{:14.3%}{:7d}{:13.1e}".format(*numbers)
         print(f"{line}  {'yes' if resolved else 'no':>8}")
     print(RESOLVED)
+
+
+def joint(curve):
+    """Print what the flange does at the pressure of its bolts."""
+    force = FLANGE["bolts"] * FLANGE["force"]
+    pressure = force / FLANGE["area"]
+    stiffness = np.interp(pressure, curve.nominal_pressure, curve.interfacial_stiffness_per_area)
+    print(
+        f"{FLANGE['bolts']} bolts of {FLANGE['force'] / 1e3:g} kN on {FLANGE['area'] * 1e4:g} cm^2 press by "
+        f"{pressure / MEGAPASCAL:g} MPa: K/A0 = {stiffness / PER_AREA:.3g} N/um/mm^2, "
+        f"the whole joint {stiffness * FLANGE['area'] / 1e9:.3g} kN/um"
+    )
 
 
 def power_law(curve):
@@ -79,7 +90,7 @@ def power_law(curve):
         print(f"no power law: {error}")
         return None
     formula = f"k / (E* L) = {law.prefactor:.3f} (F / (E* h L))^{law.exponent:.3f}"
-    print(f"power law: {formula}, {law.count} resolved loads, scatter {law.scatter:.3f}")
+    print(f"power law: {formula}, scatter {law.scatter:.3f}, through {law.rule}")
     if not law.straight:
         low, high = law.ends
         print(f"but no single one: its exponent goes from {low:.2f} to {high:.2f} over these loads")
@@ -104,44 +115,43 @@ def measured(file, unit, size):
 
 
 def bodies(materials):
-    """Return the reduced modulus of two materials by name, of granite without names; say which it is."""
-    if materials is None:
-        modulus, words = rc.reduced_modulus(GRANITE, GRANITE), ON_GRANITE
-    else:
-        names = materials.split(",")
-        if len(names) != 2:
-            sys.exit(f"Error: --materials: name both bodies, such as steel,aluminium, not {materials!r}")
-        try:
-            first, second = (rc.handbook(name.strip()) for name in names)
-        except ValueError as error:
-            sys.exit(f"Error: --materials: {error}")
-        modulus = rc.reduced_modulus(first.solid, second.solid)
-        words = f"{first.name} ({first.grade}) on {second.name} ({second.grade})"
-    other = " (--materials steel,aluminium for others)" if materials is None else ""
-    print(f"Pressed with the reduced modulus E* = {modulus / 1e9:.4g} GPa of {words}{other}")
+    """Return the reduced modulus of two materials by name; say which they are."""
+    names = materials.split(",")
+    if len(names) != 2:
+        sys.exit(f"Error: --materials: name both bodies, such as steel,aluminium, not {materials!r}")
+    try:
+        first, second = (rc.handbook(name.strip()) for name in names)
+    except ValueError as error:
+        sys.exit(f"Error: --materials: {error}")
+    modulus = rc.reduced_modulus(first.solid, second.solid)
+    words = f"{first.name} ({first.grade}) on {second.name} ({second.grade})"
+    print(
+        f"Pressed with the reduced modulus E* = {modulus / 1e9:.4g} GPa of {words}; elastic at every pressure"
+    )
     return modulus
 
 
 def main():
-    """Press the two surfaces of the demonstration, or the user's."""
+    """Press the three surfaces of the demonstration, or the user's."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--file", type=Path, help="a measured surface to press instead")
     parser.add_argument("--unit", help="unit of its heights, where the file has none, such as um")
     parser.add_argument("--size", help="its width, where the file has none, such as 1mm")
-    parser.add_argument(
-        "--materials", help="both bodies, such as steel,aluminium (default: granite on granite)"
-    )
+    parser.add_argument("--materials", default="steel,aluminium", help="both bodies (default: %(default)s)")
     parser.add_argument("--out", type=Path, default=Path("out/demo"), help="folder for files and pictures")
     given = parser.parse_args()
     if given.file:
         cases = {"surface": measured(given.file, given.unit, given.size)}
         out = given.out / given.file.stem
     else:
-        cases = {"fractal": fractal(), "landscape": landscape().levelled("plane")}
-        out = given.out
+        cases = {name: rc.examples.surface(face).levelled("plane") for name, face in FACES.items()}
+        cases["fractal"], out = fractal(), given.out
     modulus = bodies(given.materials)
     with output_folder(out) as folder:
-        curves = [demonstrate(name, surface, modulus, folder) for name, surface in cases.items()]
+        curves = [
+            demonstrate(name, surface, modulus, folder, PRESSURES if name == "flange" else None)
+            for name, surface in cases.items()
+        ]
     loads, resolved = sum(map(len, curves)), sum(int(curve.resolved.sum()) for curve in curves)
     answers = loads + len(curves)  # and a map of each
     if max(curve.residual.max() for curve in curves) > TOLERANCE:

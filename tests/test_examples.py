@@ -21,26 +21,37 @@ def read(path):
 
 
 def check_demo(stdout, folder):
-    """The law that is printed is the straight line through the points that are written."""
-    law = re.search(r"\^(\S+), (\d+) resolved loads", stdout.split("fractal:")[1])
+    """The law that is printed is the straight line through the points that are written; tables are in N and MPa."""
+    law = re.search(
+        r"\^(\S+), scatter \S+, through (\d+) of (\d+) resolved loads", stdout.split("fractal:")[1]
+    )
     table = read(folder / "fractal_curve.csv")
+    assert int(law[3]) == np.count_nonzero(table["resolved"]) > int(law[2])
     fitted = np.flatnonzero(table["resolved"])[: int(law[2])]
     slope = np.polyfit(np.log(table["force"][fitted]), np.log(table["stiffness"][fitted]), 1)[0]
     assert float(law[1]) == pytest.approx(slope, abs=5.01e-4)  # three digits are printed
-    for name in ("landscape", "fractal"):
+    for name in ("flange", "ground", "fractal"):
         points = read(folder / f"{name}_curve.csv")
         assert points["residual"].max() <= 1e-8
+        first = stdout.split(f"{name}:")[1].split("resolved\n", 1)[1].split()[:3]
+        # Four digits are printed.
+        expected = points["force"][0], points["nominal_pressure"][0] / 1e6
+        np.testing.assert_allclose([float(word) for word in first[:2]], expected, rtol=5.1e-4)
+        per_area = points["interfacial_stiffness_per_area"][0] / 1e12
+        assert float(first[2]) == pytest.approx(per_area, rel=5.1e-4)
+    assert re.search(r"press by 10 MPa: K/A0 = 99 N/um/mm\^2, the whole joint 594 kN/um", stdout)
     verdict = re.search(
-        r"Every one of 50 answers is certified to 1e-08; (\d+) of 48 loads are resolved", stdout
+        r"Every one of 75 answers is certified to 1e-08; (\d+) of 72 loads are resolved", stdout
     )
     assert int(verdict[1]) == stdout.count("  yes\n") > 0
-    assert stdout.index("fractal:") < stdout.index("landscape:")
+    assert stdout.index("flange:") < stdout.index("ground:") < stdout.index("fractal:")
     assert "resolved: stiffer than twenty single cells" in stdout
-    with xarray.open_dataset(folder / "landscape_pressure.nc") as dataset:
+    with xarray.open_dataset(folder / "flange_pressure.nc") as dataset:
         assert "demo.py --out" in dataset.attrs["history"]
         assert len(dataset.attrs["input_sha256"]) == 64
-        assert dataset.attrs["input_surface"] == "Jacksboro fault\ntilt removed by a least-squares plane"
-        assert dataset.attrs["input_reduced_modulus_in_Pa"] == pytest.approx(32e9, rel=1e-14)
+        assert dataset.attrs["input_surface"].endswith("\ntilt removed by a least-squares plane")
+        bodies = [rc.handbook(name).solid for name in ("steel", "aluminium")]
+        assert dataset.attrs["input_reduced_modulus_in_Pa"] == pytest.approx(rc.reduced_modulus(*bodies))
 
 
 def check_ehl_line(stdout, _):
@@ -152,8 +163,7 @@ def test_the_demo_takes_a_file_of_the_user(tmp_path):
     answer = demo(tmp_path, *words, "--unit", "nm", "--size", "1um")
     assert answer.returncode == 0, answer.stderr
     assert "surface: 24 x 48 cells" in answer.stdout
-    # 60 GPa over 2 (1 - 0.25^2)
-    assert answer.stdout.startswith("Pressed with the reduced modulus E* = 32 GPa of granite on granite")
+    assert answer.stdout.startswith("Pressed with the reduced modulus E* = 57.47 GPa of steel")
     assert (tmp_path / "out" / "part" / "surface_curve.png").is_file()
     # White noise is no surface: a note, and no lines of code.
     assert answer.stderr.startswith("Note: part.npy: ")
@@ -163,8 +173,8 @@ def test_the_demo_takes_a_file_of_the_user(tmp_path):
 def test_the_demo_takes_bodies_by_name(tmp_path):
     np.save(tmp_path / "part.npy", np.random.default_rng(1).random((8, 8)))
     words = ("--file", "part.npy", "--out", "out", "--unit", "nm", "--size", "1um", "--materials")
-    answer = demo(tmp_path, *words, "steel,aluminium")
-    assert "E* = 57.47 GPa of steel (AISI 1045, cold drawn) on aluminium (6061-T6)" in answer.stdout
+    answer = demo(tmp_path, *words, "steel,copper")
+    assert "of steel (AISI 1045, cold drawn) on copper (" in answer.stdout
     for names, complaint in (
         ("steel", "name both bodies"),
         ("steel,cheese", "there is no material named 'cheese'"),
@@ -196,7 +206,7 @@ def test_the_demo_ends_quietly_on_ctrl_c(tmp_path):
         stderr=subprocess.PIPE,
         encoding="utf-8",
     ) as process:
-        while "fractal:" not in process.stdout.readline():
+        while "flange:" not in process.stdout.readline():
             pass  # it has begun
         process.send_signal(signal.SIGINT)
         stderr = process.communicate(timeout=60)[1]

@@ -218,7 +218,7 @@ def test_a_preload_below_the_contact_at_the_pull_off_is_noted(body, radius, expe
         surface = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((32, 32), 6.0 / 32))
     off, enough = pulled(surface, depth), largest_tension(surface, 5.0)
     assert off.preload_too_small is expected
-    assert [("preload was too small" in note) for note in off.notes] == [True] * expected
+    assert sum("The preload was too small" in note for note in off.notes) == expected
     if not expected:
         assert off.pull_off_force == pytest.approx(enough, rel=1e-9)
     elif radius < 0.9:

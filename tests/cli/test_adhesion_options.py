@@ -115,7 +115,7 @@ def test_an_ambiguous_jump_is_told(invoke, rough, monkeypatch):
     assert answer.exit_code == 0
     assert "is ambiguous" not in answer.stderr
     monkeypatch.setattr(AdhesiveCurve, "ambiguous", True)
-    assert "Note: a jump is ambiguous" in invoke(*words).stderr
+    assert "Note: A jump is ambiguous" in invoke(*words).stderr
 
 
 def test_a_loop_is_that_of_the_library_and_names_pull_off_and_jumps(invoke, rough):

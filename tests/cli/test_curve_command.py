@@ -47,6 +47,7 @@ def test_the_power_law_is_that_of_the_curve(invoke, tmp_path):
         "bend": law.bend,
         "bend_error": law.bend_error,
         "straight": law.straight,
+        "rule": law.rule,
     }
     assert f"(F/(E* L h))^{law.exponent:.4f}" in invoke(*words).stdout
 

@@ -1,6 +1,7 @@
 """Curves: identities between their columns, which hold whatever the surface."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import oracles
@@ -162,6 +163,20 @@ def test_a_load_on_the_limit_belongs_to_the_window():
     curve = rc.loading_curve(rough(64), 1.0, forces=np.geomspace(1e-4, 1e-3, 7))
     assert curve.fit(window=(1e-4, 1e-3)).count == 7
     assert curve.fit(window=(1.01e-4, 0.99e-3)).count == 5
+
+
+def test_a_law_says_through_which_loads_it_goes():
+    """Up to F/(E* h L) = 0.07 where that leaves a decade, h being 0.01 here, and E* and L one; else all resolved."""
+    curve = rc.loading_curve(rough(64), 1.0, forces=np.geomspace(1e-5, 1e-2, 13))
+    fine = replace(curve, cell_stiffness=1e-9)  # of which all loads are resolved
+    law = fine.fit()
+    assert law.count == (curve.force <= 7e-4).sum() == 8
+    assert law.rule == (
+        "8 of 13 resolved loads, those up to 0.0007 N, where F/(E* L h) is 0.07 and the power law ends"
+    )
+    assert fine.fit((1e-4, 1e-3)).rule == "5 loads from 0.0001 to 0.001 N"
+    short = replace(curve, cell_stiffness=curve.stiffness[6] / 20)
+    assert short.fit().rule == "all 7 resolved loads"  # of which two are lighter
 
 
 def test_depths_may_begin_at_first_touch():

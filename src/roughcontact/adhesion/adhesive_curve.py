@@ -14,6 +14,8 @@ from roughcontact import methods
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
+from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
+from roughcontact.adhesion.model_limits import HighestSummit, notes_on_loads, notes_on_model, notes_on_range
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
@@ -75,6 +77,8 @@ class AdhesiveCurve:
         Sides of the grid and of a cell [m], y first; whether the surface repeats itself.
     nominal_area, rms : float
         Area of all cells [m^2], and root mean square height of the surface [m].
+    summit_radius : float
+        Radius of the body at its highest summit [m], see `AdhesiveState`.
     geometry : Geometry
         What the cells are.
 
@@ -114,6 +118,7 @@ class AdhesiveCurve:
     periodic: tuple[bool, ...]
     nominal_area: float
     rms: float
+    summit_radius: float
     geometry: Geometry
 
     def __len__(self) -> int:
@@ -167,6 +172,32 @@ class AdhesiveCurve:
     def contact_fraction(self) -> Array:
         """Contact area over the nominal area, shape (n,)."""
         return self.contact_area / self.nominal_area
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        line = self.geometry is Geometry.LINE
+        summit = HighestSummit(self.summit_radius, self.modulus, float(np.max(self.adhesion.work)), line)
+        notes = notes_on_model(summit, self.unresolved)
+        if not self.approach.all():
+            retreat = np.flatnonzero(~self.approach)
+            deepest = int(retreat[np.argmin(self.lowest_force[retreat])])
+            begin = int(np.flatnonzero(self.approach[:deepest])[-1])
+            notes += notes_on_loads(
+                lowest=float(self.lowest_force[deepest]),
+                first=float(self.force[begin]),
+                last=float(self.force[deepest]),
+                unit=unit_of("force", self.geometry),
+                control=self.control,
+                rel=FORCE_TOLERANCE,
+            )
+            notes += notes_on_range(summit, self.adhesion)
+        if self.ambiguous:
+            notes += (
+                "A jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
+                "given.",
+            )
+        return notes
 
     def __repr__(self) -> str:
         """Say what the path spans, not its numbers."""
@@ -223,6 +254,7 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
         periodic=tuple(grid.periodic),
         nominal_area=float(grid.area),
         rms=math.nan if surface is None else surface.rms,
+        summit_radius=state.summit_radius,
         geometry=state.geometry,
     )
 

@@ -38,7 +38,8 @@ def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
     """
     title = "approach and retreat of surfaces that stick"
     attributes = {"law": loop.adhesion.law, "control": loop.control, "tolerance": loop.tolerance}
-    return dataset_of(_variables(loop), {}, title, loop.geometry).assign_attrs(attributes)
+    dataset = dataset_of(_variables(loop), {}, title, loop.geometry)
+    return dataset.assign_attrs(attributes, notes="\n".join(loop.notes))
 
 
 def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
@@ -63,7 +64,9 @@ def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
     ('depth', 'approach')
     """
     more = {"law": loop.adhesion.law, "control": loop.control, "tolerance": loop.tolerance}
-    return record_of(_variables(loop), loop.geometry, **more, ambiguous=loop.ambiguous)
+    return record_of(
+        _variables(loop), loop.geometry, **more, notes=list(loop.notes), ambiguous=loop.ambiguous
+    )
 
 
 def _variables(loop: AdhesiveCurve) -> Variables:

@@ -13,6 +13,7 @@ from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import detached
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
 from roughcontact.adhesion.quasi_static import Jump, PathPoint
 from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
@@ -132,6 +133,24 @@ class AdhesiveState:
     def unresolved(self) -> bool:
         """Whether the attraction varies from cell to cell: the state is one of the lattice, not of the body."""
         return not self.problem.resolved
+
+    @cached_property
+    def _summit(self) -> HighestSummit:
+        problem = self.problem
+        return highest_summit(problem.operator, problem.separation, problem.modulus, problem.adhesion.work)
+
+    @property
+    def summit_radius(self) -> float:
+        """Radius of the body at its highest summit [m]: that of a paraboloid over the contact without load.
+
+        The contact is that of Johnson, Kendall and Roberts on this radius. Much smaller roughness does not count.
+        """
+        return self._summit.radius
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of these numbers should know, in sentences."""
+        return notes_on_model(self._summit, self.unresolved)
 
     @cached_property
     def displacement(self) -> Array:

@@ -136,7 +136,7 @@ class Attraction(Protocol):
     ) -> Attraction:
         """Return the law on the cells of a computation.
 
-        Work [J/m^2] of each cell, range [m] and strength [Pa] of the adhesion; the rest as of `law_on`.
+        Work [J/m^2] of each cell, range [m] and strength [Pa] of the adhesion; undeformed gap [m], E* [Pa].
         """
 
     @property

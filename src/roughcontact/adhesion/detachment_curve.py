@@ -13,6 +13,7 @@ from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.detachment_path import force_unit_of, states_drawn_back
 from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.adhesion.model_limits import notes_on_loads
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
@@ -222,6 +223,12 @@ def collect_detachments(states: Iterable[DetachmentState], loads: Loads | None) 
         events += state.detachments
         status.append(state.status)
     problem = state.problem
+    control: Literal["depth", "force"] = "depth" if loads is None or loads.kind == "depth" else "force"
+    notes = state.notes
+    if state.contact.any():
+        unit = unit_of("force", state.geometry)
+        lowest, last = state.lowest_force, state.force
+        notes += notes_on_loads(lowest=lowest, first=math.inf, last=last, unit=unit, control=control)
     grid, surface = problem.grid, problem.surface
     return DetachmentCurve(
         **dict(zip(_POINTS, np.array(rows).T, strict=True)),
@@ -229,8 +236,8 @@ def collect_detachments(states: Iterable[DetachmentState], loads: Loads | None) 
         detachments=tuple(events),
         detached_at=tuple(detached_at),
         preload_too_small=state.preload_too_small,
-        notes=state.notes,
-        control="depth" if loads is None or loads.kind == "depth" else "force",
+        notes=notes,
+        control=control,
         work=state.work,
         modulus=problem.modulus,
         tolerance=problem.tolerance,

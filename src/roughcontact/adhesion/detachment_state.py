@@ -9,11 +9,13 @@ import numpy as np
 
 from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
 from roughcontact.cached import cached_property
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, Mask
 
@@ -107,12 +109,30 @@ class DetachmentState:
     def preload_too_small(self) -> bool:
         """Whether the pull-off force may be larger after a larger preload.
 
-        So it is if more than four fifths of the preload's contact still held under the largest tension, unless the
-        preload held all measured cells. It is False as long as any cell is in contact.
+        So it is if Hertz's contact under the preload is smaller than the contact of Johnson, Kendall and Roberts at the
+        pull-off, see `least_preload`, or if more than four fifths of the preload's contact still held under the largest
+        tension; unless the preload held all measured cells. It is False as long as any cell is in contact.
         """
         if self.contact.any() or self.solution.contact.sum() == self.problem.measured.sum():
             return False
-        return self.lowest_force_area > HELD * self.solution.contact_area
+        held = self.lowest_force_area > HELD * self.solution.contact_area
+        return held or self.solution.force < self.least_preload
+
+    @property
+    def least_preload(self) -> float:
+        """Smallest preload [N] under which a sphere's contact is not smaller than at its pull-off; on a line [N/m].
+
+        By Johnson, Kendall and Roberts it is as large as the pull-off force: 3/2 pi w R with the radius R of the
+        highest summit, or the largest tension so far if that is larger. On a line it is a third of the pull-off force.
+        """
+        share = 1 / 3 if self._summit.line else 1.0
+        single = self._summit.least_preload if math.isfinite(self._summit.radius) else 0.0
+        return max(single, share * self.pull_off_force)
+
+    @cached_property
+    def _summit(self) -> HighestSummit:
+        problem = self.problem
+        return highest_summit(problem.operator, problem.separation, problem.modulus, self.work)
 
     @property
     def directional(self) -> bool:
@@ -122,13 +142,22 @@ class DetachmentState:
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of these numbers should know, in sentences."""
+        notes = notes_on_model(self._summit)
         if not self.preload_too_small:
-            return ()
-        part = self.lowest_force_area / self.solution.contact_area
-        return (
-            f"The preload was too small: {100 * part:.0f} % of its contact still held under the largest tension. After "
-            "a larger preload the pull-off force may be larger; press deeper until it stays the same.",
+            return notes
+        part, force = self.lowest_force_area / self.solution.contact_area, self.solution.force
+        why = f"{100 * part:.0f} % of its contact still held under the largest tension"
+        if force < self.least_preload:
+            body = "cylinder" if self._summit.line else "sphere"
+            unit = unit_of("force", self.geometry)
+            why = (
+                f"under {force:.3g} {unit} the contact is smaller than that of Johnson, Kendall and Roberts at the "
+                f"pull-off, for which a {body} needs {self.least_preload:.3g} {unit}"
+            )
+        larger = (
+            "After a larger preload the pull-off force may be larger; press deeper until it stays the same."
         )
+        return (*notes, f"The preload was too small: {why}. {larger}")
 
     @property
     def lost(self) -> float:

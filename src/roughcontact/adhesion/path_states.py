@@ -9,12 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from roughcontact.adhesion.adhesive_state import AdhesiveProblem, AdhesiveState, state_of
-from roughcontact.adhesion.attraction import REACH, Adhesion
+from roughcontact.adhesion.attraction import LAWS, REACH, Adhesion, Attraction
 from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm, elastic_form
 from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.adhesion.gradient_flow import detached
-from roughcontact.adhesion.law_on_cells import law_on
 from roughcontact.adhesion.quasi_static import PathPoint, QuasiStatic
 from roughcontact.adhesion.truncated_newton import Counter, minimise
 from roughcontact.errors import InputError
@@ -114,7 +113,7 @@ def states_along(
         raise InputError("adhesion needs a body on a whole grid, not on a list of cells")
     form = elastic_form(operator)
     control: DepthControl | ForceControl
-    control = DepthControl(form, law_on(adhesion, form, separation, modulus), separation)
+    control = DepthControl(form, _law_on(adhesion, form, separation, modulus), separation)
     if loads.kind == "force":
         control, goals = ForceControl.of(control), _checked_forces(loads.values)
         scale = max(float(np.max(np.abs(goals))), adhesion.strength * float(np.min(operator.weights)))
@@ -203,3 +202,20 @@ def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Ite
                 reached = _polished(path, reached)
             state = state_of(problem, reached, path.counter.products - before)
         yield state
+
+
+def _law_on(adhesion: Adhesion, form: ElasticForm, separation: Array, modulus: float) -> Attraction:
+    """Return the law on the cells of a computation.
+
+    Parameters
+    ----------
+    adhesion : Adhesion
+    form : ElasticForm
+    separation : array, shape of the grid
+        Undeformed gap [m]; infinite where nothing was measured, and nothing attracts.
+    modulus : float
+        Reduced modulus E* [Pa].
+    """
+    work = form.extended(np.where(np.isfinite(separation), adhesion.work, 0.0), 0.0)
+    law = LAWS[adhesion.law]
+    return law.on_cells(work, adhesion.range, adhesion.strength, form, separation, modulus)

@@ -69,7 +69,7 @@ def state_dataset(state: AdhesiveState) -> xarray.Dataset:
         data |= variables_of(problem.surface, {(CELLS,): (HEIGHTS,)}, kind)
     title = "contact of surfaces that stick"
     dataset = dataset_of(data | _numbers(state), centres(grid, kind), title, kind)
-    return dataset.assign_attrs(law=problem.adhesion.law)
+    return dataset.assign_attrs(law=problem.adhesion.law, notes="\n".join(state.notes))
 
 
 def state_record(state: AdhesiveState) -> dict[str, Any]:
@@ -97,6 +97,7 @@ def state_record(state: AdhesiveState) -> dict[str, Any]:
         "shape": list(problem.operator.grid.shape),
         "law": problem.adhesion.law,
         "tolerance": problem.tolerance,
+        "notes": list(state.notes),
     }
     return record_of(_numbers(state), state.geometry, **more)
 

@@ -130,7 +130,7 @@ class PathAnswer:
         before: Sequence[tuple[str, str]],
         after: Sequence[tuple[str, str]],
     ) -> None:
-        """Print the loads between facts, or one JSON object; note how many loads missed the tolerance."""
+        """Print the loads between facts, or one JSON object; print what a reader should know on standard error."""
         found = self.found
         if self.answer.json:
             emit(self.record())
@@ -140,6 +140,8 @@ class PathAnswer:
             print_facts(after)
         if missed := sum(not status.converged for status in found.status):
             note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
+        for line in found.notes:
+            note(line)
 
     def end(self, folder: Path | None, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""

@@ -23,11 +23,11 @@ from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
-from roughcontact.statistics.fit_window import is_resolved
+from roughcontact.statistics.fit_window import DECADE, fitted_loads, is_resolved
 from roughcontact.statistics.local_exponent import LocalExponent, local_exponents
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
-from roughcontact.validation import Array, Mask, number, numeric
+from roughcontact.validation import Array, number, numeric
 
 if TYPE_CHECKING:
     from roughcontact.theory.law import Scope
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
-DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
 REMEDY = (
     "take the forces that load_range finds for the surface, a finer grid, or a window of forces of your own"
 )
@@ -212,11 +211,13 @@ class Curve:
         >>> import roughcontact as rc
         >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
         >>> curve = rc.loading_curve(ball, 1e9, forces=np.geomspace(1e-2, 1e-1, 9))
-        >>> f"k ~ F^{curve.fit().exponent:.2f}"  # of Hertz 1/3
-        'k ~ F^0.34'
+        >>> f"k ~ F^{curve.fit().exponent:.2f}", curve.fit().rule  # of Hertz 1/3
+        ('k ~ F^0.34', 'all 9 resolved loads')
         """
+        unit = unit_of("force", self.geometry)
         if window is None:
-            inside = self._range_of_fit()
+            limit = math.inf if self.geometry is Geometry.LINE else FORCE_LIMIT * self.force_scale
+            inside, rule = fitted_loads(self.force, self.resolved, limit, unit)
         else:
             ends = np.asarray(number(window, "window [N]"))
             if ends.shape != (2,) or not 0 <= ends[0] < ends[1]:
@@ -224,6 +225,7 @@ class Curve:
             low, high = ends * (1 - ROUNDING, 1 + ROUNDING)
             inside = (self.force >= low) & (self.force <= high) & (self.stiffness > 0)
             inside &= np.isfinite(self.stiffness)
+            rule = f"{int(inside.sum())} loads from {ends[0]:.3g} to {ends[1]:.3g} {unit}"
         if (points := int(inside.sum())) < 3:
             few = f"a power law needs at least 3 resolved points in the range of forces that is fitted, not {points}"
             raise InputError(few, REMEDY)
@@ -234,7 +236,7 @@ class Curve:
             )
             raise InputError(short, REMEDY)
         return fit_power_law(
-            self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale
+            self.force[inside], self.stiffness[inside], self.force_scale, self.stiffness_scale, rule
         )
 
     def local_exponents(self, quantity: str = "stiffness") -> tuple[LocalExponent, ...]:
@@ -321,14 +323,6 @@ class Curve:
             {name: np.asarray(getattr(self, name), dtype=np.float64) for name in names},
             {name: theory.predict(name, self.force) for name in names},
         )
-
-    def _range_of_fit(self) -> Mask:
-        """Return the points that are fitted by default: the resolved ones, up to 0.07 if these span a decade."""
-        light = self.resolved & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
-        if self.geometry is Geometry.LINE or not light.any():
-            return self.resolved
-        span = self.force[light].max() / self.force[light].min()
-        return light if span >= DECADE else self.resolved
 
     def _require_alike(self, name: str, scope: Scope) -> None:
         """Refuse a law that was made for another contact than that of this curve."""

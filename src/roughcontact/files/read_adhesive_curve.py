@@ -28,7 +28,7 @@ from roughcontact.validation import Array
 
 __all__ = ["read_adhesive_curve"]
 
-_SCALES = ("modulus", "nominal_area", "rms")
+_SCALES = ("modulus", "nominal_area", "rms", "summit_radius")
 _SCALARS = (*_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
 
 

@@ -45,6 +45,9 @@ PULL_OFF = Column("pull_off_force", "N", "largest tension of the retreat, betwee
 LOST = Column("lost_energy", "J", "energy lost in all jumps", "", "energy lost")
 MAX_TENSION = Column("max_tension", "Pa", "largest tension of a cell", "", "largest tension")
 UNRESOLVED = Column("unresolved", "", "attraction varies from cell to cell: states are those of the lattice")
+SUMMIT_RADIUS = Column(
+    "summit_radius", "m", "radius of the body at its highest summit, over the contact without load"
+)
 WORK_OF_ADHESION = Column(
     "work_of_adhesion", "J m-2", "work of adhesion, to part a unit area", "", "work of adhesion w"
 )
@@ -78,6 +81,7 @@ ADHESIVE_CURVE: Table = {
         MODULUS,
         _OF["nominal_area"],
         RMS,
+        SUMMIT_RADIUS,
     ),
     ("jump",): (Column("jumped", "1", "load, counted from 0, that the jump came on the way to"),),
     ("axis",): SIZES,
@@ -104,6 +108,7 @@ ADHESIVE_STATE: Table = {
         """),
         RESIDUAL,
         UNRESOLVED,
+        SUMMIT_RADIUS,
         STATUS,
     ),
     ("axis",): SIZES,

@@ -25,8 +25,10 @@ ADHESIVE_COLUMNS = names_of(shown_in("path", ADHESIVE_CURVE[("load",)]))
 _JUMPS = 12  # that are listed one by one: those that lost most
 
 
-def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> list[tuple[str, str]]:
-    """Return the law of adhesion, and over how many cells the attraction varies beside a contact."""
+def law_facts(
+    adhesion: Adhesion, modulus: float, spacing: Sequence[float], summit_radius: float
+) -> list[tuple[str, str]]:
+    """Return the law of adhesion, over how many cells the attraction varies beside a contact, and Tabor's number."""
     zone = adhesion.process_zone(modulus)
     work = (
         "the work of each cell"
@@ -40,6 +42,10 @@ def law_facts(adhesion: Adhesion, modulus: float, spacing: Sequence[float]) -> l
         stiff,
         ("adhesion", f"{adhesion.law}, {work} over {length}: at most {strength}"),
         ("Irwin's length", f"{quantity('spacing', zone)}, {zone / max(spacing):.3g} cells"),
+        (
+            "radius of the highest summit",
+            f"{quantity('summit_radius', summit_radius)}, Tabor's number {adhesion.tabor(summit_radius, modulus):.2g}",
+        ),
     ]
 
 
@@ -51,7 +57,7 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
     return [
         ("surface", size_of(grid)),
-        *law_facts(problem.adhesion, problem.modulus, grid.spacing),
+        *law_facts(problem.adhesion, problem.modulus, grid.spacing, state.summit_radius),
         ("force", quantity("force", state.force, kind)),
         ("nominal pressure", quantity("pressure", state.nominal_pressure, kind)),
         ("largest pressure", quantity("pressure", state.max_pressure, kind)),

@@ -83,7 +83,6 @@ def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
         ("elastic and adhesive energy", " and ".join(energies)),
         ("largest tension so far", quantity("pull_off_force", state.pull_off_force, kind)),
         ("certificate", f"{state.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
-        *(("note", line) for line in state.notes),
     ]
 
 
@@ -97,7 +96,6 @@ def detachment_facts(curve: DetachmentCurve) -> list[tuple[str, str]]:
         (_pull_off(curve), quantity("pull_off_force", curve.pull_off_force, kind) + at),
         (_count(len(curve.detachments), "detachment"), f"{quantity('lost_energy', curve.lost, kind)} lost"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
-        *(("note", line) for line in curve.notes),
     ]
 
 

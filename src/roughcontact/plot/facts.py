@@ -145,11 +145,9 @@ def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
     ]
     if law is None:
         return facts
-    low, high = (quantity("force", end, kind) for end in law.window)
     stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
     text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
-    fitted = f"{law.count} loads from {low} to {high}, scatter {law.scatter:.2g}"
-    return [("power law", text), ("fitted to", fitted), *facts]
+    return [("power law", text), ("fitted to", f"{law.rule}; scatter {law.scatter:.2g}"), *facts]
 
 
 def bend_words(law: PowerLaw) -> str:

@@ -72,7 +72,7 @@ def solution_html(solution: Solution) -> str:
     solution = solution.on_host()
     figure, axes = _figure()
     plot_solution(solution, axes)
-    facts = [*solution_facts(solution), *(("note", line) for line in solution.notes)]
+    facts = [*solution_facts(solution), *_noted(solution.notes)]
     return _page("Solution", facts, figure)
 
 
@@ -101,7 +101,7 @@ def state_html(state: AdhesiveState | DetachmentState) -> str:
     figure, axes = _figure()
     plot_state(state, axes)
     facts = detachment_state_facts(state) if isinstance(state, DetachmentState) else adhesive_facts(state)
-    return _page("State", facts, figure)
+    return _page("State", [*facts, *_noted(state.notes)], figure)
 
 
 def detachment_html(curve: DetachmentCurve) -> str:
@@ -109,16 +109,22 @@ def detachment_html(curve: DetachmentCurve) -> str:
     figure, axes = _figure()
     detachment_force(curve, axes)
     table = _table(*load_table(curve.to_dataset(), DETACHMENT_COLUMNS))
-    return _page("Detachment", detachment_facts(curve), figure) + table
+    return _page("Detachment", [*detachment_facts(curve), *_noted(curve.notes)], figure) + table
 
 
 def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
     jump_loop(loop, axes)
-    facts = [*law_facts(loop.adhesion, loop.modulus, loop.spacing), *adhesive_curve_facts(loop)]
+    law = law_facts(loop.adhesion, loop.modulus, loop.spacing, loop.summit_radius)
+    facts = [*law, *adhesive_curve_facts(loop), *_noted(loop.notes)]
     table = _table(*load_table(loop.to_dataset(), ADHESIVE_COLUMNS))
     return _page("Loop", facts, figure) + table
+
+
+def _noted(notes: Sequence[str]) -> list[tuple[str, str]]:
+    """Return notes as facts."""
+    return [("note", line) for line in notes]
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:

@@ -11,16 +11,18 @@ import numpy.typing as npt
 
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.statistics.power_law import FORCE_LIMIT
-from roughcontact.validation import numeric, scalar
+from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING
+from roughcontact.validation import Array, Mask, numeric, scalar
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = [
     "CELLS",
+    "DECADE",
     "FULL_CONTACT_SHARE",
     "Window",
+    "fitted_loads",
     "force_window",
     "is_resolved",
     "resolved_window",
@@ -30,11 +32,32 @@ __all__ = [
 CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
 # Of the full-contact stiffness; above it they are those of the finite size (eq. 4.14).
 FULL_CONTACT_SHARE = 0.9
+DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
 
 
 def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
     """Return whether stiffnesses (of a line contact: widths) lie between a few cells and full contact."""
     return np.asarray((size >= CELLS * cell) & (size < FULL_CONTACT_SHARE * whole))
+
+
+def fitted_loads(force: Array, resolved: Mask, limit: float, unit: str) -> tuple[Mask, str]:
+    """Return which loads a power law is fitted to by default, and the rule in words.
+
+    Parameters
+    ----------
+    force : array, shape (n,)
+        In a unit.
+    resolved : array of bool, shape (n,)
+    limit : float
+        Largest force of a power law; if the resolved loads up to it span less than a decade, all of them are fitted.
+    unit : str
+    """
+    light, count = resolved & (force <= limit * (1 + ROUNDING)), int(resolved.sum())
+    lower = int(light.sum())
+    if 0 < lower < count and force[light].max() >= DECADE * force[light].min():
+        where = f"where F/(E* L h) is {FORCE_LIMIT:g} and the power law ends"
+        return light, f"{lower} of {count} resolved loads, those up to {limit:.3g} {unit}, {where}"
+    return resolved, f"all {count} resolved loads"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -38,6 +38,8 @@ class PowerLaw:
     bend, bend_error : float
         Change of the exponent from the lowest force of the window to the highest, by the parabola through the
         logarithms, and its standard error; infinite of three points.
+    rule : str
+        The points in words: which of how many, and why.
 
     Examples
     --------
@@ -58,6 +60,7 @@ class PowerLaw:
     stiffness_scale: float
     bend: float = 0.0
     bend_error: float = math.inf
+    rule: str = ""
 
     @property
     def straight(self) -> bool:
@@ -96,7 +99,9 @@ class PowerLaw:
         return np.asarray(self.stiffness_scale * self.prefactor * ratio**self.exponent)
 
 
-def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_scale: float) -> PowerLaw:
+def fit_power_law(
+    force: Array, stiffness: Array, force_scale: float, stiffness_scale: float, rule: str = ""
+) -> PowerLaw:
     """Return the straight line through ln k over ln F by least squares.
 
     Raises
@@ -119,6 +124,7 @@ def fit_power_law(force: Array, stiffness: Array, force_scale: float, stiffness_
         stiffness_scale,
         bend,
         bend_error,
+        rule,
     )
 
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.attraction import Adhesion
     from roughcontact.surface.surface import Surface
 
-__all__ = ["note_long_range", "note_unresolved"]
+__all__ = ["note_long_range"]
 
 
 def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
@@ -23,13 +23,4 @@ def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
         note(
             f"the range of {quantity('adhesion_range', adhesion.range)} is longer than the surface is high, "
             f"{quantity('depth', span)} from lowest to highest: a --range without a unit is in metres"
-        )
-
-
-def note_unresolved(unresolved: bool) -> None:
-    """Say on standard error if the grid does not resolve the attraction."""
-    if unresolved:
-        note(
-            "unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
-            "state; what jumps and sticks here is the lattice, not the body"
         )

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.adhesion.adhesion_notes import note_long_range, note_unresolved
+from roughcontact.cli.adhesion.adhesion_notes import note_long_range
 from roughcontact.cli.contact_of_job import contact_of
-from roughcontact.cli.messages import note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.path_answer import PathAnswer, collected
@@ -97,12 +96,6 @@ def _follow(
         path = PathAnswer(job, surface, found, whole, stem, f"{stem}_jumps", found.converged, answer)
         if folder is not None:
             path.write(folder, control, jump_figure)
-    law = law_facts(adhesion, modulus, surface.grid.spacing)
+    law = law_facts(found.adhesion, found.modulus, found.spacing, found.summit_radius)
     path.show(ADHESIVE_COLUMNS, law, adhesive_curve_facts(found))
-    note_unresolved(found.unresolved)
-    if found.ambiguous:
-        note(
-            "a jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
-            "given"
-        )
     path.end(folder, total)

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli.adhesion.adhesion_notes import note_long_range, note_unresolved
+from roughcontact.cli.adhesion.adhesion_notes import note_long_range
 from roughcontact.cli.contact_of_job import best_state, contact_of, name_of
 from roughcontact.cli.exits import MISSED
+from roughcontact.cli.messages import note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
@@ -67,7 +68,8 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
     else:
         size, *others = adhesive_facts(state)
         print_facts([size, *pressed.facts(), *others])
-    note_unresolved(state.unresolved)
+    for line in state.notes:
+        note(line)
     answer.note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
     if not state.status.converged:
         raise typer.Exit(MISSED)

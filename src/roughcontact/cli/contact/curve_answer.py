@@ -308,4 +308,5 @@ def _fit_record(law: PowerLaw) -> dict[str, Any]:
         "straight": law.straight,
         "window": [float(end) for end in law.window],
         "count": int(law.count),
+        "rule": law.rule,
     }

@@ -72,7 +72,7 @@ def theory(job: TheoryJob, *, answer: TableAnswer) -> None:
             source = provenance(modulus=columns["modulus"], command=command_line(), recipe=record["recipe"])
             with all_or_none(folder) as aside:
                 write_netcdf(known["table"], aside / "theory.nc", source)
-                write_csv(table, aside / "theory.csv", source)
+                write_csv(table, aside / "theory.csv")
                 write_json(record, aside / "theory.json", source)
     if answer.json:
         report.emit(record)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
-from roughcontact.contact.curve import DECADE
 from roughcontact.contact.loads.load_ends import with_ends
 from roughcontact.contact.loads.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
@@ -25,7 +23,7 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.control import Force
-from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.statistics.fit_window import CELLS, DECADE, FULL_CONTACT_SHARE
 from roughcontact.surface.preparation.spikes import find_spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric, whole
@@ -49,7 +47,7 @@ class LoadRange:
     single_feature : bool
         Whether the largest spot carries more than half where the contact is as stiff as twenty cells.
     forces : array, shape (n,)
-        Forces for a curve [N], increasing; half of those in the range are even in ln k, half in ln A.
+        Forces for a curve [N], increasing; those in the range are even in ln k and ln A, each over its own range.
     lowest, highest : float
         The range that the grid resolves [N]; on a line what is suggested [N/m]. Not above each other where there is
         none.
@@ -144,21 +142,13 @@ def load_range(
 
 
 def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
-    """Return the forces: some below the range, and half of the others even in ln k, half in ln A."""
+    """Return the forces: some below the range, and the others even in ln k and ln A."""
     low, high = search.lowest, search.highest
     reasons = (search.start, search.reason or "the largest force of the search")
     if low < high:
         below = min(FORCES_BELOW, count // 6)
-        half = (count - below) // 2
-        ends = np.linspace(0, 1, count - below - half)
-        between = (np.arange(half) + 0.5) / max(1, half)
-        forces = np.concatenate(
-            [
-                np.geomspace(low / 10, low, below, endpoint=False),
-                _even(search, "stiffness", low, high, ends),
-                _even(search, "area", low, high, between),
-            ]
-        )
+        less = np.geomspace(low / 10, low, below, endpoint=False)
+        forces = np.concatenate([less, _even(search, low, high, count - below)])
     else:
         forces = np.geomspace(high / 100, high, count)
     forces = _distinct(forces, count)
@@ -166,13 +156,14 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
     return LoadRange(search.kind, search.single_feature, forces, low, high, reasons, notes)
 
 
-def _even(
-    search: LoadSearch, name: Literal["stiffness", "area"], low: float, high: float, parts: Array
-) -> Array:
-    """Return the forces of a range at which the logarithm of a quantity is at some parts of its way."""
-    force, rising = np.log(search.column("force")), np.log(np.maximum.accumulate(search.column(name)))
-    ends = np.interp(np.log([low, high]), force, rising)
-    return np.asarray(np.exp(np.interp(ends[0] + parts * (ends[1] - ends[0]), rising, force)))
+def _even(search: LoadSearch, low: float, high: float, count: int) -> Array:
+    """Return the forces of a range that are even in the sum of ln k and ln A, each over its own range."""
+    force, way = np.log(search.column("force")), 0.0
+    for quantity in (search.column("stiffness"), search.column("area")):
+        rising = np.log(np.maximum.accumulate(quantity))
+        start, end = np.interp(np.log([low, high]), force, rising)
+        way = way + (rising - start) / (end - start or 1.0)
+    return np.asarray(np.exp(np.interp(np.linspace(0, 2, count), way, force)))
 
 
 def _distinct(forces: Array, count: int) -> Array:

@@ -16,7 +16,6 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
 from roughcontact.contact.continuation import follow
-from roughcontact.contact.curve import DECADE
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
@@ -27,7 +26,7 @@ from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.nested_iteration import block_minimum, coarse_operator_on
 from roughcontact.solver.projection import bearing_force
-from roughcontact.statistics.fit_window import CELLS, FULL_CONTACT_SHARE
+from roughcontact.statistics.fit_window import CELLS, DECADE, FULL_CONTACT_SHARE
 from roughcontact.surface.preparation.polynomial import polynomial_trend
 from roughcontact.validation import Array
 

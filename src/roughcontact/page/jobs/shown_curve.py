@@ -100,16 +100,11 @@ def _of_path(path: AdhesiveCurve) -> ShownCurve:
     ]
     if path.pull_off_force > 0:
         lines.append(_level(path))
-    notes = []
-    if path.unresolved:
-        notes.append(
-            "Unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
-            "state."
-        )
-    if path.ambiguous:
-        notes.append("A jump is ambiguous: two integrations of the flow after it ended in different states.")
-    facts = [*law_facts(path.adhesion, path.modulus, path.spacing), *adhesive_curve_facts(path)]
-    return ShownCurve(path, facts, lambda: jump_figure(path), notes, {"lines": lines})
+    facts = [
+        *law_facts(path.adhesion, path.modulus, path.spacing, path.summit_radius),
+        *adhesive_curve_facts(path),
+    ]
+    return ShownCurve(path, facts, lambda: jump_figure(path), path.notes, {"lines": lines})
 
 
 def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
@@ -125,8 +120,7 @@ def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
     lines = [_line("retreat", *line_of(curve).T)]
     if curve.pull_off_force > 0:
         lines.append(_level(curve, lines[0]["x"]))
-    facts = [(name, value) for name, value in detachment_facts(curve) if name != "note"]
-    return ShownCurve(curve, facts, drawn, curve.notes, {"lines": lines})
+    return ShownCurve(curve, detachment_facts(curve), drawn, curve.notes, {"lines": lines})
 
 
 _SHOWN: dict[str, Callable[[Any], ShownCurve]] = {
