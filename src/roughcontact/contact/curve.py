@@ -18,7 +18,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
 from roughcontact.labels.variables import force_unit, unit_of
@@ -335,11 +335,17 @@ class Curve:
                 remedy = "make it by loading_laws from the surface that was pressed, or compare with other_surface=True"
                 raise InputError(f"the law of {name} was made for another contact: {differ}", remedy)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What makes the curve doubtful as a whole, in sentences."""
+        return methods.curve_notes(self)
+
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""
         resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
         unit = unit_of("force", self.geometry)
-        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
+        doubt = "".join(f"; {note.partition(':')[0]}" for note in self.notes[:1])
+        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit}{doubt})"
 
     to_dataset = methods.curve_dataset
     to_record = methods.curve_record
@@ -390,10 +396,3 @@ def collect(path: Iterable[Solution]) -> Curve:
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
     )
-
-
-def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
-    """Return the length L of the dimensionless numbers [m]."""
-    if geometry is Geometry.RING:
-        return math.sqrt(math.pi) * lengths[0]
-    return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]

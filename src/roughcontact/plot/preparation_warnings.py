@@ -9,7 +9,8 @@ import numpy as np
 
 from roughcontact.plot.facts import quantity
 from roughcontact.surface.preparation.polynomial import polynomial_trend
-from roughcontact.surface.preparation.spikes import find_spikes, tail_of
+from roughcontact.surface.preparation.spikes import find_spikes
+from roughcontact.surface.preparation.streaks import tail_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -12,7 +12,7 @@ from roughcontact.cli import report
 from roughcontact.cli.contact.conductance_command import conduction_facts, shown_columns
 from roughcontact.cli.contact.curve_theories import deviations, exponents, parameters
 from roughcontact.cli.contact_of_job import name_of
-from roughcontact.cli.messages import note
+from roughcontact.cli.messages import note, worded
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
@@ -194,7 +194,7 @@ class CurveAnswer:
             "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
-            "notes": list(self.notes),
+            "notes": [*self.curve.notes, *self.notes],
             "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
             "recipe": self.recipe,
         }
@@ -238,7 +238,8 @@ class CurveAnswer:
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
-            report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
+            doubts = [("doubtful", worded(line)) for line in curve.notes]
+            report.print_facts([*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = (
