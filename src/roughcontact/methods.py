@@ -69,6 +69,8 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
+    from roughcontact.surface.preparation.alignment import aligned as aligned
+    from roughcontact.surface.preparation.despike import despiked as despiked
     from roughcontact.surface.preparation.filters import filtered as filtered
     from roughcontact.surface.preparation.levelling import levelled as levelled, without_form as without_form
     from roughcontact.surface.preparation.mask import masked as masked
@@ -83,8 +85,6 @@ if TYPE_CHECKING:
         cropped as cropped,
         downsampled as downsampled,
     )
-    from roughcontact.surface.preparation.alignment import aligned as aligned
-    from roughcontact.surface.preparation.despike import despiked as despiked
     from roughcontact.surface.preparation.tip import scanned as scanned
     from roughcontact.surface.preparation.windows import tapered as tapered
 else:

@@ -34,8 +34,8 @@ def curve_notes(curve: Curve) -> tuple[str, ...]:
         low, high = (f"{float(curve.force[k]):.3g}" for k in ends)
         spots = "1 spot carries" if curve.spots[ends[1]] == 1 else f"{curve.spots[ends[1]]} spots carry"
         notes.append(
-            f"The contact does not change from {low} to {high} {unit}: the same {spots} all of these loads, as a spike, "
-            "a streak or a flat punch does. If the surface has none, take the faulty heights out by despiked() or masked()."
+            f"The contact does not change from {low} to {high} {unit}: the same {spots} all of these loads, as under "
+            "a spike, a streak or a flat punch. Take faulty heights out by despiked() or masked()."
         )
     try:
         law = curve.fit()

@@ -105,7 +105,7 @@ def _warnings(solution: Solution) -> tuple[str, ...]:
         if far := int(np.count_nonzero(surface.heights > above)):
             stand = "1 point stands" if far == 1 else f"{far} points stand"
             warnings.append(
-                f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all: outliers of a measurement "
-                f"would carry the load; take them out by masked(above={above:.6g})."
+                f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all. Outliers of a measurement "
+                f"carry the load: take them out by masked(above={above:.6g})."
             )
     return tuple(warnings)

@@ -19,8 +19,7 @@ _WORDS = {
     "short_cutoff": "the short cut-off",
     "long_cutoff": "the long cut-off",
     "pass channel= for another": "choose another under Channel",
-    "despiked()": "the step Despike",
-    "masked()": "the step Mask",
+    "take them out by masked()": "crop them away",
     "unit=": "the unit of the heights",
     "size=": "the width",
 }
@@ -48,7 +47,7 @@ def refusal(error: Exception) -> dict[str, Any]:
 
 def on_the_page(text: str) -> str:
     """Return what the library says, in the words of the page: fields by their labels."""
-    text = masks_named(text, "the mask ")
+    text = masks_named(text, "Mask ")
     for python, words in _WORDS.items():
         text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
     return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)

@@ -239,7 +239,9 @@ class CurveAnswer:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
             doubts = [("doubtful", worded(line)) for line in curve.notes]
-            report.print_facts([*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
+            report.print_facts(
+                [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
+            )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = (

@@ -48,7 +48,7 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "type": "numbers",
             "facts": solution_facts(solution),
             "point": point_of(solution),
-            "notes": [on_the_page(line) for line in solution.notes],
+            "notes": [on_the_page(note) for note in solution.notes],
             **request.statement,
         }
     )

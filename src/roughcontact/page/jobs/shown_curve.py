@@ -52,7 +52,7 @@ class ShownCurve:
 
     def shown(self) -> dict[str, Any]:
         """Return what a page shows of it, as plain values."""
-        return {"facts": self.facts, "notes": [on_the_page(line) for line in self.notes], **self.more}
+        return {"facts": self.facts, "notes": [on_the_page(note) for note in self.notes], **self.more}
 
 
 def shown_curve(found: Any) -> ShownCurve:
@@ -66,8 +66,8 @@ def _of_curve(curve: Curve) -> ShownCurve:
     try:
         law = curve.fit()
     except InputError as error:
-        notes = [*curve.notes, f"No power law: {error.message}: {_REMEDY}."]
-        return ShownCurve(curve, curve_facts(curve, None), notes=notes)
+        left_out = f"No power law: {error.message}: {_REMEDY}."
+        return ShownCurve(curve, curve_facts(curve, None), notes=(*curve.notes, left_out))
     inside = (curve.force >= law.window[0]) & (curve.force <= law.window[1])
     force = curve.force[inside]
     fit = {

@@ -46,7 +46,7 @@ def aligned(surface: Surface, lines: Literal["rows", "columns"] = "rows") -> Sur
     >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-7, rng=rng)
     >>> shifted = rough.with_heights(rough.heights + rng.normal(0, 1e-6, (64, 1)), "rows shifted")
     >>> f"rms {shifted.rms * 1e9:.0f} nm, {shifted.aligned().rms * 1e9:.0f} nm when aligned"
-    'rms 835 nm, 74 nm when aligned'
+    'rms 854 nm, 82 nm when aligned'
     """
     require(lines in ("rows", "columns"), f"lines must be 'rows' or 'columns', not {lines!r}", place="lines")
     heights = surface.heights

@@ -108,7 +108,7 @@ def find_spikes(surface: Surface) -> Spikes:
 
     A streak is a run of at least 16 cells along one to four rows or columns. Its steps to the lines on both sides go
     one way and have half the limit, the limit itself somewhere, with the quantiles of all N steps between neighbouring
-    lines. A run along nine tenths of a line is a line that is shifted as a whole, see `aligned`.
+    lines. A run along more than nine tenths of a line is a line that is shifted as a whole, see `aligned`.
 
     Examples
     --------

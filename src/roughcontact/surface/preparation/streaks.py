@@ -1,4 +1,4 @@
-"""Streaks: runs along one to four scan lines that stand out of the lines on both sides, as a slipping tip leaves them."""
+"""Streaks: runs along one to four scan lines that stand out of the lines on both sides, as a tip that slips records."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def streaks_in(heights: Array) -> Mask:
     """Return the cells of streaks along rows and along columns of heights [m], NaN where not measured.
 
     The steps from a streak to the lines on both sides have one sign and half the limit of `tail_of` along at least 16
-    cells, the limit itself somewhere; the limit is that of all steps between neighbouring lines. A run along nine tenths
-    of a line is a line that is shifted, see `aligned`, and no streak.
+    cells, the limit itself somewhere; the limit is that of all steps between neighbouring lines. A run along more than
+    nine tenths of a line is no streak but a line that is shifted, see `aligned`.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
