@@ -25,7 +25,7 @@ def streaked(height):
 
 
 def with_area(curve, exponent, span):
-    """Return the curve with an area that grows as a power of the force, over forces that differ by the factor `span`."""
+    """Return the curve with an area that grows as a power of the force, from the smallest to `span` times as much."""
     force = np.geomspace(0.05, 0.05 * span, len(curve))
     return replace(curve, force=force, contact_area=1e-10 * (force / force[0]) ** exponent)
 
@@ -81,7 +81,7 @@ def test_nearly_all_in_contact_is_no_doubt(hertz):
 
 @pytest.mark.parametrize(("size", "doubtful"), [(0.08, False), (0.13, True)])
 def test_a_power_law_that_scatters_by_more_than_a_tenth_is_named(hertz, size, doubtful):
-    """Points above and below the law in turn, less their mean: of nine, 4 on one side, a ninth; Hertz scatters by 0.02."""
+    """Of nine points above and below the law in turn the mean is a ninth of their size; Hertz scatters by 0.02."""
     ripple = size * (-1.0) ** np.arange(len(hertz))
     curve = replace(hertz, stiffness=hertz.stiffness * np.exp(ripple))
     assert curve.fit().scatter == pytest.approx(size, abs=0.02)

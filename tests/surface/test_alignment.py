@@ -21,7 +21,8 @@ def test_shifts_of_the_lines_change_nothing_when_they_are_aligned():
     turned = shifted.transposed().aligned("columns")
     np.testing.assert_array_equal(turned.heights, aligned.T)
     shift = np.std(np.median(shifted.heights, axis=1) - np.median(shifted.heights))
-    words = re.fullmatch(r"rows aligned by their medians, shifts of (\S+) m rms removed", shifted.aligned().provenance[-1])
+    line = shifted.aligned().provenance[-1]
+    words = re.fullmatch(r"rows aligned by their medians, shifts of (\S+) m rms removed", line)
     assert float(words[1]) == pytest.approx(shift, rel=0.2)  # about the median of the map, not their mean
 
 

@@ -79,7 +79,12 @@ def test_what_is_left_is_said(monkeypatch):
 @pytest.mark.skipif(SURFACES is None, reason=NOT_HERE)
 @pytest.mark.parametrize(
     ("name", "to"),
-    [("frt-2.frt", "missing"), ("frt-2.frt", "filled"), ("derived_frt2_masked.gwy", "filled"), ("sur-2.sur", "filled")],
+    [
+        ("frt-2.frt", "missing"),
+        ("frt-2.frt", "filled"),
+        ("derived_frt2_masked.gwy", "filled"),
+        ("sur-2.sur", "filled"),
+    ],
 )
 def test_measured_maps_end_clean(name, to):
     """A single pass left 32, 15 and 3 spikes, each time anew."""

@@ -28,7 +28,9 @@ def test_what_belongs_to_the_surface_is_not_far():
     y, x = np.mgrid[:128, :128] - 64.0
     plateaus = GAUSSIAN + 1e-5 * (x % 40 < 2)
     assert np.count_nonzero(x % 40 < 2) > 0.04 * x.size
-    assert far_above(plateaus) == far_above(-(x**2) - y**2) == far_above(x) == far_above(np.ones((32, 32))) == 0
+    assert (
+        far_above(plateaus) == far_above(-(x**2) - y**2) == far_above(x) == far_above(np.ones((32, 32))) == 0
+    )
 
 
 def test_one_cell_on_a_flat_map_is_far():
