@@ -12,14 +12,14 @@ CODE = 45_461  # lines of code under src, without docstrings and comments
 PARAMETERS = {"roughcontact.self_affine": 13}
 # Commands that press take every step of a preparation, and the help shows the everyday options first.
 OPTIONS = {
-    "curve": 52,
-    "press": 42,
-    "adhesion press": 41,
-    "adhesion curve": 41,
-    "adhesion loop": 39,
-    "adhesion detach": 40,
-    "surface prepare": 24,
-    "surface spectrum": 16,
+    "curve": 53,
+    "press": 43,
+    "adhesion press": 42,
+    "adhesion curve": 42,
+    "adhesion loop": 40,
+    "adhesion detach": 41,
+    "surface prepare": 25,
+    "surface spectrum": 17,
     "surface make": 15,
     "surface specified": 18,
     "theory": 26,

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         state_dataset as state_dataset,
         state_record as state_record,
     )
+    from roughcontact.contact.curve_notes import curve_notes as curve_notes
     from roughcontact.contact.dataset import (
         curve_dataframe as curve_dataframe,
         curve_dataset as curve_dataset,
@@ -68,6 +69,8 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
+    from roughcontact.surface.preparation.alignment import aligned as aligned
+    from roughcontact.surface.preparation.despike import despiked as despiked
     from roughcontact.surface.preparation.filters import filtered as filtered
     from roughcontact.surface.preparation.levelling import levelled as levelled, without_form as without_form
     from roughcontact.surface.preparation.mask import masked as masked
@@ -82,7 +85,6 @@ if TYPE_CHECKING:
         cropped as cropped,
         downsampled as downsampled,
     )
-    from roughcontact.surface.preparation.spikes import despiked as despiked
     from roughcontact.surface.preparation.tip import scanned as scanned
     from roughcontact.surface.preparation.windows import tapered as tapered
 else:
@@ -93,6 +95,7 @@ else:
             "detachment_state_dataset detachment_state_record"
         ),
         "adhesion.state_dataset": "state_dataset state_record",
+        "contact.curve_notes": "curve_notes",
         "contact.dataset": ("curve_dataframe curve_dataset curve_record solution_dataset solution_record"),
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",
@@ -112,7 +115,8 @@ else:
         "surface.preparation.missing": "filled",
         "surface.preparation.orientation": "flipped rotated transposed",
         "surface.preparation.sampling": "averaged cropped downsampled",
-        "surface.preparation.spikes": "despiked",
+        "surface.preparation.alignment": "aligned",
+        "surface.preparation.despike": "despiked",
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
     }

@@ -50,12 +50,14 @@ WARNED = {
     "di-3.di": "took 'ZSensor'",
     "image.nid": "took 'Scan forward (Z-Axis)'",
     "sample_0.jpk-qi-image": "took 'Height (measured)'",
-    # Spikes that are in the measurement.
+    # Spikes and streaks that are in the measurement.
     "derived_frt2_masked.gwy": "24 points lie more than 100 interquartile ranges",
     "frt-2.frt": "28 points lie more than 100 interquartile ranges",
     "sur-2.sur": "18 spikes of 59 cells",
     "KautschukInfiniteFocus.x3p": "1 spike of 4 cells",
     "test_1.opd": "2 spikes of 10 cells",
+    "mi-1.mi": "1 spike of 5 cells and 7 streaks of 268 cells",
+    "derived_mi1.mat": "1 spike of 5 cells and 7 streaks of 268 cells",
 }
 # A derived file lies as the file it was made from: its corners serve where the manifest has none.
 TWIN = {"derived_di3_nm.npy": "di-3.di", "derived_mi1.mat": "mi-1.mi"}

@@ -79,6 +79,27 @@ def test_warnings_are_those_of_the_file_and_name_the_step_that_mends_them(files)
     steps = {warning["kind"]: warning["step"] for warning in heard["warnings"]["warnings"]}
     assert steps["spikes"] == ("despike", "filled")
     assert steps["missing points"] == ("fill", "")
+    assert not any(warning["left"] for warning in heard["warnings"]["warnings"])
+
+
+def test_what_a_step_has_left_is_said(files):
+    """A block too large for a spike stays when spikes are filled, and goes with its mask."""
+    with pytest.warns(rc.SurfaceWarning):
+        heights = rc.read(files["key"].path).heights.copy()
+    heights[20:25, 30:36] = -5e-6 + 1e-9 * np.arange(6)
+    rc.write(rc.Surface(heights, rc.Grid((48, 48), 1e-6)), files["key"].path)
+
+    def left(**preparation):
+        heard = ordered(study, files, {"preparation": {"level": "plane", **preparation}})
+        found = heard["warnings"]["warnings"]
+        return {each["kind"]: (each["step"], each["left"]) for each in found}
+
+    step, still = left(despike="filled")["points far below"]
+    assert (step[0], still) == ("mask", True)
+    masked = left(despike="filled", mask=[step[1]])
+    assert masked["points far below"] == (step, False)
+    assert masked["spikes"] == (("despike", "filled"), False)
+    assert masked["missing points"][1]
 
 
 def test_the_file_is_described_before_its_preparation(files):

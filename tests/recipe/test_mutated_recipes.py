@@ -15,6 +15,7 @@ OUT_OF_RANGE = {
     "Preparation.crop": ("9:9,0:5", "0:512,100:612"),
     "Preparation.despike": ("fill", "filled", "missing"),
     "Preparation.mask": ("square=0:9,0:9", "box=0:99,10:50", "ellipse=0:99,10:50", "above=3um", "below=-3um"),
+    "Preparation.align": ("lines", "rows", "columns"),
     "Preparation.level": ("planar", "plane", "none", "mean", "quadratic"),
     "Preparation.form": ("13", "0", "12", "sphere", "cylinder"),
     "Preparation.fill": ("yes", True, False),

@@ -231,6 +231,16 @@ PREPARED = [
         *each(ROUGH.despiked, "missing", "filled"),
     ),
     row(
+        lambda: ROUGH.aligned("x"),
+        "lines must be 'rows' or 'columns'",
+        *each(ROUGH.aligned, "rows", "columns"),
+    ),
+    row(
+        lambda: PROFILE.aligned(),
+        "a profile is one scan line: align the lines of a map",
+        lambda: ROUGH.aligned(),
+    ),
+    row(
         lambda: holed().filled("linear"),
         "method must be 'harmonic' or 'nearest'",
         *each(holed().filled, "harmonic", "nearest"),

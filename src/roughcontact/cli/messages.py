@@ -21,12 +21,13 @@ from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
 from roughcontact.errors import InputError, correctable, joined
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.memory import MemoryWarning
+from roughcontact.recipe.preparation import masks_named
 from roughcontact.recipe.recipe_fields import option_of
 
 if TYPE_CHECKING:
     from roughcontact.labels.note import Note
 
-__all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "reported"]
+__all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "reported", "worded"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
 # What the library says by keywords and calls of Python, and no place of an error tells.
@@ -60,7 +61,7 @@ class UsageError(InputError):
 
 def note(text: str) -> None:
     """Print one line on standard error."""
-    typer.echo(f"Note: {_line(text)}", err=True)
+    typer.echo(f"Note: {worded(text)}", err=True)
 
 
 def note_all(notes: Iterable[Note]) -> None:
@@ -119,7 +120,7 @@ def _refused(
         for path in paths:
             if text is not None and path is not None:
                 text = text.replace(os.path.realpath(path), str(path))
-        return None if text is None else _line(text)
+        return None if text is None else worded(text)
 
     told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
     typer.echo(f"Error: {told}", err=True)
@@ -172,9 +173,10 @@ def plain(text: str) -> str:
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
-def _line(text: str) -> str:
+def worded(text: str) -> str:
     """Return `text` in one line, with the library's keywords turned into the options of the same name."""
     text = _FIELD.sub(lambda name: option_of(name[1]), text)
+    text = masks_named(text, "--mask ")
     for keyword, option in _OPTIONS:
         text = keyword.sub(option, text)
     return " ".join(_METRES.sub(_with_prefix, text).split())

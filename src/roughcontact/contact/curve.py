@@ -337,11 +337,17 @@ class Curve:
                 remedy = "make it by loading_laws from the surface that was pressed, or compare with other_surface=True"
                 raise InputError(f"the law of {name} was made for another contact: {differ}", remedy)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What makes the curve doubtful as a whole, in sentences."""
+        return methods.curve_notes(self)
+
     def __repr__(self) -> str:
         """Say what the curve spans, not its numbers."""
         resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
         unit = unit_of("force", self.geometry)
-        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit})"
+        doubt = "".join(f"; {note.partition(':')[0]}" for note in self.notes[:1])
+        return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit}{doubt})"
 
     to_dataset = methods.curve_dataset
     to_record = methods.curve_record

@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
+from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.note import Note, Rank
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
+from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 
 __all__ = ["notes_on"]
 
 STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
 BEYOND = 1e-3  # of the hardness, on unloading: more than what a tolerance leaves open
-OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
 EDGE = 0.01  # of the force, on the outermost cells: below, what lies beyond them changes no number by more
 
 
@@ -104,10 +107,12 @@ def _of_input(solution: Solution) -> Iterator[Note]:
             Rank.DOUBTFUL,
             f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus.",
         )
-    summit = problem.mean_separation - problem.first_touch
-    if surface is not None and surface.rms > 0 and summit > OUTLYING * surface.rms:
-        yield Note(
-            Rank.DOUBTFUL,
-            f"The highest point stands {summit / surface.rms:.2g} rms heights above the mean: "
-            "if it is an outlier of the measurement, it carries the load; despiked() and --despike find spikes.",
-        )
+    if surface is not None and is_numpy(surface.heights):
+        _, above = height_limits(surface.heights)
+        if far := int(np.count_nonzero(surface.heights > above)):
+            stand = "1 point stands" if far == 1 else f"{far} points stand"
+            yield Note(
+                Rank.DOUBTFUL,
+                f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all. Outliers of a measurement "
+                f"carry the load: take them out by masked(above={above:.6g}).",
+            )

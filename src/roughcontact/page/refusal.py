@@ -8,6 +8,7 @@ from typing import Any
 
 from roughcontact.errors import correctable
 from roughcontact.files.file_errors import ReadError
+from roughcontact.recipe.preparation import masks_named
 
 __all__ = ["on_the_page", "refusal"]
 
@@ -46,6 +47,7 @@ def refusal(error: Exception) -> dict[str, Any]:
 
 def on_the_page(text: str) -> str:
     """Return what the library says, in the words of the page: fields by their labels."""
+    text = masks_named(text, "Mask ")
     for python, words in _WORDS.items():
         text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
     return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)

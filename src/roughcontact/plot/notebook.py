@@ -82,6 +82,7 @@ def curve_html(curve: Curve) -> str:
     figure, axes = _figure()
     plot_curve(curve, axes, quantity="interfacial_stiffness_per_area" if joint else "stiffness")
     facts = [
+        *(("doubtful", note) for note in curve.notes),
         ("loads", f"{len(curve)}, of which the grid resolves {int(curve.resolved.sum())}"),
         ("reduced modulus E*", quantity("modulus", curve.modulus)),
     ]

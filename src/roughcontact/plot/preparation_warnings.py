@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.plot.facts import quantity
+from roughcontact.recipe.preparation import masks_named
+from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 from roughcontact.surface.preparation.polynomial import polynomial_trend
-from roughcontact.surface.preparation.spikes import find_spikes, tail_of
+from roughcontact.surface.preparation.spikes import find_spikes
+from roughcontact.surface.preparation.streaks import tail_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,11 +55,12 @@ class PreparationWarning:
 
 def preparation_warnings(surface: Surface) -> tuple[Spikes, list[PreparationWarning]]:
     """Return the spikes of a surface, and all that is suspicious with what to do about it."""
-    spikes = find_spikes(surface)
-    return spikes, [*_spikes(surface, spikes), *_trends(surface), *_steps(surface), *_cells(surface)]
+    spikes, clean = find_spikes(surface), surface.despiked()
+    found = [*_spikes(spikes), *_far(clean), *_trends(clean), *_steps(surface), *_cells(surface)]
+    return spikes, found
 
 
-def _spikes(surface: Surface, spikes: Spikes) -> Iterator[PreparationWarning]:
+def _spikes(spikes: Spikes) -> Iterator[PreparationWarning]:
     if spikes.count:
         place = ",".join(str(k) for k in spikes.places[0])
         largest = quantity("heights", float(spikes.height[0]))
@@ -64,14 +68,27 @@ def _spikes(surface: Surface, spikes: Spikes) -> Iterator[PreparationWarning]:
         yield PreparationWarning("spikes", words, "--despike missing or filled", ("despike", "filled"))
 
 
-def _trends(surface: Surface) -> Iterator[PreparationWarning]:
+def _far(clean: Surface) -> Iterator[PreparationWarning]:
+    """Yield the heights that are far from nearly all without the tilt, above and below, if there are any."""
+    heights = clean.levelled("auto").heights
+    for name, limit, sign in zip(("below", "above"), height_limits(heights), (-1, 1), strict=True):
+        if far := int(np.count_nonzero(sign * heights > sign * limit)):
+            count = "1 point" if far == 1 else f"{far} points"
+            mask = masks_named(f"masked({name}={limit:.6g})", "")
+            words = f"{count} more than {OUTLYING:g} rms heights {name} the mean of nearly all"
+            level = "mean" if all(clean.grid.periodic) else "plane"
+            yield PreparationWarning(
+                f"points far {name}", words, f"--level {level} --mask {mask}", ("mask", mask)
+            )
+
+
+def _trends(clean: Surface) -> Iterator[PreparationWarning]:
     """Yield the plane and the quadratic form if they are higher than what is left without them."""
-    if all(surface.grid.periodic):
+    if all(clean.grid.periodic):
         return
-    clean = surface.despiked().heights
-    flat, tilt = _without(clean, 1)
+    flat, tilt = _without(clean.heights, 1)
     rest, form = _without(flat, 2)
-    trend = "plane" if surface.grid.ndim == 2 else "line"
+    trend = "plane" if clean.grid.ndim == 2 else "line"
     if tilt > float(np.nanstd(flat)):
         words = f"the {trend} has an rms height of {quantity('rms', tilt)}, more than the rest"
         yield PreparationWarning("tilt", words, "--level plane", ("level", "plane"))
@@ -110,7 +127,10 @@ def _steps(surface: Surface) -> Iterator[PreparationWarning]:
             crop = f"{part},:" if axis == 0 else f":,{part}"
             step = quantity("heights", float(jumps[place]))
             words = f"{step} between {name} {place} and {place + 1}"
-            yield PreparationWarning("step", words, f"--crop {crop} keeps one side", ("crop", crop))
+            remedy = (
+                f"--crop {crop} keeps one side; --align {name} where each scan line has a height of its own"
+            )
+            yield PreparationWarning("step", words, remedy, ("crop", crop))
 
 
 def _cells(surface: Surface) -> Iterator[PreparationWarning]:

@@ -13,8 +13,9 @@ from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, specs, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 
-__all__ = ["Preparation", "Step"]
+__all__ = ["Preparation", "Step", "masks_named"]
 
+_MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in what the library says
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
 
@@ -45,6 +46,11 @@ class Step:
         given = () if value is None or self.named else value if isinstance(value, tuple) else (value,)
         named = {self.named: value} if self.named else {}
         return _on_surface(self.method, given, named, name, self.doing)
+
+
+def masks_named(text: str, name: str) -> str:
+    """Return a text of the library with each call that masks heights as the field is given, `name` before it."""
+    return _MASKED.sub(lambda call: f"{name}{call[1]}={float(call[2]) * 1e6:.6g}um", text)
 
 
 def _mask(text: str) -> dict[str, Any]:
@@ -94,7 +100,7 @@ class Preparation:
         read=ranges,
     )
     despike: str | None = _step(
-        "Spikes, clusters of a few cells far out of all around them: to missing points, or filled smoothly.",
+        "Spikes and streaks, cells far out of all around them: to missing points, or filled smoothly.",
         None,
         "despiked",
         "Looking for spikes",
@@ -110,6 +116,13 @@ class Preparation:
         "Masking",
         read=_mask,
         default=(),
+    )
+    align: str | None = _step(
+        "Bring the median height of each scan line to that of the map: lines that an AFM shifted against each other.",
+        None,
+        "aligned",
+        "Aligning scan lines",
+        read=Choice(("rows", "columns")),
     )
     level: str | None = _step(
         "Remove the mean height, or a least-squares plane or quadratic (before a surface is pressed: a plane; of one "

@@ -167,6 +167,7 @@ class Surface:
     # the provenance.
     despiked = methods.despiked
     masked = methods.masked
+    aligned = methods.aligned
     levelled = methods.levelled
     without_form = methods.without_form
     filtered = methods.filtered

@@ -15,7 +15,7 @@ from roughcontact.cli.contact.curve_theories import deviations, exponents, param
 from roughcontact.cli.contact.load_errors import notes_on_errors
 from roughcontact.cli.contact.units_of_job import units_of_job
 from roughcontact.cli.contact_of_job import name_of
-from roughcontact.cli.messages import note_all
+from roughcontact.cli.messages import note_all, worded
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
@@ -199,6 +199,7 @@ class CurveAnswer:
             "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
+            "doubtful": list(self.curve.notes),
             "notes": [each.text for each in self.notes],
             "note_ranks": [each.rank.name.lower() for each in self.notes],
             "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
@@ -243,7 +244,10 @@ class CurveAnswer:
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
-            report.print_facts([("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)])
+            doubts = [("doubtful", worded(line)) for line in curve.notes]
+            report.print_facts(
+                [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
+            )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = (

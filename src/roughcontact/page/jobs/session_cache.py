@@ -78,14 +78,16 @@ class SessionCache:
         return self._once("surface", _key(calls), prepared)
 
     def warnings(self, job: Job) -> list[dict[str, Any]]:
-        """Return what looks suspicious in the heights before any preparation."""
+        """Return what looks suspicious in the heights before any preparation, and whether such is left after it."""
+        from roughcontact.plot.preparation_warnings import preparation_warnings
 
-        def found() -> list[dict[str, Any]]:
-            from roughcontact.plot.preparation_warnings import preparation_warnings
-
-            return [asdict(warning) for warning in preparation_warnings(self.read(job)[0])[1]]
-
-        return self._once("warnings", _key(_calls_of_source(job)), found)
+        found = self._once(
+            "warnings", _key(_calls_of_source(job)), lambda: preparation_warnings(self.read(job)[0])[1]
+        )
+        calls = _key(list(surface_calls(job)))
+        after = self._once("warnings after", calls, lambda: preparation_warnings(self.surface(job))[1])
+        left = {warning.kind for warning in after}
+        return [asdict(warning) | {"left": warning.kind in left} for warning in found]
 
     def solution(self, job: Job) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""

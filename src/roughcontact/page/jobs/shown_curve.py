@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.errors import InputError
+from roughcontact.page.refusal import on_the_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,7 +52,7 @@ class ShownCurve:
 
     def shown(self) -> dict[str, Any]:
         """Return what a page shows of it, as plain values."""
-        return {"facts": self.facts, "notes": list(self.notes), **self.more}
+        return {"facts": self.facts, "notes": [on_the_page(note) for note in self.notes], **self.more}
 
 
 def shown_curve(found: Any) -> ShownCurve:
@@ -65,9 +66,8 @@ def _of_curve(curve: Curve) -> ShownCurve:
     try:
         law = curve.fit()
     except InputError as error:
-        return ShownCurve(
-            curve, curve_facts(curve, None), notes=[f"No power law: {error.message}: {_REMEDY}."]
-        )
+        left_out = f"No power law: {error.message}: {_REMEDY}."
+        return ShownCurve(curve, curve_facts(curve, None), notes=(*curve.notes, left_out))
     inside = (curve.force >= law.window[0]) & (curve.force <= law.window[1])
     force = curve.force[inside]
     fit = {
@@ -75,7 +75,7 @@ def _of_curve(curve: Curve) -> ShownCurve:
         "force": force.tolist(),
         "stiffness": law.stiffness(force).tolist(),
     }
-    notes = [] if law.straight else [f"There is {bend_words(law)}."]
+    notes = curve.notes if law.straight else (*curve.notes, f"There is {bend_words(law)}.")
     return ShownCurve(curve, curve_facts(curve, law), notes=notes, more={"fit": fit})
 
 

@@ -12,6 +12,7 @@ const MEND = {
   form: "Remove a quadratic form",
   crop: "Keep the larger side",
   fill: "Fill them in",
+  mask: "Take them out",
 };
 
 function element(kind, text, more = {}) {
@@ -22,22 +23,23 @@ export function surfaceView(recipe) {
   let warnings = [];
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
-  function mended([step]) {
-    const value = recipe.now.preparation[step];
-    return step === "level" ? value === "plane" || value === "quadratic" : Boolean(value);
+  function mended([step, value]) {
+    const given = recipe.now.preparation[step];
+    if (Array.isArray(given)) return given.includes(value);
+    return step === "level" ? given === "plane" || given === "quadratic" : Boolean(given);
   }
 
   function mend([step, value]) {
-    return recipe.change((next) => (next.preparation[step] = value || true));
+    return recipe.change(({ preparation }) => (preparation[step] = Array.isArray(preparation[step]) ? [...preparation[step], value] : value || true));
   }
 
   function showWarnings() {
-    by("warnings").replaceChildren(...warnings.map(({ kind, words, remedy, step }) => {
+    by("warnings").replaceChildren(...warnings.map(({ kind, words, remedy, step, left }) => {
       const line = document.createElement("li");
       const done = step !== null && mended(step);
-      line.className = done ? "mended" : "";
+      line.className = done && !left ? "mended" : "";
       line.append(element("strong", kind), element("span", step ? words : `${words}; ${remedy}`));
-      if (done) line.append(element("em", "mended by the preparation"));
+      if (done) line.append(element("em", left ? "some are left after the preparation" : "mended by the preparation"));
       else if (step) line.append(element("button", MEND[step[0]], { type: "button", onclick: () => mend(step) }));
       return line;
     }));

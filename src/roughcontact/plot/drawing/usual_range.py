@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from roughcontact.surface.preparation.outliers import without_far
 from roughcontact.validation import Array
 
 __all__ = ["usual_range"]
 
-_FAR = 4.0  # interquartile ranges beyond the quartiles: of a normal distribution 1e-8 of the values
 _TAILS = (0.005, 0.995)  # quantiles of what is left
 _ROOM = 0.05  # beyond these, of what they span
 
@@ -19,12 +19,7 @@ def usual_range(values: Array, share: float = 0.5, few: float = 0.02) -> tuple[f
     Nearly so is more than a `share` of the range. More than a `few` of the values, pits or peaks, are not far out.
     """
     whole = float(values.min()), float(values.max())
-    first, third = (float(end) for end in np.quantile(values, (0.25, 0.75)))
-    reach = _FAR * (third - first)
-    near = values[(values >= first - reach) & (values <= third + reach)]
-    if near.size < (1 - few) * values.size:
-        near = values
-    low, high = (float(end) for end in np.quantile(near, _TAILS))
+    low, high = (float(end) for end in np.quantile(without_far(values, few), _TAILS))
     room = _ROOM * (high - low)
     low, high = max(low - room, whole[0]), min(high + room, whole[1])
     return (low, high) if 0 < high - low < share * (whole[1] - whole[0]) else None

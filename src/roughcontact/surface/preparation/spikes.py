@@ -1,28 +1,24 @@
-"""Spikes: clusters of a few cells that stand out of all that is around them, as faulty measurements do."""
+"""Spikes and streaks: clusters of cells that stand out of all that is around them, as faulty measurements do."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.surface.in_memory import analysed_on_host, on_host_only
-from roughcontact.surface.preparation.missing import filled
+from roughcontact.surface.in_memory import analysed_on_host
+from roughcontact.surface.preparation.streaks import LONG, streaks_in, tail_of
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, Mask, numeric, require
+from roughcontact.validation import Array, Mask, numeric
 
-__all__ = ["Spikes", "despiked", "find_spikes", "spikes_in", "tail_of"]
+__all__ = ["Spikes", "described", "find_spikes", "spikes_in"]
 
 _REACH = {1: 4, 2: 2}  # cells from the middle of a window to its edge, by the number of axes: 9 and 25 cells
 _GROUP = 3  # one in so many cells of a window may stand out of it: 2 of 9 and 8 of 25
 _EXTENT = 0.5  # of the limit: neighbours that stand out by that much belong to a spike ...
 _LARGEST = 2  # ... which has at most half the cells of a window
-_HALF, _MOST = 0.5, 0.9  # quantiles between which the tail of the steps is measured
-_EXPECTED = 1e-3  # windows of a map without spikes that an exponential tail has beyond the limit
 _AROUND = {1: 30, 2: 7}  # cells from a spike within which the steps say how rough its surroundings are
 _CHOSEN = 100_000  # windows that the quantiles are taken of
 _FEWEST = 100
@@ -33,7 +29,7 @@ _ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: diffe
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Spikes:
-    """The spikes of a surface.
+    """The spikes of a surface, streaks along its scan lines among them.
 
     Attributes
     ----------
@@ -44,6 +40,10 @@ class Spikes:
     height : array, shape (count,)
         By how much that cell stands above the median of the cells around the spike [m], negative below; the
         largest come first.
+    cells : array of int, shape (count,)
+        Number of cells of each.
+    streak : array of bool, shape (count,)
+        Whether it is a streak: it reaches over 16 cells or more.
 
     Examples
     --------
@@ -60,20 +60,27 @@ class Spikes:
     mask: Mask
     places: npt.NDArray[np.int64]
     height: Array
+    cells: npt.NDArray[np.int64]
+    streak: Mask
 
     @property
     def count(self) -> int:
-        """Number of spikes."""
+        """Number of spikes and streaks."""
         return self.height.size
 
     def __str__(self) -> str:
-        return f"{_counted(self.count, 'spike')} of {_counted(int(self.mask.sum()), 'cell')}"
+        words = [
+            f"{_counted(int(chosen.sum()), name)} of {_counted(int(self.cells[chosen].sum()), 'cell')}"
+            for name, chosen in (("spike", ~self.streak), ("streak", self.streak))
+            if chosen.any() or (name == "spike" and not self.count)
+        ]
+        return " and ".join(words)
 
 
 @numeric
 @analysed_on_host
 def find_spikes(surface: Surface) -> Spikes:
-    """Return the clusters of a few cells that stand out of all that is around them.
+    """Return the clusters of a few cells, and the streaks along scan lines, that stand out of all around them.
 
     Parameters
     ----------
@@ -99,6 +106,10 @@ def find_spikes(surface: Surface) -> Spikes:
     beyond half the limit belong to a spike, which has at most 12 cells (4 on a line); what stands out beside it once it
     is gone, its flank, is marked as well. Of windows cut by edges or missing points a third is fewer cells.
 
+    A streak is a run of at least 16 cells along one to four rows or columns. Its steps to the lines on both sides go
+    one way and have half the limit, the limit itself somewhere, with the quantiles of all N steps between neighbouring
+    lines. A run along more than nine tenths of a line is a line that is shifted as a whole, see `aligned`.
+
     Examples
     --------
     >>> import numpy as np
@@ -115,64 +126,20 @@ def find_spikes(surface: Surface) -> Spikes:
     return spikes_in(surface.heights, surface.grid.periodic)
 
 
-@on_host_only
-def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> Surface:
-    """Return the surface without its spikes, see `find_spikes`.
-
-    Parameters
-    ----------
-    surface : Surface
-    to : {"missing", "filled"}
-        What becomes of their cells: not measured, so that contact leaves them out; or filled in smoothly from the
-        heights around them, as `filled` does. Points that were missing before stay missing.
-
-    Returns
-    -------
-    Surface
-        With their number in the provenance; the surface itself if it has none.
-
-    Raises
-    ------
-    ValueError
-        If `to` is neither.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import roughcontact as rc
-    >>> rough = rc.self_affine(rc.Grid((64, 64), 1e-6), hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
-    >>> heights = rough.heights.copy()
-    >>> heights[20, 30:32] += 1e-5
-    >>> rc.Surface(heights, rough.grid).despiked().missing
-    2
-    """
-    require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}", place="to")
-    spikes = find_spikes(surface)
-    if spikes.count == 0:
-        return surface
-    if to == "missing":
-        heights = np.where(spikes.mask, np.nan, surface.heights)
-        return surface.with_heights(heights, f"despiked: {spikes} set to missing")
-    whole = filled(surface.with_heights(np.where(spikes.mask, np.nan, surface.heights), ""))
-    return surface.with_heights(
-        np.where(spikes.mask, whole.heights, surface.heights), f"despiked: {spikes} filled in, harmonic"
-    )
-
-
 def spikes_in(heights: Array, periodic: tuple[bool, ...]) -> Spikes:
     """Return the spikes of heights [m], NaN where not measured, on axes of which some may be `periodic`."""
-    mask = np.zeros(heights.shape, dtype=np.bool_)
+    mask = streaks_in(heights)
     measured = np.flatnonzero(~np.isnan(heights))
     if measured.size >= _FEWEST:
         usual, limit = _limits(heights, periodic, measured)
-        cells = _screened(heights, periodic, _EXTENT * limit)
+        cells = _screened(np.where(mask, np.nan, heights), periodic, _EXTENT * limit)
         for _ in range(_PASSES):
             found = _marked(np.where(mask, np.nan, heights), periodic, cells, usual, limit)
             if not found.any():
                 break
             mask |= found
             cells = _dilated(mask, _REACH[mask.ndim]) & ~mask & ~np.isnan(heights)
-    return _described(heights, mask)
+    return described(heights, mask)
 
 
 def _limits(
@@ -184,16 +151,6 @@ def _limits(
     steps = _steps(_padded(heights, periodic), np.stack(np.unravel_index(chosen, heights.shape), axis=1))
     most, limit = tail_of(steps, measured.size)
     return most, max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
-
-
-def tail_of(values: Array, count: int) -> tuple[float, float]:
-    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in a map of a thousand.
-
-    The map has `count` of them.
-    """
-    half, most = (float(np.quantile(values, share)) for share in (_HALF, _MOST))
-    rate = (most - half) / math.log((1 - _HALF) / (1 - _MOST))
-    return most, half + rate * math.log((1 - _HALF) * count / _EXPECTED)
 
 
 def _padded(heights: Array, periodic: tuple[bool, ...]) -> Array:
@@ -304,11 +261,11 @@ def _dilated(mask: Mask, reach: int) -> Mask:
     )
 
 
-def _described(heights: Array, mask: Mask) -> Spikes:
+def described(heights: Array, mask: Mask) -> Spikes:
     """Return the spikes whose cells are marked, the largest first."""
     from scipy.ndimage import find_objects, label
 
-    places, height = [], []
+    places, height, cells, streak = [], [], [], []
     clusters, _ = label(mask, np.ones((3,) * heights.ndim))
     for index, box in enumerate(find_objects(clusters), start=1):
         wide = tuple(slice(max(0, part.start - 1), part.stop + 1) for part in box)
@@ -319,11 +276,15 @@ def _described(heights: Array, mask: Mask) -> Spikes:
         top = np.unravel_index(int(np.argmax(np.abs(above))), above.shape)
         places.append([part.start + int(k) for part, k in zip(wide, top, strict=True)])
         height.append(float(above[top]))
+        cells.append(int(np.count_nonzero(inside)))
+        streak.append(heights.ndim == 2 and max(part.stop - part.start for part in box) >= LONG)
     order = np.argsort(-np.abs(height), kind="stable")
     return Spikes(
         mask,
         np.array(places, dtype=np.int64).reshape(-1, heights.ndim)[order],
         np.array(height, dtype=np.float64)[order],
+        np.array(cells, dtype=np.int64)[order],
+        np.array(streak, dtype=np.bool_)[order],
     )
 
 

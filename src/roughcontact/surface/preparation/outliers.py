@@ -1,0 +1,46 @@
+"""Heights far from nearly all: where they begin, so that `masked` can take them out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughcontact.validation import Array
+
+__all__ = ["OUTLYING", "height_limits", "without_far"]
+
+_FAR = 4.0  # interquartile ranges beyond the quartiles: of a normal distribution 1e-8 of the values
+_FEW = 0.02  # of the values: more, pits or peaks, are not far out
+OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
+_CHOSEN = 100_000  # heights that quantiles and moments are taken of
+
+
+def without_far(values: Array, few: float = _FEW) -> Array:
+    """Return finite values without those far from the quartiles; all of them where these are more than a `few`."""
+    first, third = (float(end) for end in np.quantile(values, (0.25, 0.75)))
+    reach = _FAR * (third - first)
+    near = values[(values >= first - reach) & (values <= third + reach)]
+    return values if near.size < (1 - few) * values.size else near
+
+
+def height_limits(heights: Array) -> tuple[float, float]:
+    """Return the heights 8 rms heights below and above the mean [m], both of the measured points that are not far out.
+
+    To three digits, as a mask is written.
+    """
+    # An odd stride meets every column of a map, whose width is even as a rule.
+    chosen = heights.reshape(-1)[:: 2 * (heights.size // _CHOSEN // 2) + 1]
+    measured = chosen[~np.isnan(chosen)]
+    if measured.size == 0:
+        measured = heights[~np.isnan(heights)]
+    near = without_far(measured)
+    near = near if near.min() < near.max() else measured
+    mean, reach = float(near.mean()), OUTLYING * float(near.std())
+    return _rounded(mean - reach, reach), _rounded(mean + reach, reach)
+
+
+def _rounded(height: float, reach: float) -> float:
+    """Return a height to a hundredth of the `reach` or finer."""
+    if reach == 0:
+        return height
+    digits = 2 - int(np.floor(np.log10(reach)))
+    return round(height, digits)
