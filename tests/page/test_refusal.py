@@ -37,7 +37,7 @@ def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):
     found = caught(lambda: rc.read(file))
     assert found["how"] == "refused"
     assert "size" in found["places"]
-    assert "the width of the map" in found["remedy"]
+    assert "the width of the map" in found["message"]
 
 
 def test_the_folder_of_the_server_stays_unsaid(tmp_path):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.curve_point import point_of
 from roughcontact.page.jobs.session_cache import SessionCache
+from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
 from roughcontact.recipe.elastic_jobs import PressJob
 
@@ -47,7 +48,7 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "type": "numbers",
             "facts": solution_facts(solution),
             "point": point_of(solution),
-            "notes": solution.notes,
+            "notes": [on_the_page(note) for note in solution.notes],
             **request.statement,
         }
     )

@@ -80,9 +80,11 @@ class SessionCache:
         """Return what looks suspicious in the heights before any preparation."""
 
         def found() -> list[dict[str, Any]]:
+            from roughcontact.page.refusal import on_the_page
             from roughcontact.plot.preparation_warnings import preparation_warnings
 
-            return [asdict(warning) for warning in preparation_warnings(self.read(job)[0])[1]]
+            suspicious = preparation_warnings(self.read(job)[0])[1]
+            return [asdict(each) | {"remedy": on_the_page(each.remedy)} for each in suspicious]
 
         return self._once("warnings", _key(_calls_of_source(job)), found)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.errors import InputError
+from roughcontact.page.refusal import on_the_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,7 +52,7 @@ class ShownCurve:
 
     def shown(self) -> dict[str, Any]:
         """Return what a page shows of it, as plain values."""
-        return {"facts": self.facts, "notes": list(self.notes), **self.more}
+        return {"facts": self.facts, "notes": [on_the_page(note) for note in self.notes], **self.more}
 
 
 def shown_curve(found: Any) -> ShownCurve:
