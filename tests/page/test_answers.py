@@ -345,3 +345,13 @@ def test_a_curve_that_is_stopped_is_that_of_the_loads_that_it_reached(file, monk
             cache.surface(again.job), found.modulus, forces=np.geomspace(0.05, 2, 7)[:3]
         ).force.tolist()
     )
+
+
+def test_exports_of_different_answers_have_different_names(ask):
+    def named(**more):
+        [(header, _)] = [each for each in ask(export, {"kind": "csv"}, job="press", **more) if each[1]]
+        return header["name"]
+
+    first = named(load={"pressure": "3MPa"})
+    assert first == named(load={"pressure": "3MPa"})
+    assert first != named(load={"pressure": "3MPa"}, preparation={"level": "mean"})

@@ -45,9 +45,11 @@ def refusal(error: Exception) -> dict[str, Any]:
         return {"how": "refused", "message": _sentence(message)}
     faults = [_fault(each) for each in every(found)]
     words = " ".join(each["message"] for each in faults)
-    return {"how": "refused", "message": words, "places": [at for each in faults for at in each["places"]]} | (
-        {"faults": faults}
-    )
+    return {
+        "how": "refused",
+        "message": words,
+        "places": [at for each in faults for at in each["places"]],
+    } | ({"faults": faults})
 
 
 def on_the_page(text: str) -> str:

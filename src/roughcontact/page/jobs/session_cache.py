@@ -80,11 +80,9 @@ class SessionCache:
         """Return what looks suspicious in the heights before any preparation."""
 
         def found() -> list[dict[str, Any]]:
-            from roughcontact.page.refusal import on_the_page
             from roughcontact.plot.preparation_warnings import preparation_warnings
 
-            suspicious = preparation_warnings(self.read(job)[0])[1]
-            return [asdict(each) | {"remedy": on_the_page(each.remedy)} for each in suspicious]
+            return [asdict(warning) for warning in preparation_warnings(self.read(job)[0])[1]]
 
         return self._once("warnings", _key(_calls_of_source(job)), found)
 

@@ -78,9 +78,9 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
-    send({"type": "warnings", "warnings": cache.warnings(request.job)})
-    spikes = rc.find_spikes(surface)
-    send({"type": "spikes", "count": spikes.count, "places": spikes.places[:_MOST_SPIKES].tolist()})
+    warned = [each | {"remedy": on_the_page(each["remedy"])} for each in cache.warnings(request.job)]
+    send({"type": "warnings", "warnings": warned})
+    send({"type": "spikes", "places": rc.find_spikes(surface).places[:_MOST_SPIKES].tolist()})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0

@@ -21,6 +21,10 @@ from roughcontact.validation import Array
 
 __all__ = ["PageJob", "PageRequest", "Send", "send_map"]
 
+_PART_OF_COLOURS = (
+    0.8  # where nearly all heights would have less, the colours end before the highest and the lowest
+)
+
 
 class Send(Protocol):
     """Sends a message on its way."""
@@ -111,30 +115,17 @@ def _explicit(job: Job) -> Job:
     return replace(job, preparation=replace(job.preparation, level="none"))
 
 
-def _ends_of_colours(known: Array) -> list[float]:
-    """Return between which values a map has different colours: a few that stand far out do not set the scale.
-
-    They lie a quarter of the way between the quantiles of 1 and 99 per cent beyond these, which of Gaussian heights are
-    3.5 standard deviations from the mean, and within the values.
-    """
-    import numpy as np
-
-    low, high = np.quantile(known, (0.01, 0.99))
-    margin = (high - low) / 4
-    if not margin > 0:
-        return [float(known.min()), float(known.max())]
-    return [float(max(known.min(), low - margin)), float(min(known.max(), high + margin))]
-
-
 def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = False, **more: Any) -> None:
     """Send a map in single precision, no side longer than `most`, its highest values kept, or its `lowest`."""
     import numpy as np
+
+    from roughcontact.plot.drawing.usual_range import usual_range
 
     factor = factor_for(field.shape, most)
     seen = np.ascontiguousarray(as_seen(field, factor, lowest=lowest), dtype="<f4")
     known = seen[~np.isnan(seen)]
     ends = [float(known.min()), float(known.max())] if known.size else [0.0, 0.0]
-    colours = _ends_of_colours(known) if known.size else ends
+    colours = (usual_range(known, _PART_OF_COLOURS) if known.size else None) or ends
     header = {
         "type": "map",
         "map": name,

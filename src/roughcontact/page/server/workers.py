@@ -301,7 +301,9 @@ class Sessions:
 
     async def _end_silent(self, limit: float) -> None:
         before = monotonic() - limit
-        for key in [key for key, each in self.known.items() if each.leaving or (each.heard < before and not each.busy)]:
+        for key in [
+            key for key, each in self.known.items() if each.leaving or (each.heard < before and not each.busy)
+        ]:
             await self.end(key)
 
     def _prepare(self) -> asyncio.Task[_Worker]:

@@ -38,7 +38,7 @@ const wanted = { look: false, press: false, cut: false, bodies: true, study: fal
 
 const say = (text) => (by("said").textContent = text);
 const working = progressBar(by("working"), by("said"));
-const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
+const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high"), ringed: by("ringed") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
   crop(part) {
     by("crop").click();
@@ -193,7 +193,7 @@ function heard(header, data) {
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
   else if (header.type === "bodies") told(header);
   else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
-  else if (header.type === "spikes") { map.spikes(header.places); surfaceCard.left(header.count); }
+  else if (header.type === "spikes") map.spikes(header.places);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
   else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
   else if (header.type === "numbers") answered(header);
@@ -243,7 +243,9 @@ function given({ file, name }) {
 }
 
 function source(found) {
-  if (!recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(found), load: null }))) again();
+  const { source: open, preparation } = recipe.now;
+  if (JSON.stringify([open, preparation]) === JSON.stringify([found, fresh(found)])) return again();
+  recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(found), load: null }));
 }
 
 function listen() {

@@ -6,7 +6,7 @@ import { written } from "./words.js";
 const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
 const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
 const STEPS = [1, 2, 5];
-const RING = "#ff4fa3"; // in neither colour map
+const RING = "#ff4fa3"; // in neither colour map; as .ringed
 
 export function mapView(canvas, bar, heard) {
   const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null, spikes: [] };
@@ -96,11 +96,16 @@ export function mapView(canvas, bar, heard) {
     }
   }
 
+  function showRinged() {
+    if (bar.ringed) bar.ringed.hidden = kind() !== "heights" || !state.spikes.length;
+  }
+
   // Colours end where few values lie beyond; the words at the ends say so.
   function paintBar(low, high, below, beyond, unit) {
     const contact = kind() === "contact";
     bar.root.classList.toggle("keyed", contact);
     bar.low.textContent = contact ? "" : (below ? "≤ " : "") + written(low, unit, 3);
+    showRinged();
     bar.high.textContent = contact ? "" : (beyond ? "≥ " : "") + written(high, unit, 3);
     const scale = bar.canvas.getContext("2d");
     const strip = new ImageData(256, 1);
@@ -298,6 +303,7 @@ export function mapView(canvas, bar, heard) {
     // Cells that stand out of all around them.
     spikes(places) {
       state.spikes = places;
+      showRinged();
       draw();
     },
     mark(cell) {

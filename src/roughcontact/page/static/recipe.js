@@ -36,18 +36,17 @@ export function history(changed) {
     get can() {
       return { undo: past.length > 0, redo: future.length > 0 };
     },
-    // Change it, and return whether it has changed; while something is dragged, `kept` is false until it is let go of.
+    // Change it; while something is dragged, `kept` is false until it is let go of.
     // Undo ends at the first surface: before it there is nothing to go back to.
     change(edit, kept = true) {
       const next = structuredClone(now);
       edit(next);
-      if (JSON.stringify(next) === JSON.stringify(now)) return false;
+      if (JSON.stringify(next) === JSON.stringify(now)) return;
       if (kept && now.source) {
         past.push(now);
         future.length = 0;
       }
       set(next, now);
-      return true;
     },
     // Remember a state from before something was dragged.
     remember(before) {

@@ -20,7 +20,6 @@ function element(kind, text, more = {}) {
 
 export function surfaceView(recipe) {
   let warnings = [];
-  let left = 0; // spikes after the preparation
   let rough = false; // whether the heights have a distribution, which those of a flat have not
 
   function mended([step]) {
@@ -35,14 +34,11 @@ export function surfaceView(recipe) {
   function showWarnings() {
     by("warnings").replaceChildren(...warnings.map(({ kind, words, remedy, step }) => {
       const line = document.createElement("li");
-      const taken = step !== null && mended(step);
-      const ringed = kind === "spikes" ? left : 0;
-      const done = taken && !ringed;
+      const done = step !== null && mended(step);
       line.className = done ? "mended" : "";
       line.append(element("strong", kind), element("span", step ? words : `${words}; ${remedy}`));
-      if (ringed) line.append(element("span", `${taken ? `${ringed} left after the preparation, r` : "R"}inged on the map of heights.`));
       if (done) line.append(element("em", "mended by the preparation"));
-      else if (step && !taken) line.append(element("button", MEND[step[0]], { type: "button", onclick: () => mend(step) }));
+      else if (step) line.append(element("button", MEND[step[0]], { type: "button", onclick: () => mend(step) }));
       return line;
     }));
   }
@@ -81,10 +77,6 @@ export function surfaceView(recipe) {
       if (rough) return;
       for (const id of ["distribution", "spectrum"]) clear(by(id));
       by("roughness").replaceChildren();
-    },
-    left(count) {
-      left = count;
-      showWarnings();
     },
     refused: () => by("surface").setAttribute("aria-busy", "false"),
     channels(found) {

@@ -36,8 +36,7 @@ export function trouble(job, { faults = [] }) {
   for (const field of said.get(job) || []) show(field, "");
   const fields = new Map();
   for (const { places, message } of faults) {
-    const own = [...new Set(places.map(fieldOf).filter((field) => field && !fields.has(field)))];
-    own.forEach((field, k) => fields.set(field, k ? "This is needed as well." : message));
+    for (const field of places.map(fieldOf)) if (field && !fields.has(field)) fields.set(field, message);
   }
   said.set(job, [...fields.keys()]);
   for (const [field, words] of fields) show(field, words);
