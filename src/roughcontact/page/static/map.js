@@ -6,7 +6,7 @@ import { written } from "./words.js";
 const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
 const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
 const STEPS = [1, 2, 5];
-const RING = "#ff4fa3"; // in neither colour map; as .ringed
+const RING = "#ff4fa3"; // in neither colour map; as #ringed
 
 export function mapView(canvas, bar, heard) {
   const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null, spikes: [] };
