@@ -42,7 +42,10 @@ class Served:
 
     def left(self):
         """Return the files of the server and its workers that are there now, besides the lock of its folder."""
-        found = self.folder.glob("roughcontact-*/**/*")
+        try:
+            found = [*self.folder.glob("roughcontact-*/**/*")]
+        except FileNotFoundError:  # a folder that is removed while it is read
+            return self.left()
         return [path for path in found if path.is_file() and path.name != "lock"]
 
     def sessions(self):

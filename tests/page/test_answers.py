@@ -141,7 +141,7 @@ def rows(text):
 def test_the_table_of_a_curve_is_that_of_its_command(ask, tmp_path):
     beside = {"theories": {"theory": "persson"}, "conduction": CONDUCTION}
     [(header, data)] = [each for each in ask(export, {"kind": "csv"}, loads=LOADS, **beside) if each[1]]
-    assert header["name"] == "part-curve.csv"
+    assert re.fullmatch(r"part-curve-[0-9a-f]{6}\.csv", header["name"])
     run(
         of(ask(theories, {"theories": ["persson"]}, loads=LOADS, conduction=CONDUCTION), "stated")[0][
             "command"
@@ -154,7 +154,7 @@ def test_the_table_of_a_curve_is_that_of_its_command(ask, tmp_path):
 def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
     load = {"pressure": "3 MPa"}
     [(header, data)] = [each for each in ask(export, {"kind": "zip"}, {"loads": LOADS}, load=load) if each[1]]
-    assert header["name"] == "part-contact.zip"
+    assert re.fullmatch(r"part-contact-[0-9a-f]{6}\.zip", header["name"])
     archive = zipfile.ZipFile(io.BytesIO(data))
     for command in archive.read("commands.sh").decode().splitlines():
         theirs = json.loads(run(f"{command} --json"))
@@ -171,7 +171,7 @@ def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
 def test_a_picture_of_the_load_is_named_by_it(ask):
     load = {"pressure": "3 MPa"}
     [(header, data)] = [each for each in ask(export, {"kind": "svg"}, load=load) if each[1]]
-    assert header["name"] == "part-pressure-3MPa.svg"
+    assert re.fullmatch(r"part-pressure-3MPa-[0-9a-f]{6}\.svg", header["name"])
     assert data.startswith(b"<?xml")
 
 
@@ -308,7 +308,7 @@ def test_a_loop_is_exported(ask, kind):
         for each in ask(export, {"kind": kind}, loads={"forces": "50 mN,0.5 N"}, plastic=PLASTIC)
         if each[1]
     ]
-    assert header["name"] == f"part-curve.{kind}"
+    assert re.fullmatch(rf"part-curve-[0-9a-f]{{6}}\.{kind}", header["name"])
     if kind == "csv":
         assert len(rows(data.decode())) == 7
         assert "unloading" in data.decode()
@@ -351,3 +351,13 @@ def test_a_curve_that_is_stopped_is_that_of_the_loads_that_it_reached(file, monk
             cache.surface(again.job), found.modulus, forces=np.geomspace(0.05, 2, 7)[:3]
         ).force.tolist()
     )
+
+
+def test_exports_of_different_answers_have_different_names(ask):
+    def named(**more):
+        [(header, _)] = [each for each in ask(export, {"kind": "csv"}, job="press", **more) if each[1]]
+        return header["name"]
+
+    first = named(load={"pressure": "3MPa"})
+    assert first == named(load={"pressure": "3MPa"})
+    assert first != named(load={"pressure": "3MPa"}, preparation={"level": "mean"})

@@ -265,7 +265,7 @@ def test_what_is_exported_is_what_the_stated_command_prints(tab, part, tmp_path,
     name, content = exported(tab, "csv")
     [row] = table_of(content.decode())
     printed = numbers_of(tab.text("command"))
-    assert re.fullmatch(r"part-pressure-[\d.]+[kM]?Pa\.csv", name)
+    assert re.fullmatch(r"part-pressure-[\d.]+[kM]?Pa-[0-9a-f]{6}\.csv", name)
     for key in ("force", "depth", "contact_area", "stiffness"):
         assert float(row[key]) == printed[key], key
 
@@ -330,9 +330,19 @@ def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
     tab.wait("() => document.getElementById('said').textContent.includes('A new one takes over')")
     # What is asked of a process before the server knows of its end is answered as above.
     assert psutil.wait_procs(killed, timeout=30)[1] == []
+    tab.page.get_by_role("button", name="Ask again").click()
+    tab.settled()
+    assert tab.facts["surface"].startswith("1024 x 1024 cells")
+    assert not tab.page.locator("#again").is_visible()
+
+
+def test_the_example_that_is_open_is_computed_again_when_it_is_chosen_again(tab):
     tab.example("Fractal patch")
     tab.settled()
-    assert tab.facts["surface"].startswith("256 x 256 cells")
+    tab.page.evaluate("() => (document.getElementById('facts').textContent = '')")
+    tab.example("Fractal patch")
+    tab.until(lambda: "nominal pressure" in tab.facts)
+    assert not tab.page.locator("#undo").is_enabled()
 
 
 def test_a_gigabyte_is_refused_before_it_is_sent(desk, tab, tmp_path):
@@ -424,10 +434,10 @@ def test_a_theory_is_drawn_or_says_why_it_is_not(tab, part):
     computed(tab, "forces", "1 mN:0.1 N:4")
     persson, cmy = (tab.page.locator(f"#theories input[value={name}]") for name in ("persson", "cmy"))
     persson.check()
-    tab.wait("() => document.querySelector('#curve .legend').textContent.includes('Persson')")
+    tab.wait("() => document.querySelector('#curve .legend').textContent.includes('persson')")
     assert "--theory persson" in tab.text("curve_command")
     cmy.click()
-    tab.wait("() => document.getElementById('theories').textContent.includes('give hardness')")
+    tab.wait("() => document.getElementById('theories').textContent.includes('give Hardness')")
     assert persson.is_checked()
     assert not cmy.is_checked()
 
@@ -478,7 +488,7 @@ def test_surfaces_that_stick_show_force_against_depth_and_the_pull_off(tab, part
     assert "pull-off force" in tab.text("curve_facts")
     assert "roughcontact adhesion loop part.npz" in tab.text("curve_command")
     name, content = exported(tab, "curve png")
-    assert name == "part-adhesion-loop.png"
+    assert re.fullmatch(r"part-adhesion-loop-[0-9a-f]{6}\.png", name)
     assert content.startswith(b"\x89PNG")
     tab.page.select_option("#kind", "adhesion detach")
     assert not tab.page.locator("#of_curve").is_visible()  # a curve of another kind is gone
@@ -517,3 +527,102 @@ def test_a_load_that_is_none_is_refused_beside_its_field(tab, part):
     tab.page.keyboard.press("Enter")
     tab.wait("() => document.getElementById('load').getAttribute('aria-invalid') === 'true'")
     assert "not a pressure" in tab.text("load_trouble")
+
+
+def test_undo_ends_at_the_first_surface(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    load = tab.page.input_value("#load")
+    tab.page.fill("#load", "3")
+    tab.page.keyboard.press("Enter")
+    tab.settled()
+    assert tab.page.input_value("#load") == "3 MPa"  # the unit of what stood there before
+    tab.page.locator("#undo").click()
+    tab.settled()
+    assert (tab.page.input_value("#load"), tab.text("name")) == (load, "part.npz")
+    assert not tab.page.locator("#undo").is_enabled()
+
+
+def test_the_load_of_the_page_follows_a_corrected_surface_and_the_one_of_the_user_stays(tab):
+    tab.example("Fractal patch")
+    tab.settled()
+    load = tab.page.locator("#load")
+    before = load.input_value()
+    for rms, hand in (("2um", ""), ("4um", "7 MPa")):
+        if hand:
+            load.fill(hand)
+            tab.page.keyboard.press("Enter")
+            tab.settled()
+        tab.page.fill('[id="source.rms"]', rms)
+        tab.page.keyboard.press("Tab")
+        tab.until(lambda rms=rms: f"--rms {rms}" in tab.text("command"))
+        tab.settled()
+        assert (load.input_value() == hand) == bool(hand)
+    assert before != "7 MPa"
+
+
+def test_a_page_that_is_loaded_again_has_its_file_and_its_load(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.fill("#load", "2 MPa")
+    tab.page.keyboard.press("Enter")
+    tab.settled()
+    facts = tab.facts
+    tab.page.reload()
+    tab.until(lambda: tab.text("name") == "part.npz")
+    tab.settled()
+    assert tab.facts == facts
+
+
+def test_a_load_before_has_the_unit_of_the_load_and_the_curve_begins_without_it(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    after = tab.page.locator('[id="plastic.after"]')
+    assert after.get_attribute("placeholder") == "1MPa"
+    tab.page.select_option("#control", "force")
+    tab.settled()
+    assert after.get_attribute("placeholder") == "10N"
+    assert "After" not in tab.text("kind_said")
+    tab.page.get_by_role("heading", name="Plastic flow").click()
+    after.fill("1N")
+    tab.page.keyboard.press("Tab")
+    tab.until(lambda: "fresh surface: After" in tab.text("kind_said"))
+
+
+def test_loads_without_a_unit_are_asked_about(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.select_option("#loads", "pressures")
+    tab.page.fill('[id="loads.pressures"]', "1:4:3")
+    tab.page.locator("#start").click()
+    tab.until(
+        lambda: "1:4:3 has no unit" in tab.page.locator('[id="loads.pressures_trouble"]').text_content()
+    )
+    computed(tab, "pressures", "1 MPa:4 MPa:3")
+    assert tab.page.locator(".trouble").count() == 0
+
+
+# What reaches beyond the screen; the heights of the bars; whether a table scrolls with its first column in view.
+BEYOND = """() => [...document.querySelectorAll("body *")]
+  .filter((each) => !each.closest(".table") && each.getBoundingClientRect().right > innerWidth)
+  .map((each) => each.outerHTML)"""
+BARS = """() => [...document.querySelectorAll(".bar.load, #view > .bar, #curves > .bar")]
+  .map((each) => each.clientHeight)"""
+SCROLLED = """() => {
+  const box = document.getElementById("points").parentElement;
+  box.scrollLeft = 1e6;
+  const left = (each) => each.getBoundingClientRect().left;
+  return box.scrollLeft > 0 && left(box.querySelector("tbody th")) >= left(box);
+}"""
+
+
+def test_a_narrow_screen_has_the_map_first_and_nothing_beyond_its_width(tab, part):
+    tab.page.set_viewport_size({"width": 400, "height": 800})
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    computed(tab, "pressures", "1 MPa:4 MPa:3")
+    places = [tab.page.locator(f"#{name}").bounding_box()["y"] for name in ("map", "settings", "numbers")]
+    assert places == sorted(places)
+    assert tab.page.evaluate(BEYOND) == []
+    assert max(tab.page.evaluate(BARS)) < 50  # one line of buttons, which are 34 high
+    assert tab.page.evaluate(SCROLLED)

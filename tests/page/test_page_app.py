@@ -252,11 +252,32 @@ def test_a_session_holds_its_own_files_and_the_one_of_the_command_line(tmp_path)
 
 
 def test_the_files_of_a_session_go_with_it_and_no_others(server, tmp_path):
+    server.sessions.grace = 0.0
     first, second = begun(server), begun(server)
-    asked(server, put(first), put(second), post("/end", f"session={first}"))
+
+    async def left():
+        app = application(server)
+        for each in (put(first), put(second), post("/end", f"session={first}"), post("/end", "session=x")):
+            await answer(app, *each)
+        while first in server.sessions.known:
+            await asyncio.sleep(0)
+
+    asyncio.run(left())
     [file] = left_in(tmp_path)
     assert file.parent.parent == tmp_path / second
     assert server.sessions.known.keys() == {second}
+
+
+def test_a_tab_that_is_loaded_again_has_its_session_with_its_files(server):
+    """A tab that was copied, and so names a session that another tab still has, gets one of its own."""
+    session = begun(server)
+    again = post("/session", f"again={session}")
+    file, copied, _, back = asked(server, put(session), again, post("/end", f"session={session}"), again)
+    assert copied.json["session"] != session
+    assert copied.json["files"] == {}
+    assert back.json["session"] == session
+    assert back.json["files"] == {file.json["file"]: "part.npy"}
+    assert server.sessions.known[session].leaving is None
 
 
 def test_too_many_tabs_are_refused_until_one_has_long_been_silent(server):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.page.refusal import refusal
+from roughcontact.page.refusal import on_the_page, refusal
+from roughcontact.recipe.written import from_plain
 
 
 def caught(call):
@@ -37,7 +38,7 @@ def test_what_a_file_lacks_is_named_by_the_fields_of_the_page(tmp_path):
     found = caught(lambda: rc.read(file))
     assert found["how"] == "refused"
     assert "size" in found["places"]
-    assert "the width of the map" in found["remedy"]
+    assert "the width of the map" in found["message"]
 
 
 def test_the_folder_of_the_server_stays_unsaid(tmp_path):
@@ -45,3 +46,34 @@ def test_the_folder_of_the_server_stays_unsaid(tmp_path):
     assert found["how"] == "refused"
     assert "part.x3p" in found["message"]
     assert str(tmp_path) not in str(found)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (
+            "mask it (masked, surface prepare --mask) or crop it (cropped, --crop)",
+            "mask it (Mask) or crop it (Crop)",
+        ),
+        ("remove what is faulty by despiked()", "remove what is faulty by Despike"),
+        ("use despiked() and --despike", "use Despike"),
+        ("read another --channel", "read another Channel"),
+        ("pass unit= with the right unit", "fill in Unit with the right unit"),
+        ("short_cutoff 2 m is not below long_cutoff 1 m", "Short cutoff 2 m is not below Long cutoff 1 m"),
+        ("give `hardness`, or `young2`", "give Hardness, or Young 2"),
+        (
+            "write above=3um; see my_file.x3p, read() or --download",
+            "write above=3um; see my_file.x3p, read() or --download",
+        ),
+    ],
+)
+def test_messages_name_the_fields_of_the_page(words, expected):
+    assert on_the_page(words) == expected
+
+
+def test_each_value_that_is_wrong_has_a_fault_of_its_own():
+    source = {"kind": "self-affine", "hurst": "some", "rms": "1kg", "size": "1mm"}
+    found = caught(lambda: from_plain({"job": "surface", "source": source}))
+    assert [fault["places"] for fault in found["faults"]] == [["source.hurst"], ["source.rms"]]
+    assert found["message"] == " ".join(fault["message"] for fault in found["faults"])
+    assert "source." not in found["message"]

@@ -159,8 +159,8 @@ def part(heights, tmp_path):
 
 def test_what_a_file_leaves_open_is_asked_for(person, bare):
     person.open(bare)
-    person.trouble("source.unit", "unit of the heights")
-    person.trouble("source.size", "needed")
+    for field in ("source.unit", "source.size"):
+        person.trouble(field, "Fill in Unit (of the heights) and Size (the width of the map).")
     person.write("source.unit", "nm")
     person.write("source.size", "64 apples")
     person.trouble("source.size", "apples")

@@ -11,7 +11,7 @@ from roughcontact.recipe.recipe_fields import Spec, specs
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 from roughcontact.recipe.theory_job import TheoryJob
 
-__all__ = ["forms"]
+__all__ = ["forms", "label_of", "names_of_fields"]
 
 _LEFT_OUT = ("file", "profile")  # a file is dropped, and what a page presses is a map
 _SHOWN = Theories  # of the parts of an answer, the one that a page shows
@@ -40,6 +40,17 @@ def forms() -> dict[str, Any]:
     }
 
 
+def label_of(name: str) -> str:
+    """Return what a form calls a field."""
+    return name.replace("_", " ").replace("2", " 2").capitalize()
+
+
+def names_of_fields() -> frozenset[str]:
+    """Return the names of all fields of the forms."""
+    parts = [*SOURCES, *(kind for job in JOBS.values() for kind in _parts(job).values())]
+    return frozenset(each.name for part in parts for each, _ in specs(part))
+
+
 def _parts(job: type[Any]) -> dict[str, type[Any]]:
     """Return the parts of a job that have one form."""
     hints = get_type_hints(job)
@@ -65,7 +76,7 @@ def _field(each: Field[Any], spec: Spec, kind: Any) -> dict[str, Any]:
     kinds = {bool: "flag", bool | None: "truth", tuple[str, ...]: "texts"}
     return {
         "name": each.name,
-        "label": each.name.replace("_", " ").replace("2", " 2").capitalize(),
+        "label": label_of(each.name),
         "help": spec.help,
         "example": spec.example or "",
         "kind": kinds.get(kind, "choice" if spec.choices else "text"),

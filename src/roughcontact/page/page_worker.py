@@ -80,8 +80,7 @@ def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping:
         cache.kept.clear()
         end |= {
             "how": "refused",
-            "message": "The memory does not suffice for that many points.",
-            "remedy": "Crop or subsample.",
+            "message": "The memory does not suffice for that many points. Crop or Downsample the map.",
         }
     except Exception as error:
         from roughcontact.page.refusal import refusal

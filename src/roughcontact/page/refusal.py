@@ -3,27 +3,35 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-from roughcontact.errors import correctable
+from roughcontact.errors import InputError, correctable, every
 from roughcontact.files.file_errors import ReadError
-from roughcontact.recipe.preparation import masks_named
+from roughcontact.page.forms import label_of, names_of_fields
+from roughcontact.recipe.preparation import Preparation, masks_named
+from roughcontact.recipe.recipe_fields import specs
 
 __all__ = ["on_the_page", "refusal"]
 
-# What the library says by names and calls of Python.
-_WORDS = {
-    "poisson_ratio": "Poisson's ratio",
-    "young_modulus": "Young's modulus",
-    "short_cutoff": "the short cut-off",
-    "long_cutoff": "the long cut-off",
-    "pass channel= for another": "choose another under Channel",
-    "take them out by masked()": "crop them away",
-    "unit=": "the unit of the heights",
-    "size=": "the width",
+# Arguments of Python that no field has the name of.
+_ARGUMENTS = {
+    "poisson_ratio": "Poisson",
+    "young_modulus": "Young",
+    "contact.profile": "Profile",
 }
-_LACKING = {"unit": "the unit of the heights", "size": "the width of the map", "channel": "the channel"}
+_LACKING = {
+    "unit": "Unit (of the heights)",
+    "size": "Size (the width of the map)",
+    "channel": "Channel",
+}
+_OPTION = re.compile(r"--([a-z][a-z0-9-]*)")
+_ASIDE = re.compile(r" \(([^()]*--[^()]*)\)")  # a method and an option in brackets
+_METHOD = re.compile(r"\b(\w+)\(\)(?: and (?=--))?")
+_FIELD = re.compile(r"`(\w+)`")
+_ARGUMENT = re.compile(r"\b(pass )?([a-z]+(?:_[a-z]+)*)= ?")
+_NAME = re.compile(r"\b[a-z]+2?_[a-z_]+\b")
 
 
 def refusal(error: Exception) -> dict[str, Any]:
@@ -33,33 +41,68 @@ def refusal(error: Exception) -> dict[str, Any]:
         words = f"{type(error).__name__}: {error}"
         return {"how": "mistake", "message": f"This is a mistake in roughcontact, not in your input: {words}"}
     if isinstance(error, OSError):  # its folder is the server's: the user knows the name alone
-        return _refused(found.message.replace(str(found.place), f"the file {Path(str(found.place)).name}"))
-    places = [] if found.place is None else found.place.split(", ")
-    message, remedy = found.message, found.remedy
-    if isinstance(found, ReadError):
-        message, fields = found.problem, [place.rpartition(".")[2] for place in places]
-        if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
-            remedy = f"Give {' and '.join(lacking)}."
-        elif remedy is not None and "read_line" in remedy:
-            remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
-    return _refused(message, remedy) | {"places": places}
+        message = found.message.replace(str(found.place), f"the file {Path(str(found.place)).name}")
+        return {"how": "refused", "message": _sentence(message)}
+    faults = [_fault(each) for each in every(found)]
+    words = " ".join(each["message"] for each in faults)
+    return {
+        "how": "refused",
+        "message": words,
+        "places": [at for each in faults for at in each["places"]],
+    } | ({"faults": faults})
 
 
 def on_the_page(text: str) -> str:
-    """Return what the library says, in the words of the page: fields by their labels."""
+    """Return what the library says, in the words of the page: its fields by their labels."""
     text = masks_named(text, "Mask ")
-    for python, words in _WORDS.items():
-        text = re.sub(re.escape(python), words, text, flags=re.IGNORECASE)
-    return re.sub(r"`(\w+)`", lambda field: field[1].replace("_", " "), text)
+    text = _ASIDE.sub(lambda found: f" ({' and '.join(map(_option, _OPTION.findall(found[1])))})", text)
+    text = _METHOD.sub(lambda found: "" if found[0].endswith("and ") else _step(found[1]), text)
+    for python, words in _ARGUMENTS.items():
+        text = text.replace(python, words)
+    text = _ARGUMENT.sub(_argument, text)
+    text = _OPTION.sub(lambda found: _option(found[1]), text)
+    text = _FIELD.sub(lambda found: label_of(found[1]), text)
+    return _NAME.sub(lambda found: label_of(found[0]) if found[0] in _names() else found[0], text)
 
 
-def _refused(message: str, remedy: str | None = None) -> dict[str, Any]:
-    advice = {} if remedy is None else {"remedy": _sentence(on_the_page(remedy))}
-    return {"how": "refused", "message": _sentence(on_the_page(message))} | advice
+def _fault(error: InputError) -> dict[str, Any]:
+    """Return what is wrong with a value and what to do, in sentences, and its fields."""
+    places = [] if error.place is None else error.place.split(", ")
+    message, remedy = error.message, error.remedy
+    if isinstance(error, ReadError):
+        message, fields = error.problem, [place.rpartition(".")[2] for place in places]
+        if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
+            remedy = f"Fill in {' and '.join(lacking)}."
+        elif remedy is not None and "read_line" in remedy:
+            remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
+            return {"message": f"{_sentence(message)} {remedy}", "places": places}
+    sentences = [_sentence(each) for each in (message, remedy) if each]
+    return {"message": " ".join(sentences), "places": places}
+
+
+def _option(words: str) -> str:
+    """Return the label of the field of an option; the option where no form has it."""
+    name = words.replace("-", "_")
+    return label_of(name) if name in _names() else f"--{words}"
+
+
+def _argument(found: re.Match[str]) -> str:
+    """Return the label of the field that an argument of Python is."""
+    name = found[2]
+    return f"{'fill in ' if found[1] else ''}{label_of(name)} " if name in _names() else found[0]
+
+
+def _step(method: str) -> str:
+    """Return the label of the step that a method of surfaces is."""
+    labels = (label_of(each.name) for each, spec in specs(Preparation) if spec.step.method == method)
+    return next(labels, f"{method}()")
+
+
+_names = cache(names_of_fields)
 
 
 def _sentence(text: str) -> str:
-    """Return a message as a sentence."""
-    text = " ".join(text.split())
+    """Return a message as a sentence in the words of the page."""
+    text = " ".join(on_the_page(text).split())
     ended = text if text.endswith((".", "!", "?")) else f"{text}."
     return ended[:1].upper() + ended[1:]

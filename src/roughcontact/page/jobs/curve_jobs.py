@@ -32,7 +32,8 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     job, done, stopped = request.job, 0, False
     path = cache.followed(job)
     loads = path.loads.values
-    send({"type": "loads", "count": path.count, "notes": path.notes, "columns": columns_of(job)})
+    notes = [on_the_page(note) for note in path.notes]
+    send({"type": "loads", "count": path.count, "notes": notes, "columns": columns_of(job)})
     send({"type": "stated", **request.statement})
 
     def watched() -> Iterator[Any]:

@@ -8,6 +8,7 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -62,10 +63,12 @@ def _what(request: PageRequest) -> str:
 
 
 def _name(request: PageRequest, what: str, ending: str) -> str:
-    """Return the name of a file that tells of what surface it is and what it holds."""
+    """Return the name of a file: its surface, what it holds, and a mark of the recipes, which no other answer has."""
     source = request.shown.source
     stem = Path(source.file).stem if isinstance(source, File) else "made-surface"
-    return re.sub(r"[^\w.-]+", "", f"{stem}-{what}") + f".{ending}"
+    recipes = [each.recipe for each in (request, request.beside) if each is not None]
+    mark = sha256(json.dumps(recipes).encode()).hexdigest()[:6]
+    return re.sub(r"[^\w.-]+", "", f"{stem}-{what}-{mark}") + f".{ending}"
 
 
 def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["look", "study"]
 
+_MOST_SPIKES = 200  # rings on the map
 _MOST_CURVE = 600  # points of a curve on the screen
 # Parameters of ISO 25178-2, their names there and their units.
 _AREAL = (
@@ -77,7 +78,9 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "normal": histogram.gaussian(histogram.centres).tolist(),
             }
         )
-    send({"type": "warnings", "warnings": cache.warnings(request.job)})
+    warned = [each | {"remedy": on_the_page(each["remedy"])} for each in cache.warnings(request.job)]
+    send({"type": "warnings", "warnings": warned})
+    send({"type": "spikes", "places": rc.find_spikes(surface).places[:_MOST_SPIKES].tolist()})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0
@@ -120,8 +123,20 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     facts.append(("rms slope", "from the moment m2", written(moments.rms_slope, "", 4)))
     facts.append(("rms curvature", "from the moment m4", written(moments.rms_curvature, "m-1", 4)))
     facts.append(("Nayak's parameter", "m0 m4 / m2²", written(moments.nayak, "", 4)))
+    return [*facts, ("Hurst exponent", *_hurst(surface))]
+
+
+def _hurst(surface: Surface) -> tuple[str, str]:
+    """Return in words where the Hurst exponent is from, or why there is none; and the exponent."""
+    import roughcontact as rc
+
     try:
-        exponent, words = f"{rc.hurst_exponent(surface.filled()).hurst:.3g}", "fitted to the spectrum"
+        law = rc.hurst_exponent(surface.filled())
     except InputError as error:
-        exponent, words = "none", str(error)
-    return [*facts, ("Hurst exponent", words, exponent)]
+        return on_the_page(str(error)), "none"
+    if law.misfit > law.chance:
+        limit = f"chance stays below {law.chance:.2g}"
+        return f"the spectrum follows no power law: misfit {law.misfit:.2g}, {limit}", "none"
+    if not 0 <= law.hurst <= 1:
+        return f"the spectrum falls as q^-{law.exponent:.3g}, a self-affine one as q^-2 to q^-4", "none"
+    return "fitted to the spectrum", f"{law.hurst:.3g}"

@@ -51,15 +51,18 @@ class PageServer:
     closing: asyncio.Event = field(default_factory=asyncio.Event)
     opened: bool = False
 
-    async def begin(self, _: Request) -> Response:
-        """Open a session, for a tab that has none."""
-        key = await self.sessions.begin()
+    async def begin(self, request: Request) -> Response:
+        """Open a session for a tab, or give a tab that was loaded again the session that it had."""
+        before = request.query_params.get("again", "")
+        key = before if self.sessions.back(before) else await self.sessions.begin()
         if key is None:
             words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
             return _refusal(503, words)
         file = self.sessions.given
         given = None if file is None else {"file": GIVEN, "name": file.name}
-        return JSONResponse({"session": key, "given": given, "largest": LARGEST, **_choices()})
+        files = {name: each.name for name, each in self.sessions.known[key].files.items()}
+        about = {"session": key, "files": files, "given": given, "largest": LARGEST}
+        return JSONResponse(about | _choices())
 
     def in_session(self, answer: Callable[[Session, Request], Awaitable[ASGIApp]]) -> Callable[..., Any]:
         """Return the endpoint of a route that answers only for a session that is open."""
@@ -107,9 +110,9 @@ class PageServer:
         await session.queue(request.query_params.get("queue")).stop(request.query_params.get("key", ""))
         return JSONResponse({})
 
-    async def end(self, request: Request) -> Response:
-        """End a session whose tab is closed."""
-        await self.sessions.end(request.query_params.get("session", ""))
+    async def leave(self, request: Request) -> Response:
+        """End a session whose tab is closed, unless it is only loaded again."""
+        self.sessions.leave(request.query_params.get("session", ""))
         return JSONResponse({})
 
     async def alive(self, session: Session, request: Request) -> Response:
@@ -145,7 +148,7 @@ def application(server: PageServer) -> ASGIApp:
         Route("/request", server.in_session(server.perform), methods=["POST"]),
         Route("/stop", server.in_session(server.stop), methods=["POST"]),
         Route("/alive", server.in_session(server.alive), methods=["POST"]),
-        Route("/end", server.end, methods=["POST"]),
+        Route("/end", server.leave, methods=["POST"]),
     ]
     return _Guarded(Starlette(routes=routes, lifespan=lambda _: server.sessions.running()), server.guard)
 

@@ -22,6 +22,10 @@ from roughcontact.validation import Array
 
 __all__ = ["PageJob", "PageRequest", "Send", "send_map"]
 
+_PART_OF_COLOURS = (
+    0.8  # where nearly all heights would have less, the colours end before the highest and the lowest
+)
+
 
 class Send(Protocol):
     """Sends a message on its way."""
@@ -121,10 +125,13 @@ def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = F
     """Send a map in single precision, no side longer than `most`, its highest values kept, or its `lowest`."""
     import numpy as np
 
+    from roughcontact.plot.drawing.usual_range import usual_range
+
     factor = factor_for(field.shape, most)
     seen = np.ascontiguousarray(as_seen(field, factor, lowest=lowest), dtype="<f4")
     known = seen[~np.isnan(seen)]
     ends = [float(known.min()), float(known.max())] if known.size else [0.0, 0.0]
+    colours = (usual_range(known, _PART_OF_COLOURS) if known.size else None) or ends
     header = {
         "type": "map",
         "map": name,
@@ -132,5 +139,6 @@ def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = F
         "cells": field.shape,
         "factor": factor,
         "ends": ends,
+        "colours": colours,
     }
     send({**header, **more}, seen.tobytes())

@@ -30,7 +30,8 @@ GIVEN = "given"  # what the page calls the file of the command line
 _DELAY = 3.0  # seconds before the next reserve is started: the first answer comes first
 _GRACE = 0.15  # seconds in which a cancelled request may end; its process is killed afterwards
 _DIED = (
-    "The process that computes was ended from outside, or ran out of memory. A new one takes over: ask again."
+    "The process that computes was ended from outside, or ran out of memory. A new one takes over: press Ask again, or "
+    "Start for a curve."
 )
 _NOT_STARTED = "The process that computes did not start: see what it wrote where the server runs."
 
@@ -178,6 +179,8 @@ class Session:
         By the names that the page was given.
     heard : float
         When its tab last sent a request [s], on the clock of `time.monotonic`.
+    leaving : asyncio.Task or None
+        Of a tab that was closed or is loaded again: ends the session shortly.
     """
 
     front: _RequestQueue
@@ -185,6 +188,7 @@ class Session:
     folder: Path
     files: dict[str, UploadedFile]
     heard: float = field(default_factory=monotonic)
+    leaving: asyncio.Task[None] | None = None
 
     @property
     def busy(self) -> bool:
@@ -222,12 +226,15 @@ class Sessions:
         A session whose tab sends nothing for this time [s] is ended.
     room : float
         The same where a new session would be one too many.
+    grace : float
+        A session whose tab was closed is kept for this time [s]: the tab may only be loaded again.
     """
 
     folder: Path
     given: UploadedFile | None = None
     silent: float = 3600.0  # tabs report twice a minute, hidden ones once, frozen ones not at all
     room: float = 180.0
+    grace: float = 5.0
     known: dict[str, Session] = field(default_factory=dict)
     workers: set[_Worker] = field(default_factory=set)
     reserve: asyncio.Task[_Worker] | None = None
@@ -265,6 +272,23 @@ class Sessions:
             session.heard = monotonic()
         return session
 
+    def leave(self, key: str) -> None:
+        """End a session, if it is open, unless its tab comes back at once."""
+        if (session := self.known.get(key)) is not None and session.leaving is None:
+            session.leaving = asyncio.create_task(self._end_left(key))
+
+    def back(self, key: str) -> bool:
+        """Return whether a session is open whose tab has left it: it has come back."""
+        if (session := self.find(key)) is None or session.leaving is None:
+            return False
+        session.leaving.cancel()
+        session.leaving = None
+        return True
+
+    async def _end_left(self, key: str) -> None:
+        await asyncio.sleep(self.grace)
+        await self.end(key)
+
     async def end(self, key: str) -> None:
         """End a session, if it is open."""
         if (session := self.known.pop(key, None)) is not None:
@@ -277,7 +301,9 @@ class Sessions:
 
     async def _end_silent(self, limit: float) -> None:
         before = monotonic() - limit
-        for key in [key for key, each in self.known.items() if each.heard < before and not each.busy]:
+        for key in [
+            key for key, each in self.known.items() if each.leaving or (each.heard < before and not each.busy)
+        ]:
             await self.end(key)
 
     def _prepare(self) -> asyncio.Task[_Worker]:

@@ -28,6 +28,7 @@ export function comparison({ recipe, jobOf, map, failed, changed, curveFacts }) 
     const text = JSON.stringify(load);
     const held = kept;
     asked = text;
+    by("kept_said").textContent = "computing …";
     let end = {};
     try {
       end = await request("back", "press", jobOf({ ...held.recipe, load }), { pixels: 512 }, (header, data) => {
@@ -41,7 +42,7 @@ export function comparison({ recipe, jobOf, map, failed, changed, curveFacts }) 
     asked = null;
     held.answered = text;
     if (held === kept) {
-      by("kept_said").textContent = end.message ? [`${held.name}: ${end.message}`, end.remedy].filter(Boolean).join(" ") : "";
+      by("kept_said").textContent = end.message ? `${held.name}: ${end.message}` : "";
       show();
       follow();
     }

@@ -46,8 +46,19 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
     return job;
   }
 
+  // The loads that are numbers alone: which unit they have is asked.
+  function bare(job) {
+    return own.parts.flatMap(({ part, fields }) => fields.flatMap(({ name, example }) => {
+      const text = (job[part] || {})[name];
+      const open = typeof text === "string" && /\d[a-z]/i.test(example) && /^[\d.,:\s-]+$/.test(text);
+      return open ? [{ places: [`${part}.${name}`], message: `${text} has no unit: write it as in ${example}.` }] : [];
+    }));
+  }
+
   async function start() {
     const run = { points: [], job: wanted(), columns: [], end: null };
+    const faults = bare(run.job);
+    if (faults.length) return trouble("curve", { faults });
     forget();
     current = run;
     show();
@@ -58,7 +69,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
       const end = await sent.ended;
       const field = run === current && trouble("curve", end);
       if (field) say("");
-      else if (run === current && end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+      else if (run === current && end.message) say(end.message);
       else if (run === current && end.how === "stopped") say("Stopped before there was an answer.");
     } catch (error) {
       failed(error);
@@ -213,11 +224,12 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
     const { kind } = recipe.now;
     if (own.kind !== kind) {
       const parts = Object.entries(forms.jobs[kind]).filter(([part]) => part !== "theories").map(([part, all]) => [part, rest(all, forms.jobs.press[part])]);
-      own = { kind, parts: parts.filter(([, { fields }]) => fields.length).map(([part, some]) => form(recipe, part, some, { usual: kind === "curve" ? range : undefined, alone: true })) };
+      own = { kind, parts: parts.filter(([, { fields }]) => fields.length).map(([part, some]) => ({ part, ...some, ...form(recipe, part, some, { usual: kind === "curve" ? range : undefined, alone: true }) })) };
       by("curve_forms").replaceChildren(...own.parts.map(({ root }) => root));
       by("kind").value = kind;
-      by("kind_said").textContent = forms.about[kind];
     }
+    const { after } = recipe.now.plastic || {};
+    by("kind_said").textContent = forms.about[kind] + (after && kind === "curve" ? " It begins with the fresh surface: After is about the load above; for a curve of unloading check Loop." : "");
     for (const each of own.parts) each.show();
     const ready = Boolean(usual("force") && recipe.now.load);
     [by("start").disabled, by("stop").disabled] = [Boolean(running) || !ready, !running];

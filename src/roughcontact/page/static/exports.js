@@ -11,7 +11,7 @@ export function exports(root, { load, curve, source, say, failed }) {
     made.append(...Object.entries(KINDS).map(([kind, name]) => new Option(name, of === "load" ? kind : `${of} ${kind}`)));
     return made;
   };
-  root.replaceChildren(new Option("choose", ""), group("This load", "load"), group("The curve", "curve"), new Option("All, as ZIP", "zip"));
+  root.replaceChildren(new Option("Export", ""), group("This load", "load"), group("The curve", "curve"), new Option("All, as ZIP", "zip"));
 
   root.onchange = async ({ target }) => {
     const [kind, of] = target.value.split(" ").reverse();
@@ -32,7 +32,7 @@ export function exports(root, { load, curve, source, say, failed }) {
     });
     try {
       const end = await sent.ended;
-      if (end.message) say([end.message, end.remedy].filter(Boolean).join(" "));
+      if (end.message) say(end.message);
     } catch (error) {
       failed(error);
     }

@@ -11,6 +11,8 @@ export function loadBar(recipe) {
   let spans = null;
   let state = null; // the loads of the last answer, each in its own words
   let dragged = null;
+  let automatic = ""; // the load that this page has chosen, as long as nobody has chosen another
+  let renewed = false; // whether it is chosen again, for another surface
 
   function show() {
     const { load } = recipe.now;
@@ -32,7 +34,13 @@ export function loadBar(recipe) {
     const text = state ? loadText(state[control], UNITS[control], 4) : loadText(spans[control][2], UNITS[control]);
     recipe.change((next) => (next.load = { [control]: text }));
   };
-  by("load").onchange = ({ target }) => recipe.change((next) => (next.load = { [by("control").value]: target.value }));
+  by("load").onchange = ({ target }) => {
+    // A number alone has the unit of what stood there before.
+    const [unit] = /[a-zµ].*$/i.exec(Object.values(recipe.now.load)[0]) || [UNITS[by("control").value]];
+    const text = /^\s*[\d.]+(e[+-]?\d+)?\s*$/i.test(target.value) ? `${target.value.trim()} ${unit}` : target.value;
+    recipe.change((next) => (next.load = { [by("control").value]: text }));
+    show();
+  };
   by("slider").oninput = ({ target }) => {
     dragged = dragged || structuredClone(recipe.now);
     const { value: control } = by("control");
@@ -57,15 +65,19 @@ export function loadBar(recipe) {
     // Between which loads the slider goes; without any the surface is flat.
     spanned({ pressure, force, depth }) {
       spans = pressure ? { pressure, force, depth } : null;
-      if (spans && !recipe.now.load) {
-        recipe.change((next) => (next.load = { pressure: loadText(pressure[2], "Pa") }), false);
+      if (spans && (!recipe.now.load || renewed)) {
+        automatic = loadText(pressure[2], "Pa");
+        recipe.change((next) => (next.load = { pressure: automatic }), false);
       }
+      renewed = false;
       show();
       return Boolean(spans);
     },
     answered: (header) => (state = header),
-    forget() {
+    // Of another surface, or of another preparation, the loads are other ones.
+    forget(another) {
       spans = state = null;
+      renewed ||= another && JSON.stringify(recipe.now.load) === JSON.stringify({ pressure: automatic });
     },
     usual: (control) => spans && spans[control],
   };

@@ -38,7 +38,7 @@ const wanted = { look: false, press: false, cut: false, bodies: true, study: fal
 
 const say = (text) => (by("said").textContent = text);
 const working = progressBar(by("working"), by("said"));
-const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high") }, {
+const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by("low"), high: by("high"), ringed: by("ringed") }, {
   over: (text, cell) => { by("over").textContent = text; cut.pointed(cell); },
   crop(part) {
     by("crop").click();
@@ -68,8 +68,9 @@ function changed(now, before) {
   if (differs("source") || differs("preparation")) {
     wanted.look = wanted.study = Boolean(now.source);
     surfaceCard.wait();
+    map.spikes([]);
     map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
-    load.forget();
+    load.forget(differs("source"));
     cut.forget();
     numbers.forget(differs("source"));
   }
@@ -100,6 +101,8 @@ function show() {
     shown.source = form(recipe, "source", forms.sources[source.kind]);
     by("source_form").replaceChildren(shown.source.root);
   }
+  const [control = "pressure"] = Object.keys(recipe.now.load || {});
+  shown.plastic.hint("after", forms.jobs.press.load.fields.find(({ name }) => name === control).example);
   by("flattened").hidden = !map.has("flattened");
   for (const part of ["source", "preparation", "bodies", "plastic", "contact"]) if (shown[part]) shown[part].show();
   for (const each of [surfaceCard, load, curve]) each.show();
@@ -113,15 +116,30 @@ function ended(end, job) {
   const field = trouble(job, end);
   // A file that leaves something open asks for it.
   if (field && field.id.startsWith("source.") && document.activeElement === document.body) field.focus();
-  if (end.message) say(field === by("load") ? "" : [end.message, end.remedy].filter(Boolean).join(" "));
+  if (end.message) say(field === by("load") ? "" : end.message);
+  by("again").hidden = end.how !== "died";
   return end.how === "done";
+}
+
+// What is grey waits for a computation: it says so.
+function busy(now) {
+  for (const id of ["view", "numbers"]) by(id).setAttribute("aria-busy", String(now));
+  by("curves").setAttribute("aria-busy", String(now && by("start").disabled));
+  by("load").placeholder = now && by("load").disabled ? "computing …" : "";
+}
+
+// Ask for everything again that the recipe says: a process may have died over it.
+function again() {
+  by("again").hidden = true;
+  Object.assign(wanted, { look: true, press: true, bodies: true, study: true });
+  pump();
 }
 
 // Of what runs, only what is no longer asked for is stopped; under a moving slider maps follow as fast as they come.
 async function pump() {
-  by("view").setAttribute("aria-busy", String(MAPS.some((job) => wanted[job] || (front && front.job === job))));
+  busy(MAPS.some((job) => wanted[job] || (front && front.job === job)));
   if (front) {
-    const stale = front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press && !load.dragged);
+    const stale = front.job === "bodies" ? false : front.job === "study" ? next() !== "study" : wanted.look || (front.job === "press" && wanted.press && !load.dragged);
     if (stale && !front.timer) front.timer = setTimeout(front.sent.stop, front.job === "study" ? 0 : PATIENCE);
     return;
   }
@@ -175,6 +193,7 @@ function heard(header, data) {
   else if (header.type === "surface") { surface(header); numbers.tell(header); }
   else if (header.type === "bodies") told(header);
   else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
+  else if (header.type === "spikes") map.spikes(header.places);
   else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
   else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
   else if (header.type === "numbers") answered(header);
@@ -224,6 +243,8 @@ function given({ file, name }) {
 }
 
 function source(found) {
+  const { source: open, preparation } = recipe.now;
+  if (JSON.stringify([open, preparation]) === JSON.stringify([found, fresh(found)])) return again();
   recipe.change((next) => Object.assign(next, { source: found, preparation: fresh(found), load: null }));
 }
 
@@ -243,7 +264,7 @@ function listen() {
   };
   by("crop").onclick = () => { map.state.mode = map.state.mode === "crop" ? "cut" : "crop"; by("crop").setAttribute("aria-pressed", String(map.state.mode === "crop")); };
   by("colours").onchange = ({ target }) => { map.state.colours = target.value; map.paint(); compare.show(); };
-  [by("undo").onclick, by("redo").onclick] = [recipe.undo, recipe.redo];
+  [by("undo").onclick, by("redo").onclick, by("again").onclick] = [recipe.undo, recipe.redo, again];
   by("keep").onclick = () => compare.keep(curve.kept);
   exports(by("export"), { load: () => (recipe.now.load ? asked("press") : asked("look")), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
   helpLine(by("help"));
@@ -266,8 +287,18 @@ function groups() {
   }
 }
 
+// What the tab keeps while it is loaded again; a file must still be the one that the server had.
+const KEPT = "roughcontact";
+const kept = JSON.parse(sessionStorage.getItem(KEPT) || "{}");
+function goesOn({ recipe: before, names: had }, files) {
+  if (!before || !before.source) return null;
+  const { kind, file } = before.source;
+  return kind !== "file" || (had[file] && had[file] === files[file]) ? before : null;
+}
+
 try {
-  const begun = await begin();
+  const begun = await begin(kept.session);
+  Object.assign(names, begun.files);
   ({ largest, forms } = begun);
   examples = examplesOf(forms);
   place = welcome(examples.slice(0, 4), (each) => source(each.source));
@@ -277,9 +308,13 @@ try {
   document.querySelector("main").inert = false; // before, nobody would answer
   show();
   pump();
+  const before = goesOn(kept, begun.files);
   const [early] = by("file").files; // chosen before the server had answered
   if (early) opened(early);
+  else if (before) recipe.change((next) => Object.assign(next, before));
   else if (begun.given) given(begun.given);
+  else if (kept.recipe && kept.recipe.source) say(`The server no longer has ${kept.names[kept.recipe.source.file]}: drop it again.`);
+  addEventListener("pagehide", () => sessionStorage.setItem(KEPT, JSON.stringify({ session: begun.session, recipe: recipe.now, names })));
 } catch (error) {
   failed(error);
 }

@@ -6,9 +6,10 @@ import { written } from "./words.js";
 const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
 const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
 const STEPS = [1, 2, 5];
+const RING = "#ff4fa3"; // in neither colour map; as #ringed
 
 export function mapView(canvas, bar, heard) {
-  const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null };
+  const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null, spikes: [] };
   const picture = document.createElement("canvas");
   const context = canvas.getContext("2d");
 
@@ -35,12 +36,14 @@ export function mapView(canvas, bar, heard) {
     const own = ownEnds(field);
     const other = state.beside && state.beside.ends(kind());
     if (!other) return own;
-    return { low: Math.min(own.low, other.low), high: Math.max(own.high, other.high), beyond: own.beyond || other.beyond };
+    return { low: Math.min(own.low, other.low), high: Math.max(own.high, other.high), below: own.below || other.below, beyond: own.beyond || other.beyond };
   }
 
   function ownEnds(field) {
-    if (["heights", "flattened"].includes(kind())) return { low: field.ends[0], high: field.ends[1], beyond: false };
-    if (kind() === "gap") return { low: 0, high: Math.max(field.ends[1], 1e-300), beyond: false };
+    const [low, most] = field.colours;
+    const beyond = most < field.ends[1];
+    if (["heights", "flattened"].includes(kind())) return { low, high: most, below: low > field.ends[0], beyond };
+    if (kind() === "gap") return { low: 0, high: Math.max(most, 1e-300), beyond };
     const some = [];
     const stride = Math.max(1, Math.floor(field.values.length / 250000));
     for (let k = 0; k < field.values.length; k += stride) if (field.values[k] > 0) some.push(field.values[k]);
@@ -56,7 +59,7 @@ export function mapView(canvas, bar, heard) {
     [picture.width, picture.height] = [columns, rows];
     const image = new ImageData(columns, rows);
     const out = new Uint32Array(image.data.buffer);
-    const { low, high, beyond } = ends(field);
+    const { low, high, below, beyond } = ends(field);
     const table = COLOURS[state.colours];
     const scale = high > low ? 255 / (high - low) : 0;
     const none = packed(css("--map-none"));
@@ -70,7 +73,7 @@ export function mapView(canvas, bar, heard) {
       }
     }
     picture.getContext("2d").putImageData(image, 0, 0);
-    paintBar(low, high, beyond, field.unit);
+    paintBar(low, high, below, beyond, field.unit);
     draw();
   }
 
@@ -87,16 +90,22 @@ export function mapView(canvas, bar, heard) {
       }
       const value = alike ? heights.values[k] : 0;
       if (Number.isNaN(value)) continue;
-      const part = alike ? (value - heights.ends[0]) / (heights.ends[1] - heights.ends[0] || 1) : 0.5;
-      const grey = dark + (light - dark) * part;
+      const part = alike ? (value - heights.colours[0]) / (heights.colours[1] - heights.colours[0] || 1) : 0.5;
+      const grey = dark + (light - dark) * Math.min(Math.max(part, 0), 1);
       out[k] = (255 << 24) | (grey << 16) | (grey << 8) | grey;
     }
   }
 
-  function paintBar(low, high, beyond, unit) {
+  function showRinged() {
+    if (bar.ringed) bar.ringed.hidden = kind() !== "heights" || !state.spikes.length;
+  }
+
+  // Colours end where few values lie beyond; the words at the ends say so.
+  function paintBar(low, high, below, beyond, unit) {
     const contact = kind() === "contact";
     bar.root.classList.toggle("keyed", contact);
-    bar.low.textContent = contact ? "" : written(low, unit, 3);
+    bar.low.textContent = contact ? "" : (below ? "≤ " : "") + written(low, unit, 3);
+    showRinged();
     bar.high.textContent = contact ? "" : (beyond ? "≥ " : "") + written(high, unit, 3);
     const scale = bar.canvas.getContext("2d");
     const strip = new ImageData(256, 1);
@@ -111,6 +120,7 @@ export function mapView(canvas, bar, heard) {
     const at = frame();
     context.imageSmoothingEnabled = field.shape[1] > at.w;
     context.drawImage(picture, at.x, at.y, at.w, at.h);
+    if (kind() === "heights") for (const [row, column] of state.spikes) ring(at, field, { row, column }, RING);
     drawRuler(at, field);
     if (state.drag) drawDrag();
     else if (state.place !== null && state.mode === "cut") drawCut(at, field);
@@ -154,16 +164,16 @@ export function mapView(canvas, bar, heard) {
       context.stroke();
     }
     context.setLineDash([]);
-    if (state.mark) drawMark(at, field);
+    if (state.mark) ring(at, field, state.mark, "#fff");
   }
 
-  function drawMark(at, field) {
-    const x = at.x + ((state.mark.column + 0.5) / field.cells[1]) * at.w;
-    const y = at.y + ((state.mark.row + 0.5) / field.cells[0]) * at.h;
-    for (const [width, colour] of [[5, "rgba(0,0,0,.6)"], [2.5, "#fff"]]) {
+  function ring(at, field, { row, column }, colour) {
+    const x = at.x + ((column + 0.5) / field.cells[1]) * at.w;
+    const y = at.y + ((row + 0.5) / field.cells[0]) * at.h;
+    for (const [width, ink] of [[5, "rgba(0,0,0,.6)"], [2.5, colour]]) {
       context.beginPath();
       context.lineWidth = width * devicePixelRatio;
-      context.strokeStyle = colour;
+      context.strokeStyle = ink;
       context.arc(x, y, 7 * devicePixelRatio, 0, 2 * Math.PI);
       context.stroke();
     }
@@ -288,6 +298,12 @@ export function mapView(canvas, bar, heard) {
     // Where the cut lies.
     place(axis, place) {
       Object.assign(state, { axis, place });
+      draw();
+    },
+    // Cells that stand out of all around them.
+    spikes(places) {
+      state.spikes = places;
+      showRinged();
       draw();
     },
     mark(cell) {

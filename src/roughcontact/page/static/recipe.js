@@ -38,11 +38,12 @@ export function history(changed) {
       return { undo: past.length > 0, redo: future.length > 0 };
     },
     // Change it; while something is dragged, `kept` is false until it is let go of.
+    // Undo ends at the first surface: before it there is nothing to go back to.
     change(edit, kept = true) {
       const next = structuredClone(now);
       edit(next);
       if (JSON.stringify(next) === JSON.stringify(now)) return;
-      if (kept) {
+      if (kept && now.source) {
         past.push(now);
         future.length = 0;
       }

@@ -12,11 +12,14 @@ export function theoryList(root, known, changed) {
     const box = Object.assign(document.createElement("input"), { type: "checkbox", value: name });
     const words = document.createElement("span");
     const said = Object.assign(element("small", ""), { className: "soft" });
-    words.append(about, said);
+    words.append(element("strong", name), element("small", about), said);
     label.append(box, words);
     root.append(label);
     rows.set(name, { box, said, colour: COLOURS[k % COLOURS.length], dash: DASHES[k % DASHES.length], found: null });
-    box.onchange = changed;
+    box.onchange = () => {
+      if (box.checked) said.textContent = "computing …";
+      changed();
+    };
   });
 
   return {
@@ -36,7 +39,7 @@ export function theoryList(root, known, changed) {
     lines(quantity) {
       return [...rows.values()]
         .filter(({ box, found }) => box.checked && found && found.predicted[quantity])
-        .map(({ found, colour, dash }) => ({ label: found.label, y: found.predicted[quantity], colour, dash }));
+        .map(({ box, found, colour, dash }) => ({ label: box.value, y: found.predicted[quantity], colour, dash }));
     },
   };
 }

@@ -32,10 +32,13 @@ function show(field, text) {
 }
 
 // Show how a job ended beside the fields that it names; return the first of them.
-export function trouble(job, { places = [], message = "", remedy = "" }) {
+export function trouble(job, { faults = [] }) {
   for (const field of said.get(job) || []) show(field, "");
-  const fields = [...new Set(places.map(fieldOf).filter(Boolean))];
-  said.set(job, fields);
-  fields.forEach((field, k) => show(field, k ? "This is needed as well." : [message, remedy].filter(Boolean).join(" ")));
-  return fields[0] || null;
+  const fields = new Map();
+  for (const { places, message } of faults) {
+    for (const field of places.map(fieldOf)) if (field && !fields.has(field)) fields.set(field, message);
+  }
+  said.set(job, [...fields.keys()]);
+  for (const [field, words] of fields) show(field, words);
+  return said.get(job)[0] || null;
 }

@@ -8,7 +8,8 @@ export function welcome(examples, open) {
     const made = { type: "button", textContent: each.name, title: each.about, onclick: () => open(each) };
     return Object.assign(document.createElement("button"), made);
   });
-  by("begin").append(...buttons);
+  const file = { type: "button", textContent: "Choose a file", onclick: () => by("file").click() };
+  by("begin").append(Object.assign(document.createElement("button"), file), ...buttons);
 
   function show(title, text, beginning = false) {
     const root = by("welcome");
@@ -22,7 +23,7 @@ export function welcome(examples, open) {
   return {
     // There is a source, or none any more.
     of: (title) => (title ? show(`Reading ${title} …`, "") : show(...BEGIN, true)),
-    refused: ({ message, remedy = "", places = [] }, title) => show(places.some((place) => place.startsWith("source.")) ? `${title} leaves something open` : `${title} cannot be shown`, `${message} ${remedy}`),
+    refused: ({ message, places = [] }, title) => show(places.some((place) => place.startsWith("source.")) ? `${title} leaves something open` : `${title} cannot be shown`, message),
     done: () => (by("welcome").hidden = true),
   };
 }

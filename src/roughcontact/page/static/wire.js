@@ -15,8 +15,9 @@ async function asked(path, options = {}) {
   throw new Error(words.trim() || `The server answered with ${response.status}.`);
 }
 
-export async function begin() {
-  const given = await (await asked("/session", { method: "POST" })).json();
+// A tab that was loaded again has the session from before, with its files, if the server still has it.
+export async function begin(before = "") {
+  const given = await (await asked(`/session?again=${before}`, { method: "POST" })).json();
   session = given.session;
   // The server ends a session of which it has not heard for long: its browser may have been killed.
   setInterval(() => asked(`/alive?session=${session}`, { method: "POST" }).catch(() => {}), 30000);
