@@ -119,7 +119,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         (["job.toml", "--vary", "=plane"], "names no field and values"),
         (
             ["job.toml", "--vary", "preparation.level=plane", "--vary", "preparation.level=mean"],
-            "preparation.level is given twice: name all of its values in one --vary",
+            "--vary: preparation.level is given twice; name all of its values in one --vary",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],

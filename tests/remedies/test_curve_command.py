@@ -68,7 +68,7 @@ $ {CURVE} --forces 1uN,2uN --work 1mJ/m^2 --range 100nm
 > {FAR} --forces 1uN,2uN
 
 $ {FAR}
-! is given: give one, such as --depths -20nm:20nm:9,-20nm
+! is given; give one, such as --depths -20nm:20nm:9,-20nm
 > {FAR} --depths -20nm:20nm:9,-20nm
 > {FAR} --depths 1nm,2nm
 > {FAR} --forces 1uN,2uN

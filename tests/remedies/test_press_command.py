@@ -15,7 +15,7 @@ FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
 LOADS = f"""
 $ {PRESS}
-! none of --force, --pressure, --depth is given: give one, such as --force 10N
+! none of --force, --pressure, --depth is given; give one, such as --force 10N
 > {PRESS} --force 10N
 > {PRESS} --force 1mN
 > {PRESS} --pressure 1MPa
@@ -73,7 +73,7 @@ $ {PRESS} --force 1mN --hardness 1kPa
 
 BODIES = f"""
 $ {FORCE}
-! none of --modulus, --materials, --young is given: give one, such as --modulus 110GPa
+! none of --modulus, --materials, --young is given; give one, such as --modulus 110GPa
 > {FORCE} --modulus 110GPa
 > {FORCE} --materials steel,aluminium
 > {FORCE} --young 210GPa --poisson 0.3
@@ -226,7 +226,7 @@ $ {PRESS} --force 1uN --work 1mJ/m^2 --range 100nm
 > {FAR} --force 1uN
 
 $ {FAR}
-! none of --force, --pressure, --depth, --mean-gap is given: give one, such as --force 10mN
+! none of --force, --pressure, --depth, --mean-gap is given; give one, such as --force 10mN
 > {FAR} --force 1uN
 > {FAR} --pressure 1kPa
 > {FAR} --depth 1nm

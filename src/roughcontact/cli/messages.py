@@ -18,12 +18,13 @@ import typer
 
 from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.cli.verbosity import is_quiet
 from roughcontact.errors import InputError, correctable, joined
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.memory import MemoryWarning
 from roughcontact.recipe.recipe_fields import option_of
 
-__all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
+__all__ = ["UsageError", "as_typed", "ended", "note", "plain", "remark", "reported"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
 # What the library says by keywords and calls of Python, and no place of an error tells.
@@ -45,19 +46,25 @@ _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
 class UsageError(InputError):
-    """An option or a field that makes no sense; its place stands in front where the text does not name it."""
+    """An option or a field that makes no sense; its place stands in front unless the message begins with it."""
 
     def __str__(self) -> str:
         place, text = self.place or "", super().__str__()
-        is_shown = place.startswith("--") or "." in place  # and no parameter of a function
-        if not is_shown or all(part in text for part in place.split(", ")):
+        is_shown = place.startswith("-") or "." in place  # and no parameter of a function
+        if not is_shown or self.message.startswith(place.split(", ")[0]):
             return text
         return joined(f"{place}: {self.message}", self.remedy)
 
 
 def note(text: str) -> None:
-    """Print one line on standard error."""
+    """Print one line on standard error, also for who asked for quiet: something about the answer may be wrong."""
     typer.echo(f"Note: {_line(text)}", err=True)
+
+
+def remark(text: str) -> None:
+    """Print one line on standard error unless quiet is asked for: without it, no number is taken for another."""
+    if not is_quiet():
+        note(text)
 
 
 @contextmanager
@@ -111,7 +118,8 @@ def _refused(
         return None if text is None else _line(text)
 
     told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
-    typer.echo(f"Error: {told}", err=True)
+    # Of a file that leaves something open, its name is the place.
+    typer.echo(f"Error: {joined(told.message, told.remedy) if kind == 'read' else told}", err=True)
     if beside is not None:
         several = [
             {"message": typed(each.message), "remedy": typed(each.remedy), "place": _as_options(each.place)}

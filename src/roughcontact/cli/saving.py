@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, note, remark
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -34,7 +34,7 @@ def save_surface(surface: Surface, out: Path) -> None:
     import roughcontact as rc
 
     if out.exists():
-        note(f"{out} was there before and is replaced")
+        remark(f"{out} was there before and is replaced")
     rc.write(surface, out)
     kind = out.suffix.casefold()
     if kind in _LEFT_OUT:

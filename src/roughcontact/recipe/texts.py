@@ -26,6 +26,7 @@ __all__ = [
     "Names",
     "PureNumber",
     "band",
+    "choose",
     "known_material",
     "linear_loads",
     "points",
@@ -98,7 +99,7 @@ class Choice:
     def __call__(self, text: str) -> str:
         """Return the value that a text states."""
         if text not in self.choices:
-            raise InputError(f"there is no {text!r} here", _choose(text, self.choices))
+            raise InputError(f"there is no {text!r} here", choose(text, self.choices))
         return text
 
 
@@ -114,7 +115,7 @@ class Names:
         names = tuple(part.strip() for part in text.split(",") if part.strip())
         for name in names:
             if name not in self.names:
-                raise InputError(f"there is no {self.what} {name!r}", _choose(name, self.names))
+                raise InputError(f"there is no {self.what} {name!r}", choose(name, self.names))
         if not names or len(set(names)) < len(names):
             raise InputError(
                 f"{text!r} is no list of them",
@@ -123,7 +124,8 @@ class Names:
         return names
 
 
-def _choose(text: str, known: Sequence[str]) -> str:
+def choose(text: str, known: Sequence[str]) -> str:
+    """Return what to write instead of a text that is none of some words: the nearest, and all of them."""
     near = difflib.get_close_matches(text, known, 1)
     return (
         f"did you mean {near[0]!r}? choose of {', '.join(known)}" if near else f"choose of {', '.join(known)}"

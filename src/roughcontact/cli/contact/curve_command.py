@@ -18,7 +18,7 @@ from roughcontact.cli.contact.loop_files import write_loop
 from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, softer_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, note, remark
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output, writing
 from roughcontact.cli.pressed import Pressed
@@ -193,7 +193,7 @@ def _suggested(
     small = "below what the grid resolves"
     if kind is Geometry.SURFACE:  # where the stiffness may be resolved already
         small = "so light that single cells set their area and pressure"
-    note(
+    remark(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
         f"{below} of them {small} (--forces for others)"
     )

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import UsageError, remark, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_facts
+from roughcontact.recipe.texts import whole
 
 __all__ = ["EXAMPLES", "from_"]
 
@@ -28,7 +29,12 @@ VARY = option(
     "FIELD=VALUE,...",
     default=(),
 )
-SAMPLES = option("Samples of every combination; each draws a surface of its own.", "N", default=1, min=1)
+SAMPLES = option(
+    "Samples of every combination; each draws a surface of its own.",
+    "N",
+    default="1",
+    read=whole(1, "the number of samples"),
+)
 OUT = option("Study file to write.", "STUDY.toml", default=...)
 _FLAGS = {"true": True, "false": False}
 
@@ -60,8 +66,8 @@ def from_(
         else:
             print_facts([("file", str(out)), ("cases", _counted(combinations, samples))])
         if is_random(job):
-            note("each sample draws random phases of its own, from the seed of the study")
-        note(f"to compute them: roughcontact study run {out}")
+            remark("each sample draws random phases of its own, from the seed of the study")
+        remark(f"to compute them: roughcontact study run {out}")
 
 
 def _counted(combinations: int, samples: int) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughcontact.cli.contact_of_job import name_of, prepared
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import plain, remark
 from roughcontact.cli.options import JSON, OUTPUT
 from roughcontact.cli.output import output
 from roughcontact.cli.report import surface_facts, surface_record, tell
@@ -56,7 +56,7 @@ def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     if isinstance(answer, Saved):
         require_output(answer.file, Path(source.file) if isinstance(source, File) else None)
     if job.preparation == Preparation():
-        note("no step is asked for: the surface is written as it was read")
+        remark("no step is asked for: the surface is written as it was read")
     with nullcontext() if isinstance(answer, Saved) else output(answer.out):
         surface = prepared(job, _require_memory)["surface"]
         if answer.file is not None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.messages import as_typed, note, plain, reported
+from roughcontact.cli.messages import as_typed, plain, remark, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
 from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
@@ -75,7 +75,7 @@ def info(source: File, *, answer: Answer) -> None:
                     _draw(surface, spikes, folder / f"surface.{answer.ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=answer.json)
         if folder is not None:
-            note(f"surface.{answer.ending} is in {folder}")
+            remark(f"surface.{answer.ending} is in {folder}")
 
 
 def _require_memory(surface: Surface) -> None:
