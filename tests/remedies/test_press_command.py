@@ -102,11 +102,11 @@ $ {FORCE} --modulus 1GPa --young 1GPa
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa
-! --young is given without --poisson: give --poisson, such as 0.3
+! --young is given without --poisson; give --poisson, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
-! --young2 is given without --poisson2: give --poisson2, such as 0.3
+! --young2 is given without --poisson2; give --poisson2, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
@@ -207,7 +207,7 @@ $ press profile.txt --unit m --modulus 1GPa --force 1N --profile line
 > press profile.txt --unit m --modulus 1GPa --force 10N/mm --profile line
 
 $ {PRESS} --force 1N/m --profile line
-! holds a map of 24 x 32 heights: leave out --profile
+! holds a map of 24 x 32 heights; leave out --profile
 > {PRESS} --force 1N
 
 $ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --hardness 1GPa
@@ -281,7 +281,7 @@ $ {DETACH} --depth 10nm --depths 5nm --forces 0N
 
 FLOW = f"""
 $ {PRESS} --force 1mN --after 2mN
-! which is not given: give --hardness, or both bodies as --materials
+! which is not given; give --hardness, or both bodies as --materials
 > {FLOWS} --after 2mN
 > {FORCE} --materials steel,aluminium --after 2mN
 
@@ -296,7 +296,7 @@ $ {FLOWS} --after 2mN --errors
 > {FLOWS} --errors
 
 $ {PRESS} --force 1mN --flow raised
-! which is not given: give --hardness, or both bodies as --materials
+! which is not given; give --hardness, or both bodies as --materials
 > {FLOWS} --flow raised
 
 $ {FLOWS} --flow raised --errors
