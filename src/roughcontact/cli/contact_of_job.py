@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["best_state", "contact_of", "hardness_of_job", "name_of", "prepared", "softer_of"]
 
 _READERS = ("rc.read", "rc.read_line")
+_COARSER = ("preparation.average", "preparation.downsample")
 _NAME_THE_BODY = (
     "say how it is pressed: --profile line, as a line contact, or --profile winkler, on the springs of the method of "
     "dimensionality reduction"
@@ -74,6 +75,8 @@ def prepared(job: Job, check: Callable[[Surface], None] = lambda surface: None) 
                 remark(f"{name_of(job.source)} holds a profile of {after.grid.size} heights")
         if call.place == "preparation.despike":
             note("no spikes were found" if after is before else after.provenance[-1])
+        elif call.place in _COARSER and after.provenance[-1].endswith("left out"):
+            note(after.provenance[-1])
         elif call.place == "preparation.level" and job.preparation.level is None:
             _note_level(call, after)
     return known

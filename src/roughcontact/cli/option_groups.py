@@ -10,14 +10,16 @@ from typing import Any, get_args, get_type_hints
 
 import typer
 
+from roughcontact.cli.printed import FORMS, print_job
 from roughcontact.cli.progress_view import PROGRESS_FORMS, progress_shown
 from roughcontact.cli.verbosity import quietly
 from roughcontact.errors import InputError, placed, within
+from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
 from roughcontact.recipe.source import File
 from roughcontact.recipe.texts import Choice
 
-__all__ = ["HELP_ALL", "HELP_ALL_OPTION", "argument", "grouped", "listed", "option"]
+__all__ = ["HELP_ALL", "HELP_ALL_OPTION", "PRINT", "argument", "grouped", "listed", "option"]
 
 HELP_ALL = "--help-all"
 
@@ -65,6 +67,14 @@ def listed(*names: str) -> Callable[[str], list[str]]:
     return complete
 
 
+PRINT = option(
+    "Print the job as a recipe (toml), as a command or as Python, and compute nothing.",
+    None,
+    "--print",
+    read=Choice(FORMS),
+    everyday=False,
+    rich_help_panel="Answer",
+)
 _VERBOSITY = {
     "progress": option(
         "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
@@ -96,13 +106,17 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
     What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
-    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``.
+    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``, one that
+    does a job ``--print``.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
+    does_job = any(kind in JOBS.values() for kind in hints.values())
+    if does_job:
+        declared.append(_of_command("printed", str, PRINT, None))
     is_long = any(not each.everyday for each in declared)
     declared += [
         replace(_of_command(name, bool, shown, None), everyday=not is_long)
@@ -137,7 +151,11 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
                 built = {one.name: _built(hints[one.name], one.name, given) for one in parameters}
             except InputError as error:
                 raise UsageError(error.message, error.remedy, error.place) from error
-            command(**built)
+            if does_job and given["printed"] is not None:
+                [job] = (each for each in built.values() if type(each) in JOBS.values())
+                print_job(job, given["printed"], as_json=given["json"])
+            else:
+                command(**built)
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in flat}
@@ -174,7 +192,8 @@ def _of_command(name: str, kind: Any, declared: Any, panel: str | None) -> _Decl
     names = given.pop("names") or ([option_of(name)] if declared.default is False else [])
     everyday = given.pop("everyday")
     if (read := given.pop("read", None)) is not None:
-        kind, given = str if default is not None else str | None, _read_by(read, option_of(name), given)
+        place = names[0] if names else option_of(name)
+        kind, given = str if default is not None else str | None, _read_by(read, place, given)
     # What the help of an option says of its default need not be said twice.
     info = typer.Option(default, *names, show_default="(default:" not in given["help"], **given)
     return _Declared(_parameter(name, kind, info), everyday)

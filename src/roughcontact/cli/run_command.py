@@ -15,8 +15,9 @@ import typer
 from roughcontact.cli.commands import do
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, remark, reported
-from roughcontact.cli.option_groups import argument
+from roughcontact.cli.option_groups import PRINT, argument
 from roughcontact.cli.options import FORMAT, JSON, OUT, Answer
+from roughcontact.cli.printed import print_job
 from roughcontact.cli.report import emit
 from roughcontact.errors import within
 from roughcontact.version import __version__
@@ -32,6 +33,7 @@ EXAMPLES = {
 roughcontact run job.toml
 roughcontact run job.toml --out result
 roughcontact run result/curve.json
+roughcontact run job.toml --print python
 """
 }
 _SOURCE = argument(
@@ -54,6 +56,7 @@ def run(
     *,
     out: Path | None = OUT,
     format: str | None = FORMAT,
+    printed: str | None = PRINT,
     json: bool = JSON,
 ) -> None:
     """Do what a recipe says; of a result, do it once more and compare the numbers to the last digit.
@@ -61,7 +64,14 @@ def run(
     The answer of a job goes to a folder named like its file, and loads that are stored there are not computed again.
     """
     with reported(source, out, as_json=json):
-        _run(source, out, format, json=json)
+        from roughcontact.recipe.written import read_job
+
+        if printed is None:
+            _run(source, out, format, json=json)
+        else:
+            with within("recipe"):
+                job = read_job(source := _result_in(source))
+            print_job(job, printed, recipe=str(source), as_json=json)
 
 
 def _run(source: Path, out: Path | None, format: str | None, *, json: bool) -> None:

@@ -52,7 +52,7 @@ def _mask(text: str) -> dict[str, Any]:
     found = re.fullmatch(r"\s*(outside-)?(box|ellipse|above|below)\s*=(.+)", text)
     if found is None:
         raise InputError(
-            f"{text!r} is no region", "write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um"
+            f"{text!r} is no region", "write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um"
         )
     kind, value = found[2], found[3]
     region: Any = Amount(LENGTH, positive=False)(value) if kind in ("above", "below") else ranges(value)
@@ -105,7 +105,7 @@ class Preparation:
         "Take a region out, to missing points: box= or ellipse= of rows,columns; heights beyond above=3um or "
         "below=-3um, which are counted when the form is gone. outside- in front takes out all but the region. May be "
         "given again.",
-        "box=0:99,10:50",
+        "box=0:9,10:30",
         "masked",
         "Masking",
         read=_mask,

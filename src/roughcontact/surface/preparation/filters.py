@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, placed
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, lengths_method, require
@@ -74,13 +74,15 @@ def filtered(
         )
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
         raise InputError(
-            f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m",
-            place="short_cutoff",
+            f"the short cut-off of {short_cutoff:g} m must be below the long one of {long_cutoff:g} m",
+            "exchange them",
+            "short_cutoff, long_cutoff",
         )
     grid = surface.grid
-    for cutoff in (short_cutoff, long_cutoff):
+    for name, cutoff in (("short_cutoff", short_cutoff), ("long_cutoff", long_cutoff)):
         if cutoff is not None:
-            require_cells(cutoff, surface)
+            with placed(name):
+                require_cells(cutoff, surface)
     if short_cutoff is not None and short_cutoff >= max(grid.lengths):
         raise InputError(
             f"a cut-off of {short_cutoff:g} m leaves nothing of a map of {max(grid.lengths):g} m",
