@@ -21,7 +21,10 @@ FORMAT = option(
     everyday=False,
     rich_help_panel=_ANSWER,
 )
-OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
+OUTPUT = argument(
+    "File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView. - is standard output, as .npz; nc:- as .nc.",
+    "OUT",
+)
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
 JSON = option("One JSON object on standard output, in SI units.", default=False, rich_help_panel=_ANSWER)
 

@@ -67,6 +67,9 @@ def _instead(context: Any, option: str) -> str:
     """Return what to write instead of an option that a command does not have."""
     if option in _VERBOSITY and isinstance(context.command, TyperGroup):
         return f"write it behind the name of a command: {context.command_path} COMMAND {option}"
+    arguments = [each.opts[0] for each in context.command.params if each.param_type_name == "argument"]
+    if option.removeprefix("--") in arguments:
+        return f"write its value alone, without {option}"
     if found := _elsewhere(context, option):
         return f"use {' or '.join(found)} for it"
     known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]

@@ -29,6 +29,7 @@ from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes, write_npy
 from roughcontact.files.provenance import provenance
+from roughcontact.files.standard_streams import kind_of, standard, write_standard_output
 from roughcontact.files.surface_dataset import dataset_without_heights, surface_dataset
 from roughcontact.files.text import text_bytes
 from roughcontact.files.write import netcdf_bytes, require_netcdf, write_csv, write_netcdf, write_text
@@ -79,7 +80,8 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     what : Surface, Solution, Curve or another answer
         What is written.
     path : str or path
-        File to write; one that is there is replaced.
+        File to write; one that is there is replaced. ``"-"`` is standard output, for a surface as ``.npz``, ``"nc:-"``
+        for one of the other formats.
 
     Raises
     ------
@@ -116,6 +118,9 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     kind = _require_kind(path, type(what).__name__, formats, hint)
     encoded = analysed_on_host(formats[kind])
     here = what.on_host() if isinstance(what, Solution | TangentialSolution) else what
+    if standard(path) is not None:
+        write_standard_output(encoded(here))
+        return
     with written_aside(path) as aside:
         aside.write_bytes(encoded(here))
 
@@ -158,11 +163,12 @@ def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False
     if in_slabs:
         _require_kind(path, "Surface in slabs", _IN_SLABS[Surface])
     _require_kind(path, "Surface", _OF_A_SURFACE)
-    require_target(path)
+    if standard(path) is None:
+        require_target(path)
 
 
 def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> str:
-    kind = Path(path).suffix.casefold()
+    kind = kind_of(path)
     if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
     if kind == ".nc":

@@ -17,6 +17,7 @@ import tomli_w
 from roughcontact.errors import InputError, every, together, within
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.fingerprint import fingerprint
+from roughcontact.files.standard_streams import standard
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
@@ -241,7 +242,9 @@ def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
 
 def located(job: Job, folder: Path) -> Job:
     """Return a job whose relative file names, which count from a folder, count from the current one."""
-    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+    return with_files(
+        job, lambda file: file if standard(file.file) else replace(file, file=str(folder / file.file))
+    )
 
 
 def toml_of(recipe: Mapping[str, Any]) -> str:
@@ -254,7 +257,8 @@ def pinned(job: Job, folder: Path) -> Job:
 
     def pin(file: File) -> File:
         # Bytes of a name that are no letters have no place in a text.
-        name = os.path.relpath(file.file, folder).encode("utf-8", "replace").decode("utf-8")
+        path = file.file if standard(file.file) else os.path.relpath(file.file, folder)
+        name = path.encode("utf-8", "replace").decode("utf-8")
         return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
     return with_files(job, pin)

@@ -13,7 +13,7 @@ from roughcontact.cli.options import JSON, OUTPUT
 from roughcontact.cli.output import output
 from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import require_output, save_surface
+from roughcontact.cli.saving import answer_beside, require_output, save_surface
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.source import File
@@ -54,7 +54,8 @@ def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     """
     source = job.source
     if isinstance(answer, Saved):
-        require_output(answer.file, Path(source.file) if isinstance(source, File) else None)
+        original = Path(source.file) if isinstance(source, File) else None
+        require_output(answer.file, original, as_json=answer.json)
     if job.preparation == Preparation():
         remark("no step is asked for: the surface is written as it was read")
     with nullcontext() if isinstance(answer, Saved) else output(answer.out):
@@ -63,7 +64,8 @@ def prepare(job: SurfaceJob, *, answer: Saved) -> None:
             save_surface(surface, answer.file)
     file = name_of(source) if answer.file is None else plain(str(answer.file))
     record = {"command": "surface prepare", "file": file} | surface_record(surface)
-    tell(record, surface_facts(surface, record), as_json=answer.json)
+    with answer_beside(answer.file):
+        tell(record, surface_facts(surface, record), as_json=answer.json)
 
 
 def _require_memory(surface: Surface) -> None:

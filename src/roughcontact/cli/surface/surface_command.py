@@ -14,7 +14,7 @@ from roughcontact.cli.messages import as_typed, plain, remark, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
 from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import require_output, save_surface
+from roughcontact.cli.saving import answer_beside, require_output, save_surface
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
@@ -36,6 +36,7 @@ roughcontact surface info scan.csv
     "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
+roughcontact surface make - --hurst 0.8 --rms 1um --size 1mm | roughcontact press - --force 1N --modulus 110GPa
 """,
 }
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
@@ -93,7 +94,7 @@ def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
     import roughcontact as rc
 
     slabs, shape = slabs_of_job(), points(source.points)
-    require_output(out, in_slabs=slabs is not None)
+    require_output(out, in_slabs=slabs is not None, as_json=json)
     share = 1 if slabs is None else slabs.communicator.size
     require_memory(_BYTES_PER_POINT * math.prod(shape) // share, shape)
     surface = prepared(SurfaceJob(source=source))["surface"]
@@ -107,7 +108,8 @@ def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
     surface = replace(surface, provenance=(*surface.provenance, made))
     save_surface(surface, out)
     record = {"file": plain(str(out)), "seed": seed} | surface_record(surface)
-    tell(record, surface_facts(surface, record), as_json=json)
+    with answer_beside(out):
+        tell(record, surface_facts(surface, record), as_json=json)
 
 
 def _channels(file: Path) -> list[dict[str, Any]]:
