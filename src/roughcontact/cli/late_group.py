@@ -29,9 +29,9 @@ def late_group(
 ) -> type[TyperGroup]:
     """Return the class of a group of commands: functions of these names, in these modules of this room.
 
-    Their examples stand in the module's ``EXAMPLES``, by the name of the command. For a name that is not among them,
-    and for the help, `added` returns the modules of commands of other packages; `refuse` may say more of a name that
-    nothing adds than that there is no such command.
+    Their examples stand in the module's ``EXAMPLES``, by the name of the command; in ``CELLS`` the columns of the table
+    of one that takes several files. For a name that is not among them, and for the help, `added` returns the modules of
+    commands of other packages; `refuse` may say more of a name that nothing adds than that there is no such command.
     """
     modules = {name: f"roughcontact.cli.{module}" for name, module in commands.items()}
 
@@ -127,7 +127,7 @@ def _imported(module: str, name: str) -> Any:
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    command: Any = grouped(members[_function(name)])
+    command: Any = grouped(members[_function(name)], members.get("CELLS", {}).get(name))
     alone.command(name, cls=_Command, epilog=epilog)(command)
     found: Any = typer.main.get_command(alone)
     found.more = command.more

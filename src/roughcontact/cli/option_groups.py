@@ -12,6 +12,7 @@ import typer
 
 from roughcontact.cli.printed import FORMS, print_job
 from roughcontact.cli.progress_view import PROGRESS_FORMS, progress_shown
+from roughcontact.cli.several import Cells, do_each
 from roughcontact.cli.verbosity import quietly
 from roughcontact.errors import InputError, placed, within
 from roughcontact.recipe.jobs import JOBS
@@ -102,18 +103,20 @@ _VERBOSITY = {
 }
 
 
-def grouped(command: Callable[..., None]) -> Callable[..., None]:
+def grouped(command: Callable[..., None], cells: Cells | None = None) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
     What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
-    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``, one that
-    does a job ``--print``.
+    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``, one
+    that does a job ``--print``. One with `cells`, the columns of a table, takes several files.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
+    if cells is not None:
+        declared = [_of_several(each) if each.spec and each.spec.positional else each for each in declared]
     does_job = any(kind in JOBS.values() for kind in hints.values())
     if does_job:
         declared.append(_of_command("printed", str, PRINT, None))
@@ -132,7 +135,15 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
             raise InputError(words, "give one of them", "--quiet, --verbose")
         shown = progress_shown("none" if quiet and form == "auto" else form, verbose=verbose)
         with quietly(quiet), shown:
-            done(given)
+            if cells is None:
+                done(given)
+                return
+            files = given["file"]
+            if len(files) == 1 or given.get("printed") is not None:
+                for file in files:
+                    done({**given, "file": file})
+            else:
+                do_each(files, done, given, cells)
 
     def done(given: Mapping[str, Any]) -> None:
         if not any(each.spec for each in declared):
@@ -234,6 +245,12 @@ def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: st
     )
     parameter = _parameter(name, list[str] | None if several else kind, info)
     return _Declared(parameter, spec.everyday or default is ..., spec)
+
+
+def _of_several(one: _Declared) -> _Declared:
+    """Return an argument of which there may be several."""
+    info = typer.Argument(..., metavar=one.parameter.default.metavar, help=one.parameter.default.help)
+    return replace(one, parameter=_parameter(one.parameter.name, list[str], info))
 
 
 def _parameter(name: str, kind: Any, info: Any) -> inspect.Parameter:

@@ -62,7 +62,7 @@ def save_surface(surface: Surface, out: Path) -> None:
 
 @contextmanager
 def answer_beside(out: Path | None) -> Iterator[None]:
-    """Print an answer on standard error where the surface itself goes to standard output; none if quiet is asked for."""
+    """Print an answer on standard error where the surface goes to standard output; nowhere if quiet is asked for."""
     if out is None or standard(out) is None:
         yield
         return

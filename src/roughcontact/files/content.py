@@ -28,7 +28,7 @@ _DAMAGED = (ValueError, OSError, EOFError, RuntimeError, struct.error, zlib.erro
 
 @contextmanager
 def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
-    """Give the name of a file, or of standard input, and its bytes; what is found unreadable within becomes an error that names the file.
+    """Give the name of a file, or of standard input, and its bytes; what is unreadable becomes an error that names it.
 
     Raises
     ------

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from decimal import Decimal
 
 from roughcontact.errors import InputError
 
@@ -36,11 +35,10 @@ _PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
 _UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
 # Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
 _SMALLEST, _LARGEST = 1e-30, 1e30
-# Before N, m and Pa, as powers of ten: pint, which knows all other units, takes longer to load than a small contact
-# to solve.
+# Before N, m and Pa: pint, which knows all other units, takes longer to load than a small contact to solve.
 _PREFIXES = {
-    **{"p": -12, "n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2},
-    **{"k": 3, "M": 6, "G": 9, "T": 12},
+    **{"p": 1e-12, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2},
+    **{"k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12},
 }
 
 
@@ -80,9 +78,8 @@ def parse(text: str, kind: Kind) -> float:
         raise InputError(f"{text!r} does not start with a number", remedy)
     if match[2].startswith(","):
         raise InputError(f"{text!r} holds a comma", f"write the decimal point as '.'; {remedy}")
-    value, unit = float(match[1]), match[2]
-    if unit not in ("", kind.unit):  # in decimals, so that 200um is 0.0002 m and no neighbour of it
-        value = float(Decimal(repr(value)) * _factor(unit, kind, text))
+    number, unit = float(match[1]), match[2]
+    value = number if unit in ("", kind.unit) else number * _factor(unit, kind, text)
     if not math.isfinite(value):
         raise InputError(f"{text!r} is not a finite number", remedy)
     if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
@@ -120,11 +117,11 @@ def parse_number(text: str, example: str) -> float:
     return float(match[1])
 
 
-def _factor(unit: str, kind: Kind, text: str) -> Decimal:
+def _factor(unit: str, kind: Kind, text: str) -> float:
     """Return how many SI units of `kind` one `unit` is."""
     prefix = unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit  # not of m^2: (mm)^2 is none of it
     if prefix != unit and prefix in _PREFIXES:
-        return Decimal(1).scaleb(_PREFIXES[prefix])
+        return _PREFIXES[prefix]
     from roughcontact.units import registry  # late: it brings NumPy, and pint when it is called
 
     remedy = f"write {kind.name} such as {kind.example}"
@@ -140,4 +137,4 @@ def _factor(unit: str, kind: Kind, text: str) -> Decimal:
         raise InputError(f"unknown unit {unit!r} in {text!r}", remedy) from error
     if not right:
         raise InputError(f"{text!r} is not {kind.name}", remedy)
-    return Decimal(repr(float(given.to(kind.unit).magnitude)))
+    return float(given.to(kind.unit).magnitude)

@@ -15,6 +15,7 @@ from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 
 __all__ = ["Preparation", "Step"]
 
+_REGIONS = ("box", "ellipse", "above", "below")
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
 
@@ -49,7 +50,7 @@ class Step:
 
 def _mask(text: str) -> dict[str, Any]:
     """Return the region that a text states, as arguments of `roughcontact.Surface.masked`."""
-    found = re.fullmatch(r"\s*(outside-)?(box|ellipse|above|below)\s*=(.+)", text)
+    found = re.fullmatch(rf"\s*(outside-)?({'|'.join(_REGIONS)})\s*=(.+)", text)
     if found is None:
         raise InputError(
             f"{text!r} is no region", "write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um"
@@ -109,6 +110,7 @@ class Preparation:
         "masked",
         "Masking",
         read=_mask,
+        names=tuple(f"{out}{kind}=" for out in ("", "outside-") for kind in _REGIONS),
         default=(),
     )
     level: str | None = _step(

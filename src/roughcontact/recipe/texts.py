@@ -300,9 +300,13 @@ def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
 
 
 def _parsed(text: str, kind: Kind) -> float:
-    """Return a quantity in SI; a number without a unit is in SI already."""
+    """Return a quantity in SI; a number without a unit is in SI already.
+
+    One with a unit is rounded to 15 digits: 200um is 0.0002 m, and not the neighbour that a product of numbers gives.
+    """
     try:
-        return quantity.parse(text, kind)
+        value = quantity.parse(text, kind)
+        return float(f"{value:.15g}") if quantity.has_unit(text) else value
     except InputError as error:
         if kind is FORCE and _is_per_length(text):
             remedy = "say that it is a profile by `profile`, or write a force such as 10N"

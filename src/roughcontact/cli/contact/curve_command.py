@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output, writing
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
+from roughcontact.cli.several import Cells
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 
-__all__ = ["EXAMPLES", "curve"]
+__all__ = ["CELLS", "EXAMPLES", "curve"]
 
 EXAMPLES = {
     "curve": """
@@ -49,6 +50,7 @@ roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
+roughcontact curve part.x3p other.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --out results
 roughcontact curve part.x3p --modulus 110GPa --errors --shortest-wave 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
@@ -57,6 +59,19 @@ roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --t
 """,
 }
 
+CELLS: dict[str, Cells] = {
+    "curve": {
+        "the map is": lambda record: str(record["kind"]),
+        "loads": lambda record: str(len(record["force"])),
+        "resolved": lambda record: str(sum(record["resolved"])),
+        "from": lambda record: _shown(record, "force", 0),
+        "to": lambda record: _shown(record, "force", -1),
+        "exponent of k": lambda record: "-" if record["fit"] is None else f"{record['fit']['exponent']:.3f}",
+        "stiffness k": lambda record: _shown(record, "stiffness", -1),
+        "K/A0": lambda record: _shown(record, "interfacial_stiffness_per_area", -1),
+        "A/A0": lambda record: _shown(record, "contact_fraction", -1),
+    }
+}
 _FEWEST = 3  # resolved loads that a power law takes
 
 
@@ -123,6 +138,14 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise typer.Exit(INTERRUPTED)
     if not found.converged:
         raise typer.Exit(MISSED)
+
+
+def _shown(record: Mapping[str, Any], name: str, at: int) -> str:
+    """Return a number of the first or last load, with its unit."""
+    from roughcontact.halfspace.operators.geometry import Geometry
+
+    value = record[name][at] if name in record else None
+    return "-" if value is None else quantity(name, value, Geometry(record["geometry"]))
 
 
 def _computed(

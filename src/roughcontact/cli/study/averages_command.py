@@ -17,6 +17,7 @@ from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import parse_number
 from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.recipe.recipe_fields import check, described, value_of
+from roughcontact.recipe.texts import choose
 
 if TYPE_CHECKING:
     import xarray
@@ -237,7 +238,7 @@ def _quantities(averaged: xarray.Dataset, asked: str | None, force: float | None
         if name not in _means(averaged):
             raise UsageError(
                 f"no {name!r} differs between samples",
-                f"choose of {', '.join(_means(averaged))}",
+                choose(name, _means(averaged)),
                 place="--quantity",
             )
         if name not in single:

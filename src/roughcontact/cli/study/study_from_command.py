@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json as json_text
+import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
+
+import typer
 
 from roughcontact.cli.messages import UsageError, remark, reported
 from roughcontact.cli.option_groups import argument, option
@@ -23,11 +28,25 @@ roughcontact study from job.toml --vary "bodies.materials=steel,steel;steel,copp
 }
 
 SOURCE = argument("A job, or a result that holds its recipe.", "JOB.toml|RESULT.json")
+
+
+def _fields(ctx: typer.Context, incomplete: str) -> list[str]:
+    """Return the fields of the job that is named already, for the completion of one."""
+    from roughcontact.recipe.written import fields_in
+
+    found: dict[str, Any] = {}
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        data = Path(next(iter(ctx.args), str(ctx.params["source"]))).read_bytes()
+        found = json_text.loads(data)["recipe"] if data.startswith(b"{") else tomllib.loads(data.decode())
+    return [f"{name}=" for name in fields_in(found) if name.startswith(incomplete)]
+
+
 VARY = option(
     "A field of the job and its values, which commas separate, or semicolons where a value holds commas. May be given "
     "again, for another field.",
     "FIELD=VALUE,...",
     default=(),
+    autocompletion=_fields,
 )
 SAMPLES = option(
     "Samples of every combination; each draws a surface of its own.",

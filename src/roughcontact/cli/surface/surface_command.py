@@ -12,9 +12,10 @@ from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, plain, remark, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
-from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.report import print_facts, quantity, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import answer_beside, require_output, save_surface
+from roughcontact.cli.several import Cells
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
@@ -25,19 +26,31 @@ if TYPE_CHECKING:
     from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
-__all__ = ["EXAMPLES", "info", "make"]
+__all__ = ["CELLS", "EXAMPLES", "info", "make"]
 
 EXAMPLES = {
     "info": """
 roughcontact surface info part.x3p --out result --format svg
 roughcontact surface info heights.csv --unit nm --size 1mm --json
 roughcontact surface info scan.csv
+roughcontact surface info *.x3p
 """,
     "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
 roughcontact surface make - --hurst 0.8 --rms 1um --size 1mm | roughcontact press - --force 1N --modulus 110GPa
 """,
+}
+CELLS: dict[str, Cells] = {
+    "info": {
+        "cells": lambda record: " x ".join(map(str, record["shape"])),
+        "size": lambda record: " x ".join(quantity("lengths", length) for length in record["lengths"]),
+        "missing": lambda record: str(record["missing"]),
+        "rms height": lambda record: quantity("rms", record["rms"]),
+        "lowest": lambda record: quantity("depth", record["lowest"]),
+        "highest": lambda record: quantity("depth", record["highest"]),
+        "suspicious": lambda record: str(len(record["suspicious"])),
+    }
 }
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
 _BYTES_PER_POINT = 47  # of the synthesis 21, of its facts and the file up to 49: measured with NPZ and X3P
