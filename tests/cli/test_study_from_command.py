@@ -129,7 +129,10 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],
             "--vary: the job has no field 'preparation.levl'; did you mean preparation.level",
         ),
-        (["job.toml", "--vary", "hurst=0.5"], "--vary: the job has no field 'hurst'; did you mean source.hurst"),
+        (
+            ["job.toml", "--vary", "hurst=0.5"],
+            "--vary: the job has no field 'hurst'; did you mean source.hurst",
+        ),
         (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose of source."),
         (["job.toml", "--vary", "source.seed=1,2"], "leave seed out"),
         (["job.toml", "--vary", "source.points=16,16"], "a case comes twice"),

@@ -29,6 +29,8 @@ def run() -> None:
 def _run() -> None:
     try:
         signal.signal(signal.SIGTERM, _terminate)
+        if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # as it was while this file was imported
+            signal.signal(signal.SIGINT, signal.default_int_handler)
         for stream in (sys.stdout, sys.stderr):
             # A terminal or pipe that cannot show a letter gets a question mark, not a crash.
             if isinstance(stream, io.TextIOWrapper):

@@ -26,8 +26,8 @@ def in_our_words(context: Any = None) -> Iterator[None]:
     """
     try:
         yield
-    except InputError as error:  # of what reads the text of an option
-        raise UsageError(error.message, error.remedy, error.place) from error
+    except InputError as refused:  # of what reads the text of an option
+        raise UsageError(refused.message, refused.remedy, refused.place) from refused
     except Exception as raised:
         error: Any = raised  # typers differ in the module of the class
         if type(error).__name__ == "NoArgsIsHelpError":  # which has shown it
@@ -43,7 +43,7 @@ def no_such_command(context: Any, name: str, known: Iterable[str]) -> UsageError
 
 
 def _stated(error: Any, context: Any) -> UsageError:
-    name = getattr(error, "option_name", None)
+    name: Any = getattr(error, "option_name", None)
     if hasattr(error, "possibilities"):
         return UsageError("there is no such option", _instead(context, name), name)
     if name is not None:
