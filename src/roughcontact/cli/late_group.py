@@ -55,15 +55,16 @@ def late_group(
             with in_our_words(ctx):
                 return super().parse_args(ctx, args)
 
-        def main(self, args: Any = None, *given: Any, standalone_mode: bool = True, **named: Any) -> Any:
+        def main(self, args: Any = None, *given: Any, **named: Any) -> Any:
             words = sys.argv[1:] if args is None else list(args)
+            is_program = named.pop("standalone_mode", True)
             status: Any = 0
             try:
                 with reported(as_json="--json" in words), in_our_words():
-                    status = super().main(args, *given, standalone_mode=False, **named)
+                    status = super().main(args, *given, **{**named, "standalone_mode": False})
             except typer.Exit as end:
                 status = end.exit_code
-            if standalone_mode:
+            if is_program:
                 sys.exit(status or 0)
             return status
 
@@ -82,9 +83,8 @@ def late_group(
             """Yield the commands of this group and of the groups in it, each with its summary."""
             for name, each in self._summarised().commands.items():
                 words = f"{path} {name}"
-                yield from (
-                    each.every_command(words) if hasattr(each, "every_command") else [(words, each.help)]
-                )
+                inside = getattr(each, "every_command", None)
+                yield from [(words, each.help or "")] if inside is None else inside(words)
 
         def shell_complete(self, ctx: Any, incomplete: str) -> Any:
             ctx.command = self._summarised()  # typer asks the command of the context for names and summaries
