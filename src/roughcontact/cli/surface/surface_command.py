@@ -38,7 +38,7 @@ roughcontact surface info *.x3p
     "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
-roughcontact surface make - --hurst 0.8 --rms 1um --size 1mm | roughcontact press - --force 1N --modulus 110GPa
+roughcontact surface make - --hurst 0.8 --rms 1um --size 1mm | roughcontact surface spectrum -
 """,
 }
 CELLS: dict[str, Cells] = {
