@@ -155,7 +155,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("plot", "STUDY", "--out", "no/a.png"), "there is no folder"),
         (
             ("plot", "STUDY", "--out", "a.png", "--along", "points"),
-            "'points' is no number that varies: choose",
+            "'points' is no number that varies; choose",
         ),
         (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
         (("table", "STUDY", "--window", "2:1"), "a window goes from a force to a larger one"),
@@ -167,7 +167,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("table", "STUDY", "--at", "0"), "--at: a force over E* h L is above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),
-            "--quantity: no 'stifness' differs between samples; choose of",
+            "--quantity: no 'stifness' differs between samples; did you mean 'stiffness'?",
         ),
         (("table", "STUDY", "--quantity", "stiffness"), "stiffness lies along load: choose a force by --at"),
     ],
