@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 from roughcontact.cli.app import app
 from roughcontact.cli.option_groups import grouped
-from roughcontact.cli.short_help import _first_sentence
+from roughcontact.cli.parsing.short_help import _first_sentence
 
 ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [

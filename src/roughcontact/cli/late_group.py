@@ -16,8 +16,8 @@ from typer.core import TyperCommand, TyperGroup
 
 from roughcontact.cli.messages import reported
 from roughcontact.cli.option_groups import HELP_ALL, grouped
-from roughcontact.cli.short_help import write_short_help
-from roughcontact.cli.usage_errors import in_our_words, no_such_command
+from roughcontact.cli.parsing.short_help import write_short_help
+from roughcontact.cli.parsing.usage_errors import in_our_words, no_such_command
 
 __all__ = ["late_group"]
 

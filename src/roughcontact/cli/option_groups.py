@@ -10,9 +10,9 @@ from typing import Any, get_args, get_type_hints
 
 import typer
 
-from roughcontact.cli.printed import FORMS, print_job
+from roughcontact.cli.parsing.printed import FORMS, print_job
+from roughcontact.cli.parsing.several import Cells, do_each
 from roughcontact.cli.progress_view import PROGRESS_FORMS, progress_shown
-from roughcontact.cli.several import Cells, do_each
 from roughcontact.cli.verbosity import quietly
 from roughcontact.errors import InputError, placed, within
 from roughcontact.recipe.jobs import JOBS

@@ -17,7 +17,7 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, remark, reported
 from roughcontact.cli.option_groups import PRINT, argument
 from roughcontact.cli.options import FORMAT, JSON, OUT, Answer
-from roughcontact.cli.printed import print_job
+from roughcontact.cli.parsing.printed import print_job
 from roughcontact.cli.report import emit
 from roughcontact.errors import within
 from roughcontact.version import __version__

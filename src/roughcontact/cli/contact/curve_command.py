@@ -21,9 +21,9 @@ from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, note, remark
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output, writing
+from roughcontact.cli.parsing.several import Cells
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
-from roughcontact.cli.several import Cells
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers

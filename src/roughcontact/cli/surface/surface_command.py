@@ -12,10 +12,10 @@ from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, plain, remark, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
+from roughcontact.cli.parsing.several import Cells
 from roughcontact.cli.report import print_facts, quantity, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.cli.saving import answer_beside, require_output, save_surface
-from roughcontact.cli.several import Cells
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
