@@ -10,8 +10,6 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-import psutil
-
 from roughcontact.errors import InputError
 
 __all__ = ["MemoryWarning", "free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
@@ -88,6 +86,8 @@ def require_free(need: int, what: str, remedy: str, error: Callable[[str, str], 
 
 def free_memory() -> int:
     """Return the memory that is free now, without the swap space [bytes]."""
+    import psutil  # late: errors of the command line are reported without it
+
     return int(psutil.virtual_memory().available)
 
 
@@ -102,6 +102,8 @@ def most_memory() -> float:
     What is free with the swap space, and what this process holds already, of which part may be free for it; within the
     limit of the container.
     """
+    import psutil
+
     swap = psutil.swap_memory()
     free: float = free_memory() + swap.free + psutil.Process().memory_info().rss
     return min(free, _limit() + float(swap.total))

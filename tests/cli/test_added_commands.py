@@ -81,12 +81,12 @@ def test_other_commands_do_not_look_for_it(invoke, asked, words):
 def test_a_command_that_nothing_adds_is_bad_input(invoke, asked):
     answer = invoke("gret")
     assert answer.exit_code == 2
-    assert "No such command 'gret'" in answer.stderr
+    assert "'roughcontact' has no command 'gret'" in answer.stderr
     assert len(asked) == 1
 
 
 def test_a_group_of_commands_has_none_of_them(invoke, asked):
-    assert "No such command 'greet'" in invoke("surface", "greet").stderr
+    assert "'roughcontact surface' has no command 'greet'" in invoke("surface", "greet").stderr
     assert asked == []
 
 

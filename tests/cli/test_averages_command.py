@@ -194,7 +194,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("plot", "STUDY", "--out", "no/a.png"), "there is no folder"),
         (
             ("plot", "STUDY", "--out", "a.png", "--along", "points"),
-            "'points' is no number that varies: choose",
+            "'points' is no number that varies; choose",
         ),
         (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
         (("table", "STUDY", "--window", "2:1"), "a window goes from a force to a larger one"),
@@ -214,7 +214,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("table", "STUDY", "--at", "0"), "--at: '0' is not above 0; choose a load above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),
-            "--quantity: no 'stifness' differs between samples; choose of",
+            "--quantity: no 'stifness' differs between samples; did you mean 'stiffness'?",
         ),
         (
             ("table", "STUDY", "--quantity", "stiffness"),

@@ -113,7 +113,7 @@ PRESS_OPTIONS = {
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
     "no load": (
         changed(force=None),
-        "none of --force, --pressure, --depth is given: give one, such as --force 10N",
+        "--force: none of --force, --pressure, --depth is given; give one, such as --force 10N",
     ),
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
     "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
@@ -122,11 +122,11 @@ PRESS_OPTIONS = {
     "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
     "half a body": (
         changed(modulus=None, young="1GPa"),
-        "--young is given without --poisson: give --poisson",
+        "--poisson: --young is given without --poisson; give --poisson",
     ),
     "half of the other body": (
         changed(modulus=None, young="1GPa", poisson="0.3", young2="1GPa"),
-        "--young2 is given without --poisson2: give --poisson2",
+        "--poisson2: --young2 is given without --poisson2; give --poisson2",
     ),
     "too many bodies": (changed(young2="1GPa"), "--young2 belongs to --young"),
     "zero Young's modulus": (

@@ -524,10 +524,10 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--loop",), "--loop is about what flows under a hardness, which is not given: give --hardness"),
+        (("--loop",), "--loop is about what flows under a hardness, which is not given; give --hardness"),
         (
             ("--flow", "raised"),
-            "--flow is about what flows under a hardness, which is not given: give --hardness",
+            "--flow is about what flows under a hardness, which is not given; give --hardness",
         ),
         (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop goes by forces or pressures"),
         (("--flow", "raised", "--hardness", "1GPa", "--errors"), "--flow is raised: leave out one of them"),

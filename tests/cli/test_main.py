@@ -65,7 +65,7 @@ def test_help_names_the_options_and_shows_examples(invoke, verb, options):
 def test_an_option_that_there_is_not_is_bad_input():
     answer = call("press", "part.x3p", "--forec", "1N")
     assert answer.returncode == 2
-    assert "No such option: --forec" in answer.stderr
+    assert answer.stderr == "Error: --forec: there is no such option; did you mean --force or --free?\n"
     assert "Traceback" not in answer.stderr
 
 
@@ -159,7 +159,7 @@ def test_ctrl_c_ends_a_run(rough, tmp_path):
     # A shell that starts a job in the background makes it deaf to Ctrl-C; a person's does not.
     script = (
         "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
-        "from roughcontact.cli.main import run; run()"
+        "from roughcontact.__main__ import run; run()"
     )
     words = ["curve", rough, "--forces", "1uN:1N:100000", "--modulus", "1GPa", "--out", tmp_path / "out"]
     with subprocess.Popen(
@@ -176,6 +176,22 @@ def test_ctrl_c_ends_a_run(rough, tmp_path):
     assert "Interrupted" in stderr
     assert "Traceback" not in stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_ctrl_c_while_the_program_is_imported_ends_it_without_a_word():
+    script = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+class Watch:
+    def find_spec(self, name, *_):
+        if name == "roughcontact.cli.main":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Watch())
+from roughcontact.__main__ import run; run()
+"""
+    answer = subprocess.run([sys.executable, "-c", script], capture_output=True, check=False, timeout=60)
+    assert (answer.returncode, answer.stdout, answer.stderr) == (-signal.SIGINT, b"", b"")
 
 
 def test_help_waits_for_no_library_of_numerics():

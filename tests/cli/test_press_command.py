@@ -450,11 +450,11 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
     [
         (
             ("--after", "2N"),
-            "--after is about what flows under a hardness, which is not given: give --hardness",
+            "--after is about what flows under a hardness, which is not given; give --hardness",
         ),
         (
             ("--flow", "raised"),
-            "--flow is about what flows under a hardness, which is not given: give --hardness",
+            "--flow is about what flows under a hardness, which is not given; give --hardness",
         ),
         (("--after", "1N", "--hardness", "1GPa"), "--after 1N is not larger than the force"),
         (("--after", "1MPa", "--hardness", "1GPa"), "--after"),

@@ -91,7 +91,7 @@ def test_a_profile_asks_how_it_is_pressed(invoke, scan, command):
 def test_a_map_is_no_profile(invoke, rough):
     answer = invoke("press", rough, "--profile", "line", "--force", "1N/m", *MODULUS)
     assert answer.exit_code == 2
-    assert "holds a map of 24 x 32 heights: leave out --profile" in answer.stderr
+    assert "holds a map of 24 x 32 heights; leave out --profile" in answer.stderr
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.cli import progress_view
-from roughcontact.cli.progress_view import ProgressForm, duration, progress_shown
+from roughcontact.cli.progress_view import duration, progress_shown
 from roughcontact.progress.events import Event, task, tracked
 
 KEYS = {"type", *Event.__dataclass_fields__, "seconds"}
@@ -54,9 +54,7 @@ def work():
                 solve.reached(3.2)
 
 
-@pytest.mark.parametrize(
-    ("form", "shown"), [(ProgressForm.AUTO, True), (ProgressForm.NONE, False), (ProgressForm.JSON, False)]
-)
+@pytest.mark.parametrize(("form", "shown"), [("auto", True), ("none", False), ("json", False)])
 def test_a_terminal_shows_tasks_and_bars(terminal, form, shown):
     with redirect_stderr(terminal), progress_shown(form):
         work()
@@ -92,7 +90,7 @@ def test_an_error_inside_takes_the_bars_down(terminal, error):
         for _ in tracked(range(3), "Pressing", "loads"):
             raise error
 
-    with redirect_stderr(terminal), pytest.raises(error), progress_shown(ProgressForm.AUTO):
+    with redirect_stderr(terminal), pytest.raises(error), progress_shown("auto"):
         fail()
     assert terminal.getvalue().endswith("\x1b[?25h")  # the cursor is shown again
     before = terminal.getvalue()
@@ -101,7 +99,7 @@ def test_an_error_inside_takes_the_bars_down(terminal, error):
 
 
 def test_json_lines_are_events(capsys):
-    with progress_shown(ProgressForm.JSON):
+    with progress_shown("json"):
         work()
     captured = capsys.readouterr()
     found = [json.loads(line) for line in captured.err.splitlines()]
@@ -117,7 +115,7 @@ def test_json_lines_are_events(capsys):
 
 
 def test_a_log_has_a_line_a_minute_about_the_outermost_task(now, capsys):
-    with progress_shown(ProgressForm.AUTO), task("tried", 4, "cases") as cases:
+    with progress_shown("auto"), task("tried", 4, "cases") as cases:
         for done in range(1, 5):
             with task("Pressing", 2, "loads") as loads:
                 now[0] += 30.0
@@ -130,7 +128,7 @@ def test_a_log_has_a_line_a_minute_about_the_outermost_task(now, capsys):
 
 
 def test_a_log_of_what_is_short_is_empty(capsys):
-    with progress_shown(ProgressForm.AUTO):
+    with progress_shown("auto"):
         work()
     assert capsys.readouterr().err == ""
 

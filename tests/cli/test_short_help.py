@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 from roughcontact.cli.app import app
 from roughcontact.cli.option_groups import grouped
-from roughcontact.cli.short_help import _first_sentence
+from roughcontact.cli.parsing.short_help import _first_sentence
 
 ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [
@@ -47,7 +47,7 @@ def test_help_all_explains_what_help_only_names(helped):
 
 @pytest.mark.parametrize("command", ["study status", "serve"])
 def test_a_command_with_few_options_explains_them_all(helped, command):
-    assert "--help-all" not in helped(command, "--help")
+    assert helped(command, "--help") == helped(command, "--help-all")
 
 
 @pytest.mark.parametrize(
@@ -70,3 +70,15 @@ def test_a_command_without_hidden_options_has_no_more():
         """Do it."""
 
     assert grouped(command).more == frozenset()
+
+
+def test_help_all_of_the_program_lists_every_command(helped):
+    every = " ".join(helped("", "--help-all").split())
+    for name in ("press", "study run", "adhesion loop", "surface info"):
+        assert f"roughcontact {name} " in every
+    assert "roughcontact press" not in helped("study", "--help-all")
+
+
+@pytest.mark.parametrize("command", ["", "surface", "surface info", "study run", "doctor"])
+def test_h_is_help(helped, command):
+    assert helped(command, "-h") == helped(command, "--help")

@@ -165,7 +165,7 @@ def test_what_makes_no_sense_is_refused(invoke, here, arguments, complaint):
 def test_what_a_folder_refuses_is_told(invoke, here):
     run(invoke, "tried.toml")
     refused = run(invoke, "tried", "--out", "other")
-    assert "tried is the folder of the results itself: leave out --out" in refused.stderr
+    assert "tried is the folder of the results itself; leave out --out" in refused.stderr
     assert (
         "the study has 3 already; give more, not 3"
         in invoke("study", "add", "tried", "--samples", "3").stderr

@@ -119,16 +119,21 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         (["job.toml", "--vary", "=plane"], "names no field and values"),
         (
             ["job.toml", "--vary", "preparation.level=plane", "--vary", "preparation.level=mean"],
-            "preparation.level is given twice: name all of its values in one --vary",
+            "--vary: preparation.level is given twice; name all of its values in one --vary",
         ),
         (
-            ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],
+            ["job.toml", "--vary", "source.hurst=9,8"],
             "table.source.hurst: the Hurst exponent lies between -1 and 3, not at '9'",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],
-            "table.preparation.levl: there is no 'levl' here; did you mean level?",
+            "--vary: the job has no field 'preparation.levl'; did you mean preparation.level",
         ),
+        (
+            ["job.toml", "--vary", "hurst=0.5"],
+            "--vary: the job has no field 'hurst'; did you mean source.hurst",
+        ),
+        (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose of source."),
         (["job.toml", "--vary", "source.seed=1,2"], "leave seed out"),
         (["job.toml", "--vary", "source.points=16,16"], "a case comes twice"),
         (["maps/press.toml", "--samples", "2"], "--samples: the source of this job is not random"),

@@ -268,6 +268,11 @@ def test_the_table_of_an_interface_is_written_for_other_programs(tmp_path):
     np.testing.assert_array_equal(columns["nominal_pressure"], table.pressure)
     np.testing.assert_array_equal(columns["overclosure"], table.overclosure)
     assert (tmp_path / "a.inp").read_text(encoding="utf-8") == abaqus_text(table)
+    rc.write(table, tmp_path / "mm.inp", units="mm")
+    assert (tmp_path / "mm.inp").read_text(encoding="utf-8") == abaqus_text(table, units="mm")
+    for name, units in (("a.csv", "mm"), ("a.inp", "inch")):
+        with pytest.raises(rc.InputError, match=f"{name} is not written in the units '{units}'"):
+            rc.write(table, tmp_path / name, units=units)
     assert (tmp_path / "a.table").read_text(encoding="utf-8") == lammps_text(table)
     with pytest.raises(WriteError, match=r"a InterfaceTable is written as one of \.csv, \.inp, \.table"):
         rc.write(table, tmp_path / "a.nc")

@@ -68,7 +68,7 @@ $ {CURVE} --forces 1uN,2uN --work 1mJ/m^2 --range 100nm
 > {FAR} --forces 1uN,2uN
 
 $ {FAR}
-! is given: give one, such as --depths -20nm:20nm:9,-20nm
+! is given; give one, such as --depths -20nm:20nm:9,-20nm
 > {FAR} --depths -20nm:20nm:9,-20nm
 > {FAR} --depths 1nm,2nm
 > {FAR} --forces 1uN,2uN
@@ -100,7 +100,7 @@ $ {FAR} --mean-gaps=-1nm,1nm --periodic
 
 FLOW = f"""
 $ {TWO} --loop
-! --loop is about what flows under a hardness, which is not given: give --hardness, or both bodies as --materials
+! --loop is about what flows under a hardness, which is not given; give --hardness, or both bodies as --materials
 > {TWO} --loop --hardness 1GPa
 > curve rough.npz --forces 1mN,2mN --loop --materials steel,aluminium
 
@@ -123,11 +123,11 @@ $ {TWO} --theory gw,gw
 > {TWO} --theory gw
 
 $ {TWO} --theory hertz
-! --theory hertz takes a radius, which no surface shows: give --radius, such as 5mm
+! --theory hertz takes a radius, which no surface shows; give --radius, such as 5mm
 > {TWO} --theory hertz --radius 5mm
 
 $ {TWO} --theory ceb
-! --theory ceb takes a hardness, which no surface shows: give --hardness, such as 2GPa or aluminium
+! --theory ceb takes a hardness, which no surface shows; give --hardness, such as 2GPa or aluminium
 > {TWO} --theory ceb --hardness 2GPa
 > {TWO} --theory ceb --hardness aluminium
 
@@ -178,7 +178,7 @@ $ {LINE} --resistivity 17nohm*m
 > {LINE}
 
 $ {SPRINGS} --resistivity 17nohm*m
-! a Winkler foundation has a total conductance only: give --of total
+! a Winkler foundation has a total conductance only; give --of total
 > {SPRINGS} --resistivity 17nohm*m --of total
 
 $ {SPRINGS} --unit-stiffness N/um/mm^2

@@ -15,7 +15,7 @@ FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
 LOADS = f"""
 $ {PRESS}
-! none of --force, --pressure, --depth is given: give one, such as --force 10N
+! none of --force, --pressure, --depth is given; give one, such as --force 10N
 > {PRESS} --force 10N
 > {PRESS} --force 1mN
 > {PRESS} --pressure 1MPa
@@ -73,7 +73,7 @@ $ {PRESS} --force 1mN --hardness 1kPa
 
 BODIES = f"""
 $ {FORCE}
-! none of --modulus, --materials, --young is given: give one, such as --modulus 110GPa
+! none of --modulus, --materials, --young is given; give one, such as --modulus 110GPa
 > {FORCE} --modulus 110GPa
 > {FORCE} --materials steel,aluminium
 > {FORCE} --young 210GPa --poisson 0.3
@@ -102,11 +102,11 @@ $ {FORCE} --modulus 1GPa --young 1GPa
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa
-! --young is given without --poisson: give --poisson, such as 0.3
+! --young is given without --poisson; give --poisson, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
-! --young2 is given without --poisson2: give --poisson2, such as 0.3
+! --young2 is given without --poisson2; give --poisson2, such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
@@ -207,7 +207,7 @@ $ press profile.txt --unit m --modulus 1GPa --force 1N --profile line
 > press profile.txt --unit m --modulus 1GPa --force 10N/mm --profile line
 
 $ {PRESS} --force 1N/m --profile line
-! holds a map of 24 x 32 heights: leave out --profile
+! holds a map of 24 x 32 heights; leave out --profile
 > {PRESS} --force 1N
 
 $ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --hardness 1GPa
@@ -234,7 +234,7 @@ $ {PRESS} --force 1uN --work 1mJ/m^2 --range 100nm
 > {FAR} --force 1uN
 
 $ {FAR}
-! none of --force, --pressure, --depth, --mean-gap is given: give one, such as --force 10mN
+! none of --force, --pressure, --depth, --mean-gap is given; give one, such as --force 10mN
 > {FAR} --force 1uN
 > {FAR} --pressure 1kPa
 > {FAR} --depth 1nm
@@ -289,7 +289,7 @@ $ {DETACH} --depth 10nm --depths 5nm --forces 0N
 
 FLOW = f"""
 $ {PRESS} --force 1mN --after 2mN
-! which is not given: give --hardness, or both bodies as --materials
+! which is not given; give --hardness, or both bodies as --materials
 > {FLOWS} --after 2mN
 > {FORCE} --materials steel,aluminium --after 2mN
 
@@ -304,7 +304,7 @@ $ {FLOWS} --after 2mN --errors
 > {FLOWS} --errors
 
 $ {PRESS} --force 1mN --flow raised
-! which is not given: give --hardness, or both bodies as --materials
+! which is not given; give --hardness, or both bodies as --materials
 > {FLOWS} --flow raised
 
 $ {FLOWS} --flow raised --errors

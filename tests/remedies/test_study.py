@@ -166,7 +166,7 @@ $ study add done --samples 2
 > study add done --samples 3
 
 $ study run done --out other
-! is the folder of the results itself: leave out --out
+! is the folder of the results itself; leave out --out
 > study run done
 
 $ study run tried.toml --out seeded

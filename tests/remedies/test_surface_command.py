@@ -55,9 +55,9 @@ $ {PREPARE} --crop a:b
 > surface prepare profile.txt new.npz --unit m --crop 0:32
 
 $ {PREPARE} --mask round
-! write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um
-> {PREPARE} --mask box=0:99,10:50
-> {PREPARE} --mask ellipse=0:99,10:50
+! write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um
+> {PREPARE} --mask box=0:9,10:30
+> {PREPARE} --mask ellipse=0:9,10:30
 > {PREPARE} --mask above=3um
 > {PREPARE} --mask below=-3um
 
@@ -86,7 +86,7 @@ $ {PREPARE} --short-cutoff 1nm
 > {PREPARE} --short-cutoff 8um
 
 $ {PREPARE} --short-cutoff 20um --long-cutoff 10um
-! short_cutoff 20 um must be below long_cutoff 10 um
+! the short cut-off of 20 um must be below the long one of 10 um; exchange them
 > {PREPARE} --short-cutoff 10um --long-cutoff 20um
 
 $ {PREPARE} --average 0
@@ -144,7 +144,7 @@ $ thesis fig1
 > thesis fig4
 
 $ thesis fig4 --scale huge
-! write small or thesis
+! choose of small, thesis
 > thesis fig4 --scale small
 > thesis fig4 --scale thesis
 """

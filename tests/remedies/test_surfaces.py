@@ -154,7 +154,7 @@ PREPARED = [
     ),
     row(
         lambda: ROUGH.filtered(short_cutoff=8e-6, long_cutoff=5e-6),
-        "short_cutoff 8e-06 m must be below long_cutoff 5e-06 m",
+        "the short cut-off of 8e-06 m must be below the long one of 5e-06 m: exchange them",
         lambda: ROUGH.filtered(short_cutoff=5e-6, long_cutoff=8e-6),
     ),
     row(

@@ -29,7 +29,12 @@ def test_a_crop_keeps_its_cells_and_loses_its_periods():
         ((slice(2, 5),), "one slice an axis"),
         ((slice(0, 9, 2), slice(None)), "downsampled"),
         ((slice(5, 5), slice(None)), "nothing is left"),
-        ((slice(20, 30), slice(None)), "nothing is left"),
+        (
+            (slice(20, 30), slice(None)),
+            "a crop of cells 20:30 ends beyond the 12 cells of the map: end at 12 at most",
+        ),
+        ((slice(None), slice(17, 19)), "a crop of cells 17:19 ends beyond the 18 cells of the map"),
+        ((slice(-13, None), slice(None)), "a crop of cells -13: ends beyond the 12 cells of the map"),
     ],
 )
 def test_a_crop_of_nothing_is_refused(parts, message):
@@ -152,3 +157,13 @@ def test_only_free_axes_are_tapered():
         SURFACE.tapered("bell")
     with pytest.raises(ValueError, match="share"):
         SURFACE.tapered("tukey", share=1.5)
+
+
+@pytest.mark.parametrize("method", ["averaged", "downsampled"])
+def test_cells_that_fill_no_block_are_named(method):
+    free = rc.Surface(HEIGHTS, rc.Grid(HEIGHTS.shape, 1e-6))
+    assert getattr(free, method)((5, 3)).provenance[-1].endswith("; the last 2 of 12 rows are left out")
+    assert getattr(free, method)((5, 4)).provenance[-1].endswith("rows and 2 of 18 columns are left out")
+    assert "left out" not in getattr(free, method)(3).provenance[-1]
+    line = rc.Surface(HEIGHTS[0], rc.Grid(18, 1e-6))
+    assert getattr(line, method)(4).provenance[-1].endswith("; the last 2 of 18 cells are left out")

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 from roughcontact.cli.messages import UsageError, note, reported
 from roughcontact.cli.option_groups import argument, option
-from roughcontact.cli.options import PictureFormat, picture_ending
+from roughcontact.cli.options import PICTURES, picture_ending
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import print_facts
 from roughcontact.cli.resumable import resumable
-from roughcontact.errors import placed
 from roughcontact.progress.events import task
-from roughcontact.recipe.texts import whole
+from roughcontact.recipe.texts import Choice, whole
 
 if TYPE_CHECKING:
     import xarray
@@ -44,12 +43,18 @@ class Wanted:
     """How a figure is to be computed, and where it goes."""
 
     out: Path = option("Folder for pictures, averages and stores (default: this one).", "DIR", default=Path())
-    scale: str = option("Ensembles: small, or with the thesis' own counts: thesis.", "SCALE", default="small")
-    seed: str | None = option("Seed of the random numbers (default: the figure's own).", "1")
-    workers: int | None = option("Processes for an ensemble (default: one a core).", "N", min=1)
+    scale: str = option(
+        "Ensembles: small, or with the thesis' own counts: thesis.", default="small", read=Choice(_SCALES)
+    )
+    seed: int | None = option(
+        "Seed of the random numbers (default: the figure's own).", "1", read=whole(0, "the seed")
+    )
+    workers: int | None = option(
+        "Processes for an ensemble (default: one a core).", "N", read=whole(1, "the number of processes")
+    )
     as_is: bool = option("Compute nothing: average what the stores hold so far.", default=False)
-    format: PictureFormat | None = option(
-        "Format of the pictures, as wide as a journal's column or page (default: png)."
+    format: str | None = option(
+        "Format of the pictures, as wide as a journal's column or page (default: png).", read=Choice(PICTURES)
     )
 
     @property
@@ -73,16 +78,10 @@ def thesis(name: str = _NAME, *, wanted: Wanted) -> None:
             raise UsageError(
                 f"there is no figure {name!r}", f"choose one of {', '.join(FIGURES)}, all or list"
             )
-        if wanted.scale not in _SCALES:
-            raise UsageError(
-                f"--scale: {wanted.scale!r} is no scale", f"write {' or '.join(_SCALES)}", place="--scale"
-            )
-        with placed("seed"):
-            chosen = None if wanted.seed is None else whole(0, "the seed")(wanted.seed)
         workers = None if wanted.as_is else wanted.workers or 0
         with output(wanted.out):
             for each in FIGURES if name == "all" else (name,):
-                _compute(each, wanted, chosen, workers)
+                _compute(each, wanted, wanted.seed, workers)
 
 
 def _compute(name: str, wanted: Wanted, seed: int | None, workers: int | None) -> None:

@@ -9,6 +9,7 @@ import typer
 from roughcontact.cli.added_commands import added_commands, refuse_missing
 from roughcontact.cli.commands import ADHESION, ALONE, STUDY, SURFACE
 from roughcontact.cli.late_group import late_group
+from roughcontact.cli.option_groups import HELP_ALL_OPTION
 from roughcontact.version import __version__
 
 if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
@@ -50,34 +51,34 @@ app = typer.Typer(
     "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
     "130 interrupted, 143 terminated.",
     no_args_is_help=True,
+    context_settings={"help_option_names": ["--help", "-h"]},
     # A mistake of ours shows itself as Python shows it.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-app.add_typer(
-    typer.Typer(
-        cls=late_group(ADHESION),
-        help="Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
-        no_args_is_help=True,
+_GROUPS = (
+    (
+        "adhesion",
+        ADHESION,
+        "Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
     ),
-    name="adhesion",
-)
-app.add_typer(
-    typer.Typer(
-        cls=late_group(SURFACE),
-        help="Look at a surface file, make one, prepare or analyse it.",
-        no_args_is_help=True,
+    ("surface", SURFACE, "Look at a surface file, make one, prepare or analyse it."),
+    (
+        "study",
+        STUDY,
+        "Run ensembles that can be stopped, continued and enlarged; average, draw and export them.",
     ),
-    name="surface",
 )
-app.add_typer(
-    typer.Typer(
-        cls=late_group(STUDY),
-        help="Run ensembles that can be stopped, continued and enlarged; average, draw and export them.",
-        no_args_is_help=True,
-    ),
-    name="study",
-)
+
+
+def _group(help_all: bool = HELP_ALL_OPTION) -> None:
+    pass
+
+
+for _name, _commands, _help in _GROUPS:
+    app.add_typer(
+        typer.Typer(cls=late_group(_commands), callback=_group, help=_help, no_args_is_help=True), name=_name
+    )
 
 
 def _version(wanted: bool) -> None:
@@ -91,5 +92,6 @@ def _main(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
     ] = False,
+    help_all: bool = HELP_ALL_OPTION,
 ) -> None:
     pass

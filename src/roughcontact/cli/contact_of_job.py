@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.messages import UsageError, as_typed, note, plain
+from roughcontact.cli.messages import UsageError, as_typed, note, plain, remark
 from roughcontact.cli.report import quantity
 from roughcontact.files.file_errors import ReadError
 from roughcontact.progress.events import task
@@ -38,6 +38,7 @@ __all__ = [
 ]
 
 _READERS = ("rc.read", "rc.read_line")
+_COARSER = ("preparation.average", "preparation.downsample")
 _NAME_THE_BODY = (
     "say how it is pressed: --profile line, as a line contact, or --profile winkler, on the springs of the method of "
     "dimensionality reduction"
@@ -79,9 +80,11 @@ def prepared(job: JobOfHeights, check: Callable[[Surface], None] = lambda surfac
         if after is not before and call.place == "source":
             check(after)
             if call.function == "rc.read" and after.grid.ndim == 1:
-                note(f"{name_of(job.source)} holds a profile of {after.grid.size} heights")
+                remark(f"{name_of(job.source)} holds a profile of {after.grid.size} heights")
         if call.place == "preparation.despike":
             note("no spikes were found" if after is before else after.provenance[-1])
+        elif call.place in _COARSER and after.provenance[-1].endswith("left out"):
+            note(after.provenance[-1])
         elif call.place == "preparation.level" and job.preparation.level is None:
             _note_level(call, after)
     return known
@@ -113,7 +116,7 @@ def hardness_of_job(job: PressJob | CurveJob) -> float | None:
     if yields_at(job.bodies, job.plastic) is None or (softer := softer_of(job)) is None:
         return None
     if job.plastic.hardness is None:
-        note(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")
+        remark(f"the hardness is that {softer[1]}: {quantity('hardness', softer[0])}")
     return softer[0]
 
 
@@ -164,10 +167,10 @@ def _require_together(surface: Surface) -> None:
 
 def _note_level(call: Call, surface: Surface) -> None:
     if call.given == ("auto",) and all(surface.grid.periodic):
-        note("the surface is periodic, so that it has no tilt: its mean height is removed")
+        remark("the surface is periodic, so that it has no tilt: its mean height is removed")
     else:
         trend = "plane" if surface.grid.ndim == 2 else "line"
-        note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+        remark(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
 
 
 def note_materials(bodies: Bodies) -> None:
@@ -177,7 +180,7 @@ def note_materials(bodies: Bodies) -> None:
     for name in dict.fromkeys(value_of(bodies, "materials") or ()):
         if name != RIGID:
             material = handbook(name)
-            note(
+            remark(
                 f"{material.name} is {material.grade}: E {material.solid.young_modulus / 1e9:.4g} GPa, "
                 f"nu {material.solid.poisson_ratio:g} ({material.sources['solid']})"
             )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Mapping
+import sys
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
@@ -13,8 +14,10 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from roughcontact.cli.messages import reported
 from roughcontact.cli.option_groups import HELP_ALL, grouped
-from roughcontact.cli.short_help import write_short_help
+from roughcontact.cli.parsing.short_help import write_short_help
+from roughcontact.cli.parsing.usage_errors import in_our_words, no_such_command
 
 __all__ = ["late_group"]
 
@@ -26,9 +29,9 @@ def late_group(
 ) -> type[TyperGroup]:
     """Return the class of a group of commands: functions of these names, in these modules of this room.
 
-    Their examples stand in the module's ``EXAMPLES``, by the name of the command. For a name that is not among them,
-    and for the help, `added` returns the modules of commands of other packages; `refuse` may say more of a name that
-    nothing adds than that there is no such command.
+    Their examples stand in the module's ``EXAMPLES``, by the name of the command; in ``CELLS`` the columns of the table
+    of one that takes several files. For a name that is not among them, and for the help, `added` returns the modules of
+    commands of other packages; `refuse` may say more of a name that nothing adds than that there is no such command.
     """
     modules = {name: f"roughcontact.cli.{module}" for name, module in commands.items()}
 
@@ -45,13 +48,43 @@ def late_group(
                 return _imported(module, cmd_name)
             if known is None and not ctx.resilient_parsing:  # as completion parses
                 refuse(cmd_name)
+                raise no_such_command(ctx, cmd_name, self.commands)
             return known
+
+        def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+            with in_our_words(ctx):
+                return super().parse_args(ctx, args)
+
+        def main(self, args: Any = None, *given: Any, **named: Any) -> Any:
+            words = sys.argv[1:] if args is None else list(args)
+            is_program = named.pop("standalone_mode", True)
+            status: Any = 0
+            try:
+                with reported(as_json="--json" in words), in_our_words():
+                    status = super().main(args, *given, **{**named, "standalone_mode": False})
+            except typer.Exit as end:
+                status = end.exit_code
+            if is_program:
+                sys.exit(status or 0)
+            return status
 
         def list_commands(self, ctx: Any) -> list[str]:
             return list(dict.fromkeys([*super().list_commands(ctx), *added()]))
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
-            self._summarised().format_help(ctx, formatter)
+            if HELP_ALL not in ctx.meta:
+                self._summarised().format_help(ctx, formatter)
+                return
+            formatter.write_usage(ctx.command_path, "COMMAND ...")
+            formatter.write_dl(list(self.every_command(ctx.command_path)), col_max=40)
+            formatter.write(f"{ctx.command_path} COMMAND --help-all explains all options of a command.\n")
+
+        def every_command(self, path: str) -> Iterator[tuple[str, str]]:
+            """Yield the commands of this group and of the groups in it, each with its summary."""
+            for name, each in self._summarised().commands.items():
+                words = f"{path} {name}"
+                inside = getattr(each, "every_command", None)
+                yield from [(words, each.help or "")] if inside is None else inside(words)
 
         def shell_complete(self, ctx: Any, incomplete: str) -> Any:
             ctx.command = self._summarised()  # typer asks the command of the context for names and summaries
@@ -74,7 +107,7 @@ def late_group(
 
 
 class _Command(TyperCommand):
-    """A command whose help fits a screen, and that says of a wrong or missing option which are meant."""
+    """A command whose help fits a screen."""
 
     more: frozenset[str] = frozenset()  # parameters that the short help only names
 
@@ -85,40 +118,8 @@ class _Command(TyperCommand):
             super().format_help(ctx, formatter)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        try:
+        with in_our_words(ctx):
             return super().parse_args(ctx, args)
-        except Exception as raised:
-            error: Any = raised
-            # No such option: typers differ in the class.
-            if hasattr(error, "possibilities") and (others := _elsewhere(ctx, error.option_name)):
-                error.message, error.possibilities = f"{error.message}; {others}", None
-            if type(error).__name__ == "MissingParameter" and error.param.metavar and not error.message:
-                error.message = f"Give one such as {error.param.opts[0]} {error.param.metavar}"
-            raise
-
-
-def _elsewhere(ctx: Any, option: str) -> str:
-    """Return which commands of the same name in other groups take an option, else which of the same nested group do."""
-    root = ctx.find_root()
-    groups = {root.info_name: root.command} | {
-        f"{root.info_name} {name}": group
-        for name, group in root.command.commands.items()
-        if isinstance(group, TyperGroup)
-    }
-
-    def taking(path: str, names: Iterable[str]) -> list[str]:
-        known = [(name, groups[path].get_command(ctx, name)) for name in names]
-        return [f"'{path} {name}'" for name, each in known if any(option in one.opts for one in each.params)]
-
-    found = [
-        word
-        for path in groups
-        if ctx.info_name in groups[path].commands
-        for word in taking(path, [ctx.info_name])
-    ]
-    if not found and ctx.parent is not root:
-        found = taking(ctx.parent.command_path, ctx.parent.command.commands)
-    return f"use {' or '.join(found)} for it" if found else ""
 
 
 def _imported(module: str, name: str) -> Any:
@@ -126,7 +127,7 @@ def _imported(module: str, name: str) -> Any:
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    command: Any = grouped(members[_function(name)])
+    command: Any = grouped(members[_function(name)], members.get("CELLS", {}).get(name))
     alone.command(name, cls=_Command, epilog=epilog)(command)
     found: Any = typer.main.get_command(alone)
     found.more = command.more

@@ -29,6 +29,8 @@ def run() -> None:
 def _run() -> None:
     try:
         signal.signal(signal.SIGTERM, _terminate)
+        if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # as it was while this file was imported
+            signal.signal(signal.SIGINT, signal.default_int_handler)
         for stream in (sys.stdout, sys.stderr):
             # A terminal or pipe that cannot show a letter gets a question mark, not a crash.
             if isinstance(stream, io.TextIOWrapper):
@@ -41,9 +43,6 @@ def _run() -> None:
             if _as_json():
                 emit_error("usage", problem.message, BAD_INPUT, problem.remedy)
             sys.exit(BAD_INPUT)
-        if _as_json():
-            # Errors of the options come here as exceptions; otherwise they are printed where they are found.
-            sys.exit(app(prog_name="roughcontact", standalone_mode=False))
         app(prog_name="roughcontact")
     except KeyboardInterrupt:
         if _as_json():
@@ -53,12 +52,6 @@ def _run() -> None:
         # Files of ours speak for themselves before they come here: this is standard output.
         if isinstance(error, OSError) and error.filename is None and error.errno in _NO_ROOM:
             sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
-            sys.exit(BAD_INPUT)
-        # A misspelt option and its like; typers differ in the class.
-        if (format_message := getattr(error, "format_message", None)) is not None:
-            message = format_message()
-            sys.stderr.write(f"Error: {message}\n")
-            emit_error("usage", message, BAD_INPUT)
             sys.exit(BAD_INPUT)
         if (broken := broken_package(error)) is not None:
             sys.stderr.write(f"Error: {broken}\n")

@@ -18,6 +18,7 @@ import typer
 
 from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.cli.verbosity import is_quiet
 from roughcontact.errors import InputError, correctable, joined
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.memory import MemoryWarning
@@ -27,7 +28,7 @@ from roughcontact.recipe.recipe_fields import option_of
 if TYPE_CHECKING:
     from roughcontact.labels.note import Note
 
-__all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "reported", "worded"]
+__all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "remark", "reported", "worded"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
 # What the library says by keywords and calls of Python, and no place of an error tells.
@@ -49,26 +50,33 @@ _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
 class UsageError(InputError):
-    """An option or a field that makes no sense; its place stands in front where the text does not name it."""
+    """An option or a field that makes no sense; its place stands in front unless the message begins with it."""
 
     def __str__(self) -> str:
         place, text = self.place or "", super().__str__()
-        is_shown = place.startswith("--") or "." in place  # and no parameter of a function
-        if not is_shown or all(part in text for part in place.split(", ")):
+        is_shown = place.startswith("-") or "." in place  # and no parameter of a function
+        if not is_shown or self.message.startswith(place.split(", ")[0]):
             return text
         return joined(f"{place}: {self.message}", self.remedy)
 
 
 def note(text: str) -> None:
-    """Print one line on standard error."""
+    """Print one line on standard error, also for who asked for quiet: something about the answer may be wrong."""
     typer.echo(f"Note: {worded(text)}", err=True)
 
 
 def note_all(notes: Iterable[Note]) -> None:
     """Print the notes on an answer, each once: what makes a number wrong first, what is usual last."""
-    from roughcontact.labels.note import in_order
+    from roughcontact.labels.note import Rank, in_order
 
-    for text in in_order(notes):
+    kept = [each for each in notes if not (is_quiet() and each.rank is Rank.USUAL)]
+    for text in in_order(kept):
+        note(text)
+
+
+def remark(text: str) -> None:
+    """Print one line on standard error unless quiet is asked for: without it, no number is taken for another."""
+    if not is_quiet():
         note(text)
 
 
@@ -123,7 +131,8 @@ def _refused(
         return None if text is None else worded(text)
 
     told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
-    typer.echo(f"Error: {told}", err=True)
+    # Of a file that leaves something open, its name is the place.
+    typer.echo(f"Error: {joined(told.message, told.remedy) if kind == 'read' else told}", err=True)
     if beside is not None:
         several = [
             {"message": typed(each.message), "remedy": typed(each.remedy), "place": _as_options(each.place)}

@@ -10,12 +10,17 @@ from typing import Any, get_args, get_type_hints
 
 import typer
 
-from roughcontact.cli.progress_view import ProgressForm, progress_shown
-from roughcontact.errors import InputError, within
+from roughcontact.cli.parsing.printed import FORMS, print_job
+from roughcontact.cli.parsing.several import Cells, do_each
+from roughcontact.cli.progress_view import PROGRESS_FORMS, progress_shown
+from roughcontact.cli.verbosity import quietly
+from roughcontact.errors import InputError, placed, within
+from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
 from roughcontact.recipe.source import File
+from roughcontact.recipe.texts import Choice
 
-__all__ = ["HELP_ALL", "argument", "grouped", "listed", "option"]
+__all__ = ["HELP_ALL", "HELP_ALL_OPTION", "PRINT", "argument", "grouped", "listed", "option"]
 
 HELP_ALL = "--help-all"
 
@@ -40,7 +45,8 @@ def option(
     """Return an option: its help, what its value looks like, and its default; ``...`` where it must be given.
 
     A group's options stand in the help under its ``PANEL``, those that are `everyday` in the short one too. `more` goes
-    to `typer.Option`, as do `names` where the name of the field will not do.
+    to `typer.Option`, as do `names` where the name of the field will not do; but for ``read``, which turns the text of
+    the user into the value, or raises `InputError`.
     """
     given = {"names": names, "metavar": example, "help": text, "everyday": everyday, **more}
     return field(default=MISSING if default is ... else default, metadata=given)
@@ -62,34 +68,82 @@ def listed(*names: str) -> Callable[[str], list[str]]:
     return complete
 
 
-_PROGRESS = option(
-    "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
-    "[auto|json|none]",
-    default=ProgressForm.AUTO,
+PRINT = option(
+    "Print the job as a recipe (toml), as a command or as Python, and compute nothing.",
+    None,
+    "--print",
+    read=Choice(FORMS),
+    everyday=False,
     rich_help_panel="Answer",
 )
+_VERBOSITY = {
+    "progress": option(
+        "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+        default="auto",
+        read=Choice(PROGRESS_FORMS),
+        everyday=False,
+        rich_help_panel="Answer",
+    ),
+    "quiet": option(
+        "No progress and no remarks on standard error: errors only, and notes on what makes a number wrong.",
+        None,
+        *("-q", "--quiet"),
+        default=False,
+        everyday=False,
+        rich_help_panel="Answer",
+    ),
+    "verbose": option(
+        "What is done, step by step with its time, on standard error.",
+        None,
+        *("-v", "--verbose"),
+        default=False,
+        everyday=False,
+        rich_help_panel="Answer",
+    ),
+}
 
 
-def grouped(command: Callable[..., None]) -> Callable[..., None]:
+def grouped(command: Callable[..., None], cells: Cells | None = None) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
     What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
-    leaves out are ``more`` of what is returned. A command that has ``--json`` gets ``--progress`` too.
+    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``, one
+    that does a job ``--print``. One with `cells`, the columns of a table, takes several files.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
     declared = [
         each for one in parameters for each in _declared(one.name, hints[one.name], one.default, None)
     ]
-    if any(each.parameter.name == "json" for each in declared):
-        shown = _of_command("progress", ProgressForm, _PROGRESS, None)
-        declared.append(replace(shown, everyday=not any(each.spec for each in declared)))
+    if cells is not None:
+        declared = [_of_several(each) if each.spec and each.spec.positional else each for each in declared]
+    does_job = any(kind in JOBS.values() for kind in hints.values())
+    if does_job:
+        declared.append(_of_command("printed", str, PRINT, None))
+    is_long = any(not each.everyday for each in declared)
+    declared += [
+        replace(_of_command(name, bool, shown, None), everyday=not is_long)
+        for name, shown in _VERBOSITY.items()
+    ]
     more = frozenset(each.parameter.name for each in declared if not each.everyday)
-    flat = [*(each.parameter for each in declared), *([_HELP_ALL] if more else [])]
+    flat = [*(each.parameter for each in declared), _parameter("help_all", bool, HELP_ALL_OPTION)]
 
     def run(**given: Any) -> None:
-        with progress_shown(given.pop("progress", ProgressForm.AUTO)):
-            done(given)
+        form, quiet, verbose = (given.pop(name) for name in _VERBOSITY)
+        if quiet and verbose:
+            words = "--quiet and --verbose exclude each other"
+            raise InputError(words, "give one of them", "--quiet, --verbose")
+        shown = progress_shown("none" if quiet and form == "auto" else form, verbose=verbose)
+        with quietly(quiet), shown:
+            if cells is None:
+                done(given)
+                return
+            files = given["file"]
+            if len(files) == 1 or given.get("printed") is not None:
+                for file in files:
+                    done({**given, "file": file})
+            else:
+                do_each(files, done, given, cells)
 
     def done(given: Mapping[str, Any]) -> None:
         if not any(each.spec for each in declared):
@@ -108,7 +162,11 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
                 built = {one.name: _built(hints[one.name], one.name, given) for one in parameters}
             except InputError as error:
                 raise UsageError(error.message, error.remedy, error.place) from error
-            command(**built)
+            if does_job and given["printed"] is not None:
+                [job] = (each for each in built.values() if type(each) in JOBS.values())
+                print_job(job, given["printed"], as_json=given["json"])
+            else:
+                command(**built)
 
     run.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
     run.__annotations__ = {each.name: each.annotation for each in flat}
@@ -144,7 +202,28 @@ def _of_command(name: str, kind: Any, declared: Any, panel: str | None) -> _Decl
         return _Declared(_parameter(name, kind, info), everyday=True)
     names = given.pop("names") or ([option_of(name)] if declared.default is False else [])
     everyday = given.pop("everyday")
-    return _Declared(_parameter(name, kind, typer.Option(default, *names, **given)), everyday)
+    if (read := given.pop("read", None)) is not None:
+        place = names[0] if names else option_of(name)
+        kind, given = str if default is not None else str | None, _read_by(read, place, given)
+    # What the help of an option says of its default need not be said twice.
+    info = typer.Option(default, *names, show_default="(default:" not in given["help"], **given)
+    return _Declared(_parameter(name, kind, info), everyday)
+
+
+def _read_by(read: Callable[[str], Any], place: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is declared of an option whose text is read by a function of ours."""
+
+    def value(text: Any) -> Any:
+        with placed(place):
+            return None if text is None else read(text)
+
+    choices = getattr(read, "choices", ())
+    return {
+        **given,
+        "metavar": given["metavar"] or f"[{'|'.join(choices)}]",
+        "callback": value,
+        "autocompletion": listed(*choices) if choices else None,
+    }
 
 
 def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: str | None) -> _Declared:
@@ -168,6 +247,12 @@ def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: st
     return _Declared(parameter, spec.everyday or default is ..., spec)
 
 
+def _of_several(one: _Declared) -> _Declared:
+    """Return an argument of which there may be several."""
+    info = typer.Argument(..., metavar=one.parameter.default.metavar, help=one.parameter.default.help)
+    return replace(one, parameter=_parameter(one.parameter.name, list[str], info))
+
+
 def _parameter(name: str, kind: Any, info: Any) -> inspect.Parameter:
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=info, annotation=kind)
 
@@ -179,10 +264,8 @@ def _print_help(context: typer.Context, wanted: bool) -> None:
         raise typer.Exit
 
 
-_HELP_ALL = _parameter(
-    "help_all",
-    bool,
-    typer.Option(False, HELP_ALL, is_eager=True, callback=_print_help, help="Show all options, and exit."),
+HELP_ALL_OPTION = typer.Option(
+    False, HELP_ALL, is_eager=True, callback=_print_help, help="Show all of the help, and exit."
 )
 
 

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 from typing import ClassVar
 
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, remark
 from roughcontact.cli.option_groups import argument, option
+from roughcontact.recipe.texts import Choice
 
-__all__ = ["FORMAT", "JSON", "OUT", "OUTPUT", "Answer", "PictureFormat", "picture_ending"]
+__all__ = ["FORMAT", "JSON", "OUT", "OUTPUT", "PICTURES", "Answer", "picture_ending"]
 
 _ANSWER = "Answer"
-PictureFormat = StrEnum("PictureFormat", ["PNG", "PDF", "SVG"])
+PICTURES = ("png", "pdf", "svg")
 FORMAT = option(
     "With --out: format of the pictures (default: png).",
-    "[png|pdf|svg]",
+    read=Choice(PICTURES),
     everyday=False,
     rich_help_panel=_ANSWER,
 )
-OUTPUT = argument("File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView.", "OUT")
+OUTPUT = argument(
+    "File to write: .npz, .nc, .x3p, .txt, .npy, or .vti for ParaView. - is standard output, as .npz; nc:- as .nc.",
+    "OUT",
+)
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
 JSON = option("One JSON object on standard output, in SI units.", default=False, rich_help_panel=_ANSWER)
 
@@ -32,7 +35,7 @@ class Answer:
 
     PANEL: ClassVar = _ANSWER
     out: Path | None = OUT
-    format: PictureFormat | None = FORMAT
+    format: str | None = FORMAT
     json: bool = JSON
     is_kept: bool = True  # no option: of a result that is repeated, only the numbers are looked at
 
@@ -42,7 +45,7 @@ class Answer:
     def note_files(self, folder: Path | None, names: Sequence[str]) -> None:
         """Say on standard error which files a folder holds now, if there is one that stays."""
         if folder is not None and self.is_kept:
-            note(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
+            remark(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 
     @property
     def ending(self) -> str:
@@ -55,7 +58,7 @@ class Answer:
         return None if self.out is None else self.out / "surface.npz"
 
 
-def picture_ending(given: PictureFormat | None, out: Path | None) -> str:
+def picture_ending(given: str | None, out: Path | None) -> str:
     """Return how the names of pictures end.
 
     Raises
@@ -65,4 +68,4 @@ def picture_ending(given: PictureFormat | None, out: Path | None) -> str:
     """
     if given is not None and out is None:
         raise UsageError("--format is that of pictures", "say where by --out", place="--format")
-    return (given or PictureFormat.PNG).value
+    return given or PICTURES[0]

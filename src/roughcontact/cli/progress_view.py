@@ -8,7 +8,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import typer
@@ -18,9 +17,9 @@ from roughcontact.progress.events import Event, listening
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-__all__ = ["ProgressForm", "duration", "progress_shown"]
+__all__ = ["PROGRESS_FORMS", "duration", "progress_shown"]
 
-ProgressForm = StrEnum("ProgressForm", ["AUTO", "JSON", "NONE"])
+PROGRESS_FORMS = ("auto", "json", "none")
 
 _INTERVAL = 0.1  # seconds between two events of a task
 _BETWEEN_LINES = 60.0  # seconds, in a log
@@ -28,15 +27,15 @@ _ENDED = ("finished", "stopped")
 
 
 @contextmanager
-def progress_shown(form: ProgressForm) -> Iterator[None]:
-    """Show how far long tasks in this block are."""
-    if form is ProgressForm.NONE:
+def progress_shown(form: str, *, verbose: bool = False) -> Iterator[None]:
+    """Show how far long tasks in this block are, in one of the forms; if `verbose`, all that were done, in lines."""
+    if form == "none":
         yield
-    elif form is ProgressForm.JSON:
+    elif form == "json":
         with listening(_Objects(), interval=_INTERVAL):
             yield
-    elif not sys.stderr.isatty():
-        with listening(_Lines(), interval=_INTERVAL):
+    elif verbose or not sys.stderr.isatty():
+        with listening(_Lines(verbose), interval=_INTERVAL):
             yield
     else:
         bars = _Bars()
@@ -61,12 +60,19 @@ class _Objects:
 
 @dataclass(slots=True)
 class _Lines:
-    """A line a minute, about the outermost task that counts."""
+    """A line a minute, about the outermost task that counts; one for each task at its end, for who wants them all."""
 
+    every: bool = False
+    begun: dict[int, float] = field(default_factory=dict)
     paces: dict[int, _Pace] = field(default_factory=dict)
     due: float = field(default_factory=lambda: time.monotonic() + _BETWEEN_LINES)
 
     def __call__(self, event: Event) -> None:
+        begun = self.begun.setdefault(event.number, time.monotonic())
+        if self.every and event.state in _ENDED:
+            count = f"{event.done:g} {event.unit}, " if event.unit else ""
+            line = f"{'  ' * event.level}{event.task}: {count}{time.monotonic() - begun:.2f} s"
+            typer.echo(line if event.state == "finished" else f"{line}, stopped", err=True)
         if event.state in _ENDED:
             self.paces.pop(event.number, None)
         elif event.total is not None:

@@ -14,9 +14,10 @@ import typer
 
 from roughcontact.cli.commands import do
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import UsageError, note, reported
-from roughcontact.cli.option_groups import argument
-from roughcontact.cli.options import FORMAT, JSON, OUT, Answer, PictureFormat
+from roughcontact.cli.messages import UsageError, note, remark, reported
+from roughcontact.cli.option_groups import PRINT, argument
+from roughcontact.cli.options import FORMAT, JSON, OUT, Answer
+from roughcontact.cli.parsing.printed import print_job
 from roughcontact.cli.report import emit
 from roughcontact.errors import within
 from roughcontact.version import __version__
@@ -32,6 +33,7 @@ EXAMPLES = {
 roughcontact run job.toml
 roughcontact run job.toml --out result
 roughcontact run result/curve.json
+roughcontact run job.toml --print python
 """
 }
 _SOURCE = argument(
@@ -54,7 +56,8 @@ def run(
     source: Path = _SOURCE,
     *,
     out: Path | None = OUT,
-    format: PictureFormat | None = FORMAT,
+    format: str | None = FORMAT,
+    printed: str | None = PRINT,
     json: bool = JSON,
 ) -> None:
     """Do what a recipe says; of a result, do it once more and compare the numbers to the last digit.
@@ -62,10 +65,17 @@ def run(
     The answer of a job goes to a folder named like its file, and loads that are stored there are not computed again.
     """
     with reported(source, out, as_json=json):
-        _run(source, out, format, json=json)
+        from roughcontact.recipe.written import read_job
+
+        if printed is None:
+            _run(source, out, format, json=json)
+        else:
+            with within("recipe"):
+                job = read_job(source := _result_in(source))
+            print_job(job, printed, recipe=str(source), as_json=json)
 
 
-def _run(source: Path, out: Path | None, format: PictureFormat | None, *, json: bool) -> None:
+def _run(source: Path, out: Path | None, format: str | None, *, json: bool) -> None:
     from roughcontact.recipe.repeated import differences
     from roughcontact.recipe.written import read_job, require_same_files
 
@@ -76,7 +86,7 @@ def _run(source: Path, out: Path | None, format: PictureFormat | None, *, json: 
     if source.suffix.casefold() not in _RESULTS:
         folder = out or Path(source.stem)
         if _is_stored(job, folder):
-            note(f"{folder} holds the answer of this job already, by this version: nothing is computed")
+            remark(f"{folder} holds the answer of this job already, by this version: nothing is computed")
             if json:
                 emit(_numbers(_file(job, folder)))
             return
@@ -127,7 +137,7 @@ def _note_replaced(job: Job, folder: Path) -> None:
     except (OSError, ValueError, KeyError):
         return
     if kept is not None and contact_in(kept) != contact_in(carried(job, folder)):
-        note(f"{folder} holds the answer of another recipe, which is replaced")
+        remark(f"{folder} holds the answer of another recipe, which is replaced")
 
 
 def _file(job: Job, folder: Path, ending: str = ".json") -> Path:
@@ -176,7 +186,7 @@ def _is_stored(job: Job, folder: Path) -> bool:
 def _tell(found: Sequence[Difference]) -> None:
     """Say whether the numbers are the same."""
     if not found:
-        note("same numbers")
+        remark("same numbers")
         return
     note("1 quantity differs:" if len(found) == 1 else f"{len(found)} quantities differ:")
     for each in found:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, remark
 from roughcontact.memory import free_memory, gigabytes, require_free
 
 __all__ = ["require_memory"]
@@ -28,4 +28,4 @@ def require_memory(need: int, shape: tuple[int, ...]) -> None:
     what = f"a grid of {' x '.join(str(n) for n in shape)} cells"
     require_free(need, what, "use fewer points", UsageError)
     if need > _WORTH_SAYING:
-        note(f"{what} needs about {gigabytes(need)} of memory; {gigabytes(free_memory())} are free")
+        remark(f"{what} needs about {gigabytes(need)} of memory; {gigabytes(free_memory())} are free")

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import typer
 
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import UsageError, remark, reported
 from roughcontact.cli.option_groups import argument, option
+from roughcontact.recipe.texts import whole
 
 __all__ = ["EXAMPLES", "serve"]
 
@@ -25,7 +26,9 @@ roughcontact serve part.x3p --port 8765 --no-browser
 def serve(
     file: Path | None = argument("Measured heights to begin with.", "[FILE]", None),
     *,
-    port: int = option("Port of this machine (default: one that is free).", "8765", default=0),
+    port: int | None = option(
+        "Port of this machine (default: one that is free).", "8765", read=whole(1024, "a port", 65535)
+    ),
     browser: bool = option("Whether a browser is opened.", None, "--browser/--no-browser", default=True),
 ) -> None:
     """Open a page on this machine: drop a file, move the load, see the contact; every number also as a command."""
@@ -43,20 +46,18 @@ def serve(
             raise UsageError(f"{file}: there is no such file")
         if file is not None:
             channels(file)  # what cannot be read is refused before the page opens
-        if not 0 <= port < 2**16:
-            raise UsageError(f"ports go from 1 to 65535, not {port}", place="--port")
 
         def opened(address: str, once: str) -> None:
             typer.echo(address)
-            note("the page is for this machine and the user who has this address; Ctrl-C ends it")
+            remark("the page is for this machine and the user who has this address; Ctrl-C ends it")
             if browser:
                 # Beside the server: a browser that runs in the terminal comes back when it is left.
                 threading.Thread(target=webbrowser.open, args=(once,), daemon=True).start()
 
         try:
-            run(file, port, opened)
+            run(file, port or 0, opened)
         except KeyboardInterrupt:
-            note("the page has ended; nothing is left of it")
+            remark("the page has ended; nothing is left of it")
         except OSError as error:
             raise UsageError(
                 f"port {port} cannot be had ({error.strerror})", "leave it out", place="--port"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import stat
 import struct
@@ -15,6 +16,7 @@ from typing import IO, BinaryIO
 from roughcontact.files.file_bounds import BYTES_PER_POINT, require_memory
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.numpy_files import read_npy_header
+from roughcontact.files.standard_streams import standard, standard_input
 
 __all__ = ["content", "named", "needed", "ordinary_file"]
 
@@ -26,7 +28,7 @@ _DAMAGED = (ValueError, OSError, EOFError, RuntimeError, struct.error, zlib.erro
 
 @contextmanager
 def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
-    """Give the name of a file and its bytes; what is found unreadable within becomes an error that names the file.
+    """Give the name of a file, or of standard input, and its bytes; what is unreadable becomes an error that names it.
 
     Raises
     ------
@@ -35,6 +37,11 @@ def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
         read), if reading it takes more memory than is free, or if what is done with the bytes ends in `ContentError`.
     """
     with named(path) as name:
+        if (kind := standard(path)) is not None:
+            data = standard_input(path)
+            require_memory(needed(io.BytesIO(data), len(data), kind))
+            yield f"standard input{kind}", data
+            return
         with ordinary_file(path) as stream:
             data = _read(stream, Path(name).suffix.casefold())
         yield name, data

@@ -7,18 +7,21 @@ from functools import lru_cache
 from pathlib import Path
 
 from roughcontact.files.file_errors import ReadError
+from roughcontact.files.standard_streams import standard, standard_input
 
 __all__ = ["fingerprint"]
 
 
 def fingerprint(path: Path) -> str:
-    """Return the SHA-256 of a file.
+    """Return the SHA-256 of a file, or of standard input.
 
     Raises
     ------
     ReadError
         If it cannot be read.
     """
+    if standard(path) is not None:
+        return hashlib.sha256(standard_input(path)).hexdigest()
     try:
         stands = path.stat()
         return _digest(path, stands.st_mtime_ns, stands.st_size)

@@ -14,7 +14,9 @@ __all__ = [
     "ENERGY_PER_AREA",
     "FORCE",
     "FORCE_PER_LENGTH",
+    "HARDNESS",
     "LENGTH",
+    "MODULUS",
     "PRESSURE",
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
@@ -54,6 +56,8 @@ FORCE_PER_LENGTH = Kind("a force per length", "N/m", "10N/mm")
 LENGTH = Kind("a length", "m", "5um")
 AREA = Kind("an area", "m^2", "1mm^2")
 PRESSURE = Kind("a pressure", "Pa", "1MPa")
+MODULUS = Kind("a modulus", "Pa", "110GPa")
+HARDNESS = Kind("a hardness", "Pa", "2GPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
 ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")

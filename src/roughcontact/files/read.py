@@ -50,7 +50,7 @@ def read(
     Parameters
     ----------
     path : str or path
-        The file.
+        The file. ``"-"`` is standard input, which holds ``.npz``; ``"x3p:-"`` the same in another format.
     channel : str or int, optional
         Name of the channel, or its position counted from 0. Without it the height is found by name and unit.
     unit : str or float, optional

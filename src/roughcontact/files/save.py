@@ -25,10 +25,11 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.evaluation.interface_table import InterfaceTable
-from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
+from roughcontact.evaluation.interface_text import UNIT_SYSTEMS, abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
 from roughcontact.files.numpy_files import npy_bytes, npz_bytes, write_npy
 from roughcontact.files.provenance import provenance
+from roughcontact.files.standard_streams import kind_of, standard, write_standard_output
 from roughcontact.files.surface_dataset import dataset_without_heights, surface_dataset
 from roughcontact.files.text import text_bytes
 from roughcontact.files.write import netcdf_bytes, require_netcdf, write_csv, write_netcdf, write_text
@@ -53,7 +54,7 @@ Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
 Writable = Surface | Pressed | Curves | InterfaceTable
 
 
-def write(what: Writable, path: str | os.PathLike[str]) -> None:
+def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") -> None:
     """Write a surface, a solution or a curve; the file appears whole or not at all.
 
     ==========  ==================================================================================================
@@ -68,7 +69,7 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
                 read back but for ``periodic`` and the history, the spacing to rounding
     ``.npy``    the heights of a surface [m] and nothing else: unit and size are to be stated when it is read
     ``.vti``    a surface or the fields of a solution for ParaView; y points up, as its pictures do
-    ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in SI units
+    ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in the `units` of a model
     ``.table``  the table of an interface: energy and force against mean gap for LAMMPS (``units si``)
     ==========  ==================================================================================================
 
@@ -79,10 +80,15 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     what : Surface, Solution, Curve or another answer
         What is written.
     path : str or path
-        File to write; one that is there is replaced.
+        File to write; one that is there is replaced. ``"-"`` is standard output, for a surface as ``.npz``, ``"nc:-"``
+        for one of the other formats.
+    units : {"SI", "mm"}
+        Of ``.inp``: metres, newtons and pascals, or millimetres, newtons and megapascals. All other files are in SI.
 
     Raises
     ------
+    InputError
+        If `units` is neither, or not SI for another file than ``.inp``.
     WriteError
         If the extension is not in the table or not for this value, or if the file cannot be written.
 
@@ -94,13 +100,19 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     >>> rc.read("ball.npz").grid == ball.grid
     True
     """
+    if units not in UNIT_SYSTEMS or (units != "SI" and kind_of(path) != ".inp"):
+        raise InputError(
+            f"{path} is not written in the units {units!r}",
+            "leave units out, or choose SI or mm for a file .inp",
+            "units",
+        )
     if isinstance(what, Curves):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return
     if isinstance(what, InterfaceTable):
         kind = _require_kind(path, type(what).__name__, _OF_AN_INTERFACE)
-        _OF_AN_INTERFACE[kind](what, path)
+        _OF_AN_INTERFACE[kind](what, path, units)
         return
     if not isinstance(what, Surface | Pressed):
         raise WriteError(f"cannot write a {type(what).__name__}", "give a Surface, a solution or a curve")
@@ -116,6 +128,9 @@ def write(what: Writable, path: str | os.PathLike[str]) -> None:
     kind = _require_kind(path, type(what).__name__, formats, hint)
     encoded = analysed_on_host(formats[kind])
     here = what.on_host() if isinstance(what, Solution | TangentialSolution) else what
+    if standard(path) is not None:
+        write_standard_output(encoded(here))
+        return
     with written_aside(path) as aside:
         aside.write_bytes(encoded(here))
 
@@ -158,11 +173,12 @@ def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False
     if in_slabs:
         _require_kind(path, "Surface in slabs", _IN_SLABS[Surface])
     _require_kind(path, "Surface", _OF_A_SURFACE)
-    require_target(path)
+    if standard(path) is None:
+        require_target(path)
 
 
 def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str], hint: str = "") -> str:
-    kind = Path(path).suffix.casefold()
+    kind = kind_of(path)
     if kind not in known:
         raise WriteError(f"cannot write {path}: a {what} is written as one of {', '.join(known)}{hint}")
     if kind == ".nc":
@@ -216,15 +232,15 @@ def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
     return parts | {"slipping": on_host(solution.slipping).astype(bool)}
 
 
-def _interface_csv(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
+def _interface_csv(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
     write_csv(table.to_dataset(), path)
 
 
-def _interface_inp(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
-    write_text(abaqus_text(table), path)
+def _interface_inp(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
+    write_text(abaqus_text(table, units=units), path)
 
 
-def _interface_lammps(table: InterfaceTable, path: str | os.PathLike[str]) -> None:
+def _interface_lammps(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
     write_text(lammps_text(table), path)
 
 
@@ -280,7 +296,7 @@ _IN_SLABS: Mapping[type, tuple[str, ...]] = MappingProxyType({Surface: (".npy", 
 _OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
-_OF_AN_INTERFACE: Mapping[str, Callable[[InterfaceTable, str | os.PathLike[str]], None]] = MappingProxyType(
-    {".csv": _interface_csv, ".inp": _interface_inp, ".table": _interface_lammps}
+_OF_AN_INTERFACE: Mapping[str, Callable[[InterfaceTable, str | os.PathLike[str], str], None]] = (
+    MappingProxyType({".csv": _interface_csv, ".inp": _interface_inp, ".table": _interface_lammps})
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

@@ -14,6 +14,7 @@ from roughcontact.errors import InputError
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
+from roughcontact.recipe.texts import choose
 from roughcontact.statistics.averages import combinations
 
 __all__ = ["study_figure"]
@@ -65,13 +66,14 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     name = f"{quantity}_mean"
     if name not in averaged:
         known = [str(each).removesuffix("_mean") for each in averaged if str(each).endswith("_mean")]
-        raise InputError(f"no {quantity!r} differs between samples", f"choose one of {', '.join(known)}")
+        raise InputError(f"no {quantity!r} differs between samples", choose(quantity, known), "quantity")
     points = [d for d in averaged[name].dims if d not in averaged["cases"].dims]
     numbers = _numbers(averaged)
     if along is not None and along not in numbers:
         raise InputError(
             f"{along!r} is no number that varies",
-            f"choose one of {', '.join(numbers) or 'none: nothing varies'}",
+            choose(along, tuple(numbers)) if numbers else "leave it out: no number varies",
+            "along",
         )
     chosen = along or max(numbers, key=lambda each: len(numbers[each]), default=None)
     if points == ["load"]:

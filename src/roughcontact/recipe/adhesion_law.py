@@ -9,7 +9,7 @@ from typing import ClassVar
 from roughcontact.files.quantity import ENERGY_PER_AREA, LENGTH
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import Amount, Choice
+from roughcontact.recipe.texts import Amount, Choice, Likely
 
 __all__ = ["AdhesionLaw", "Sticking"]
 
@@ -17,7 +17,14 @@ LAWS = ("exponential", "dugdale")  # those of `adhesion.attraction`, which needs
 _WORK = described(
     "Work of adhesion: the energy that parts a unit area.",
     "50mJ/m^2",
-    read=Amount(ENERGY_PER_AREA, "the work of adhesion"),
+    read=Likely(
+        # Twice the surface energy of tungsten is 7 J/m^2.
+        Amount(ENERGY_PER_AREA, "the work of adhesion"),
+        0,
+        10,
+        "more than any metal has",
+        "mJ/m^2",
+    ),
     default=...,
     everyday=True,
 )

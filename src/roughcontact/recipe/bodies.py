@@ -7,14 +7,23 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
-from roughcontact.files.quantity import CONDUCTIVITY, RESISTIVITY, Kind
+from roughcontact.files.quantity import CONDUCTIVITY, HARDNESS, RESISTIVITY
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import METALS, RIGID, Amount, Choice, Modulus, PureNumber, known_material
+from roughcontact.recipe.texts import (
+    METALS,
+    RIGID,
+    Amount,
+    Choice,
+    Likely,
+    PureNumber,
+    known_material,
+    modulus,
+)
 
 __all__ = ["Bodies", "Conduction", "hardness_of"]
 
-_YOUNG = Modulus("Young's modulus")
+_YOUNG = modulus("Young's modulus")
 _POISSON = PureNumber(-0.99, 0.5, "Poisson's ratio", "0.3")
 
 
@@ -39,7 +48,7 @@ def hardness_of(text: str) -> Call | float:
     """Return a hardness [Pa], or the call that looks it up."""
     if (material := known_material(text)) is not None:
         return Call("rc.handbook", (material.name,), attribute="hardness")
-    return Modulus("a hardness")(text)
+    return modulus("a hardness", HARDNESS)(text)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +58,7 @@ class Bodies:
     TITLE: ClassVar = "The two bodies"
     ONE_OF: ClassVar = ("modulus", "materials", "young")
     modulus: str | None = described(
-        "Reduced modulus E*.", "110GPa", read=Modulus("the reduced modulus"), everyday=True
+        "Reduced modulus E*.", "110GPa", read=modulus("the reduced modulus"), everyday=True
     )
     materials: str | None = described(
         f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",
@@ -83,7 +92,7 @@ class Bodies:
         else:
             pairs = [("young", "poisson"), *([("young2", "poisson2")] if self.young2 is not None else [])]
             solids = [Call("rc.Solid", tuple(value_of(self, name) for name in pair)) for pair in pairs]
-        function = "float" if self.modulus is not None else "rc.reduced_modulus"
+        function = "" if self.modulus is not None else "rc.reduced_modulus"
         yield Call(function, tuple(solids), result="modulus", place="bodies")
 
     @property
@@ -97,8 +106,16 @@ class Bodies:
         return str(min(names, key=lambda name: handbook(name).hardness))
 
 
-def _of_both(kind: Kind, name: str) -> Callable[[str], tuple[Call | float, Call | float]]:
+# Carbon has 0.1 mohm*m at most, and metals 2 uohm*m.
+_RESISTIVITY = Likely(
+    Amount(RESISTIVITY, positive=False, zero=True), 0, 1e-3, "far above any metal or carbon", "nohm*m"
+)
+_CONDUCTIVITY = Amount(CONDUCTIVITY, positive=False, zero=True)
+
+
+def _of_both(amount: Amount | Likely, name: str) -> Callable[[str], tuple[Call | float, Call | float]]:
     """Return a reader of a property of both bodies: numbers with units or names of materials, or one for both."""
+    kind = amount.kind
 
     def read(text: str) -> tuple[Call | float, Call | float]:
         parts = [part for part in text.split(",") if part.strip()]
@@ -107,7 +124,6 @@ def _of_both(kind: Kind, name: str) -> Callable[[str], tuple[Call | float, Call 
                 f"{text!r} are {len(parts)} values, of two bodies",
                 f"give one for both or two, such as {kind.example},{kind.example}, or names such as steel,aluminium",
             )
-        amount = Amount(kind, positive=False, zero=True)
         values: list[Call | float] = [
             amount(part)
             if (material := known_material(part)) is None
@@ -130,13 +146,13 @@ class Conduction:
         "Electrical resistivity of both bodies, or of one and the other, as numbers or names of materials such as "
         "copper,gold: gives the resistance of the contact.",
         "17nohm*m[,...]",
-        read=_of_both(RESISTIVITY, "resistivity"),
+        read=_of_both(_RESISTIVITY, "resistivity"),
         names=METALS,
     )
     conductivity: str | None = described(
         "Thermal conductivity of both bodies, likewise.",
         "400W/m/K[,...]",
-        read=_of_both(CONDUCTIVITY, "conductivity"),
+        read=_of_both(_CONDUCTIVITY, "conductivity"),
         names=METALS,
     )
     of: str = described(

@@ -34,7 +34,8 @@ class Call:
     Parameters
     ----------
     function : str
-        What is called, from a module or a variable: ``"rc.read"``, ``"surface.levelled"``.
+        What is called, from a module or a variable: ``"rc.read"``, ``"surface.levelled"``; empty where the first
+        argument is the result.
     given, named : tuple, dict
         Its arguments by place and by name: plain values, a `Name`, or a call whose result is the argument.
     result : str
@@ -58,7 +59,7 @@ class Call:
     def value(self, known: Mapping[str, Any]) -> Any:
         """Return what is returned, with the variables that are known."""
         given, named = self.arguments(known)
-        found = _found(self.function, known)(*given, **named)
+        found = _found(self.function, known)(*given, **named) if self.function else given[0]
         return getattr(found, self.attribute) if self.attribute else found
 
     def arguments(self, known: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
@@ -69,7 +70,7 @@ class Call:
     def __str__(self) -> str:
         arguments = [written(each) for each in self.given]
         arguments += [f"{name}={written(each)}" for name, each in self.named.items()]
-        called = f"{self.function}({', '.join(arguments)})"
+        called = f"{self.function}({', '.join(arguments)})" if self.function else arguments[0]
         called = f"{called}.{self.attribute}" if self.attribute else called
         return f"{self.result} = {called}" if self.result else called
 

@@ -80,7 +80,6 @@ def known_names() -> dict[str, Any]:
     return {
         "rc": import_module("roughcontact"),
         "np": import_module("numpy"),
-        "float": float,
     }
 
 

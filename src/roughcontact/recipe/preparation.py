@@ -16,6 +16,7 @@ from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 __all__ = ["Preparation", "Step", "masks_named"]
 
 _MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in what the library says
+_REGIONS = ("box", "ellipse", "above", "below")
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
 
@@ -55,10 +56,10 @@ def masks_named(text: str, name: str) -> str:
 
 def _mask(text: str) -> dict[str, Any]:
     """Return the region that a text states, as arguments of `roughcontact.Surface.masked`."""
-    found = re.fullmatch(r"\s*(outside-)?(box|ellipse|above|below)\s*=(.+)", text)
+    found = re.fullmatch(rf"\s*(outside-)?({'|'.join(_REGIONS)})\s*=(.+)", text)
     if found is None:
         raise InputError(
-            f"{text!r} is no region", "write box=0:99,10:50, ellipse=0:99,10:50, above=3um or below=-3um"
+            f"{text!r} is no region", "write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um"
         )
     kind, value = found[2], found[3]
     region: Any = Amount(LENGTH, positive=False)(value) if kind in ("above", "below") else ranges(value)
@@ -111,10 +112,11 @@ class Preparation:
         "Take a region out, to missing points: box= or ellipse= of rows,columns; heights beyond above=3um or "
         "below=-3um, which are counted when the form is gone. outside- in front takes out all but the region. May be "
         "given again.",
-        "box=0:99,10:50",
+        "box=0:9,10:30",
         "masked",
         "Masking",
         read=_mask,
+        names=tuple(f"{out}{kind}=" for out in ("", "outside-") for kind in _REGIONS),
         default=(),
     )
     align: str | None = _step(

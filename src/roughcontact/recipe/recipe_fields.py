@@ -164,7 +164,7 @@ def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
             f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
         )
     with placed(name):
-        object.__setattr__(part, name, _as_declared(value, hint))
+        object.__setattr__(part, name, _as_declared(value, hint, spec.example or "".join(spec.choices[:1])))
     value_of(part, name)
 
 
@@ -188,26 +188,28 @@ def _quoted(name: str) -> str:
     return f"`{name}`"
 
 
-def _as_declared(value: Any, kind: Any) -> Any:
-    """Return a value as the type of its field: a flag, a text, or texts."""
+def _as_declared(value: Any, kind: Any, example: str) -> Any:
+    """Return a value as the type of its field: a flag, a text, or texts, such as the `example`."""
     if kind == tuple[str, ...]:
         parts = value if isinstance(value, list | tuple) else [value]
-        return tuple(_text(part) for part in parts)
+        return tuple(_text(part, example) for part in parts)
     if kind in (bool, bool | None):
         if not isinstance(value, bool):
             raise refused(value, "neither true nor false", "write true or false")
         return value
-    return _text(value)
+    return _text(value, example)
 
 
-def _text(value: Any) -> str:
+def _text(value: Any, example: str) -> str:
     """Return a number or a quantity as the user could have written it."""
     if not isinstance(value, str):
         from roughcontact.units import as_text  # late, with NumPy: options are texts
 
         value = as_text(value)
     if isinstance(value, bool) or not isinstance(value, str | Real):
-        raise refused(value, "no value of a recipe", "give a text such as '5 um', or a number in SI units")
+        raise refused(
+            value, "neither a text nor a number", f"give one, such as {example!r}" if example else "give one"
+        )
     if isinstance(value, str):
         return value.strip()
     if isinstance(value, Integral):

@@ -58,7 +58,7 @@ class File:
     KIND: ClassVar = "file"
     TITLE: ClassVar = "Reading the file"
     file: str = described(
-        "Measured heights: X3P, NumPy, text, ...",
+        "Measured heights: X3P, NumPy, text, ... - is standard input, as .npz; x3p:- as X3P.",
         "FILE",
         read=_word,
         default=...,

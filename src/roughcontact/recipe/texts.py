@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
-from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Kind
+from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, MODULUS, Kind
 from roughcontact.recipe.job_calls import Call
 
 if TYPE_CHECKING:
@@ -22,12 +23,14 @@ __all__ = [
     "RIGID",
     "Amount",
     "Choice",
-    "Modulus",
+    "Likely",
     "Names",
     "PureNumber",
     "band",
+    "choose",
     "known_material",
     "linear_loads",
+    "modulus",
     "points",
     "ranges",
     "rising_loads",
@@ -98,7 +101,7 @@ class Choice:
     def __call__(self, text: str) -> str:
         """Return the value that a text states."""
         if text not in self.choices:
-            raise InputError(f"there is no {text!r} here", _choose(text, self.choices))
+            raise InputError(f"there is no {text!r} here", choose(text, self.choices))
         return text
 
 
@@ -114,7 +117,7 @@ class Names:
         names = tuple(part.strip() for part in text.split(",") if part.strip())
         for name in names:
             if name not in self.names:
-                raise InputError(f"there is no {self.what} {name!r}", _choose(name, self.names))
+                raise InputError(f"there is no {self.what} {name!r}", choose(name, self.names))
         if not names or len(set(names)) < len(names):
             raise InputError(
                 f"{text!r} is no list of them",
@@ -123,7 +126,8 @@ class Names:
         return names
 
 
-def _choose(text: str, known: Sequence[str]) -> str:
+def choose(text: str, known: Sequence[str]) -> str:
+    """Return what to write instead of a text that is none of some words: the nearest, and all of them."""
     near = difflib.get_close_matches(text, known, 1)
     return (
         f"did you mean {near[0]!r}? choose of {', '.join(known)}" if near else f"choose of {', '.join(known)}"
@@ -145,22 +149,46 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
 
 
 @dataclass(frozen=True, slots=True)
-class Modulus:
-    """Reads moduli and hardnesses [Pa]; a bare number that is softer than any foam is asked about."""
+class Likely:
+    """Reads a quantity; a number without a unit that is out of the ordinary is asked about.
 
-    what: str
-    kind: ClassVar = PRESSURE
+    Parameters
+    ----------
+    amount : Amount
+    low, high : float
+        Between them values are ordinary, in SI.
+    odd : str
+        What a value beyond them is.
+    meant : str
+        The unit that was probably meant.
+    """
+
+    amount: Amount
+    low: float
+    high: float
+    odd: str
+    meant: str
+
+    @property
+    def kind(self) -> Kind:
+        """The kind of the quantity."""
+        return self.amount.kind
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
-        value = Amount(PRESSURE, self.what)(text)
-        if value < _FOAM and not quantity.has_unit(text):
-            bare = text.strip()
+        value = self.amount(text)
+        if not self.low <= value <= self.high and not quantity.has_unit(text):
+            bare, unit = text.strip(), self.kind.unit
             raise InputError(
-                f"{bare} without a unit is {bare} Pa, softer than foam",
-                f"write {bare}GPa if gigapascals are meant, or {bare}Pa if it is so",
+                f"{bare} without a unit is {bare} {unit}, {self.odd}",
+                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is so",
             )
         return value
+
+
+def modulus(what: str, kind: Kind = MODULUS) -> Likely:
+    """Return a reader of moduli and hardnesses [Pa]."""
+    return Likely(Amount(kind, what), _FOAM, math.inf, "softer than foam", "GPa")
 
 
 def known_material(text: str) -> Material | None:
@@ -272,9 +300,13 @@ def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
 
 
 def _parsed(text: str, kind: Kind) -> float:
-    """Return a quantity in SI; a number without a unit is in SI already."""
+    """Return a quantity in SI; a number without a unit is in SI already.
+
+    One with a unit is rounded to 15 digits: 200um is 0.0002 m, and not the neighbour that a product of numbers gives.
+    """
     try:
-        return quantity.parse(text, kind)
+        value = quantity.parse(text, kind)
+        return float(f"{value:.15g}") if quantity.has_unit(text) else value
     except InputError as error:
         if kind is FORCE and _is_per_length(text):
             remedy = "say that it is a profile by `profile`, or write a force such as 10N"

@@ -7,7 +7,7 @@ import json
 import os
 import tomllib
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar, Union, get_args, get_origin
@@ -17,6 +17,7 @@ import tomli_w
 from roughcontact.errors import InputError, every, together, within
 from roughcontact.files.file_errors import ContentError, ReadError
 from roughcontact.files.fingerprint import fingerprint
+from roughcontact.files.standard_streams import standard
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
 from roughcontact.recipe.jobs import JOBS, Job
@@ -27,7 +28,17 @@ from roughcontact.recipe.source import Combined, File, Source
 from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = [
-    *("FORMAT", "carried", "contact_in", "field_at", "from_plain", "located", "pinned", "read_job"),
+    *(
+        "FORMAT",
+        "carried",
+        "contact_in",
+        "field_at",
+        "fields_in",
+        "from_plain",
+        "located",
+        "pinned",
+        "read_job",
+    ),
     *("require_same_files", "to_plain", "toml_of", "with_files"),
 ]
 
@@ -113,18 +124,34 @@ def field_at(plain: Mapping[str, Any], name: str) -> Spec:
     InputError
         If there is no such field.
     """
-    kind: Any = JOBS.get(plain.get("job", ""), SurfaceJob)
-    for each in name.split("."):
-        found: dict[str, Spec | None] = {one.name: one.metadata.get("spec") for one in fields(kind)}
-        if each not in found:
-            raise InputError(f"there is no {each!r} here", f"there are {_names(kind)}", name)
-        if (spec := found[each]) is not None:
-            return spec
-        plain = plain.get(each, {})
-        hint = hints_of(kind)[each]
+    found = fields_in(plain)
+    if name in found:
+        return found[name]
+    inside = [each for each in found if each.startswith(f"{name}.")]
+    if inside:
+        raise InputError(f"{name} is no single value", f"choose of {', '.join(inside)}", name)
+    last = name.rpartition(".")[2]
+    near = [each for each in found if each.rpartition(".")[2] == last] or difflib.get_close_matches(
+        name, found, 2
+    )
+    remedy = f"did you mean {' or '.join(near)}?" if near else f"choose of {', '.join(found)}"
+    raise InputError(f"the job has no field {name!r}", remedy, name)
+
+
+def fields_in(plain: Mapping[str, Any]) -> dict[str, Spec]:
+    """Return what is known of each field of a recipe in plain values, by dotted names such as ``"bodies.modulus"``."""
+    return dict(_specs_in(JOBS.get(plain.get("job", ""), SurfaceJob), plain, ""))
+
+
+def _specs_in(kind: Any, plain: Mapping[str, Any], before: str) -> Iterator[tuple[str, Spec]]:
+    for each in fields(kind):
+        if (spec := each.metadata.get("spec")) is not None:
+            yield f"{before}{each.name}", spec
+            continue
+        inside, hint = plain.get(each.name, {}), hints_of(kind)[each.name]
         members = {one.KIND: one for one in get_args(hint)} if _is_union(hint) else {}
-        kind = members.get(plain.get("kind", File.KIND), File) if members else hint
-    raise InputError(f"{name} is no single value", f"there are {_names(kind)}", name)
+        part = members.get(inside.get("kind", File.KIND), File) if members else hint
+        yield from _specs_in(part, inside, f"{before}{each.name}.")
 
 
 def _value(name: str, kind: Any, value: Any) -> Any:
@@ -243,7 +270,9 @@ def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
 
 def located(job: Job, folder: Path) -> Job:
     """Return a job whose relative file names, which count from a folder, count from the current one."""
-    return with_files(job, lambda file: replace(file, file=str(folder / file.file)))
+    return with_files(
+        job, lambda file: file if standard(file.file) else replace(file, file=str(folder / file.file))
+    )
 
 
 def toml_of(recipe: Mapping[str, Any]) -> str:
@@ -256,7 +285,8 @@ def pinned(job: Job, folder: Path) -> Job:
 
     def pin(file: File) -> File:
         # Bytes of a name that are no letters have no place in a text.
-        name = os.path.relpath(file.file, folder).encode("utf-8", "replace").decode("utf-8")
+        path = file.file if standard(file.file) else os.path.relpath(file.file, folder)
+        name = path.encode("utf-8", "replace").decode("utf-8")
         return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
 
     return with_files(job, pin)

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, placed
 from roughcontact.recipe.jobs import Job, surface_calls
-from roughcontact.recipe.written import pinned, to_plain
+from roughcontact.recipe.written import field_at, pinned, to_plain
 from roughcontact.study.cases.job_case import draws, without_outputs
 from roughcontact.study.nested_names import flat, merged
 from roughcontact.study.study import Study
@@ -48,7 +48,11 @@ def job_study(job: Job, vary: Mapping[str, Sequence[Any]], *, samples: int, path
         name: [_from(folder, each) for each in values] if name.endswith(".file") else values
         for name, values in vary.items()
     }
-    given = flat(to_plain(without_outputs(pinned(job, folder))))
+    plain = to_plain(without_outputs(pinned(job, folder)))
+    with placed("vary"):
+        for name in vary:
+            field_at(plain, name)
+    given = flat(plain)
     # Of files the study itself keeps the fingerprints, and of random numbers the seed.
     left = {
         name: each

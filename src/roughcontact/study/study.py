@@ -208,6 +208,11 @@ class Study(Checked):
         """
         try:
             values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+            if "job" in values and "case" not in values:
+                raise StudyError(
+                    "this is a job, and no study",
+                    f"do it by 'roughcontact run {path}', or vary it by 'roughcontact study from {path}'",
+                )
             if reads_files(str(values.get("case"))):
                 values["folder"] = os.path.normpath(Path(path).parent / str(values.get("folder", "")))
             return cls(**values)

@@ -222,7 +222,12 @@ def test_all_mistakes_come_at_once_each_with_its_place():
         (CURVE, {"source.hurst": ["0.5"]}, "parameters.source.hurst, table.source.hurst", "given both in"),
         (CURVE, {"bodies": [{"modulus": 2e9}]}, "parameters.bodies.modulus, table.bodies.modulus", "both in"),
         (CURVE, {"bodies.young": ["2GPa"]}, "parameters.bodies.modulus, table.bodies.young", "exclude"),
-        (CURVE, {"source.kind": {"start": 1, "stop": 2, "count": 2}}, "table.source.kind", "no 'kind' here"),
+        (
+            CURVE,
+            {"source.kind": {"start": 1, "stop": 2, "count": 2}},
+            "table.source.kind",
+            "no field 'source.kind'",
+        ),
         (CURVE, {"loads": {"start": 1, "stop": 2, "count": 2}}, "table.loads", "no single value"),
         (CURVE | {"format": 9}, {}, "parameters.format", "this version reads 1"),
     ],

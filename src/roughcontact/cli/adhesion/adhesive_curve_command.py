@@ -36,7 +36,7 @@ roughcontact adhesion loop part.x3p --depth 20nm --points 5 --modulus 1GPa --wor
 
 
 def curve(job: AdhesiveCurveJob, *, answer: Answer) -> None:
-    """Bring a surface that sticks to one load after the other, up and down: force, area and stiffness, and the jumps.
+    """Load a surface that sticks, up and down: force, area, stiffness and jumps.
 
     States depend on the history: approach and retreat differ. Ctrl-C keeps what is done; a path cannot be resumed.
     """

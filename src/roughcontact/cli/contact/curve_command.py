@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -18,9 +18,10 @@ from roughcontact.cli.contact.loop_files import write_loop
 from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, softer_of
 from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, note, remark
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output, writing
+from roughcontact.cli.parsing.several import Cells
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
 from roughcontact.progress.events import task
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
 
-__all__ = ["EXAMPLES", "curve"]
+__all__ = ["CELLS", "EXAMPLES", "curve"]
 
 EXAMPLES = {
     "curve": """
@@ -50,6 +51,7 @@ roughcontact curve part.x3p --forces 1N:100N:30 --modulus 110GPa --out result
 roughcontact curve part.x3p --depths 0.1um,0.2um,0.5um --young 210GPa --poisson 0.3
 roughcontact curve part.x3p --modulus 110GPa --theory persson,gw,power-law --resistivity 17nohm*m --out result
 roughcontact curve part.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --unit-pressure MPa --unit-stiffness N/um/mm^2
+roughcontact curve part.x3p other.x3p --pressures 1kPa:10MPa:40 --modulus 110GPa --out results
 roughcontact curve part.x3p --modulus 110GPa --errors --shortest-wave 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
@@ -58,6 +60,19 @@ roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --t
 """,
 }
 
+CELLS: dict[str, Cells] = {
+    "curve": {
+        "the map is": lambda record: str(record["kind"]),
+        "loads": lambda record: str(len(record["force"])),
+        "resolved": lambda record: str(sum(record["resolved"])),
+        "from": lambda record: _shown(record, "force", 0),
+        "to": lambda record: _shown(record, "force", -1),
+        "exponent of k": lambda record: "-" if record["fit"] is None else f"{record['fit']['exponent']:.3f}",
+        "stiffness k": lambda record: _shown(record, "stiffness", -1),
+        "K/A0": lambda record: _shown(record, "interfacial_stiffness_per_area", -1),
+        "A/A0": lambda record: _shown(record, "contact_fraction", -1),
+    }
+}
 _FEWEST = 3  # resolved loads that a power law takes
 
 
@@ -129,6 +144,14 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         raise typer.Exit(MISSED)
 
 
+def _shown(record: Mapping[str, Any], name: str, at: int) -> str:
+    """Return a number of the first or last load, with its unit."""
+    from roughcontact.halfspace.operators.geometry import Geometry
+
+    value = record[name][at] if name in record else None
+    return "-" if value is None else quantity(name, value, Geometry(record["geometry"]))
+
+
 def _computed(
     surface: Surface,
     modulus: float,
@@ -197,7 +220,7 @@ def _suggested(
     small = "below what the grid resolves"
     if kind is Geometry.SURFACE:  # where the stiffness may be resolved already
         small = "so light that single cells set their area and pressure"
-    note(
+    remark(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
         f"{below} of them {small} (--forces for others)"
     )

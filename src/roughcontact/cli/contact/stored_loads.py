@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughcontact.cli.messages import note
+from roughcontact.cli.messages import remark
 from roughcontact.contact.join_curves import part_of
 from roughcontact.files.read_curve import read_curve
 from roughcontact.labels.note import Note, Rank
@@ -70,7 +70,7 @@ def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads |
     chosen = np.isin(stored, loads.values)
     if not same or version != f"roughcontact {__version__}" or len(stored) != len(curve) or not chosen.any():
         return None
-    note(
+    remark(
         f"{int(chosen.sum())} of {loads.values.size} loads are in {out} already, of the same recipe: they are kept"
     )
     return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)

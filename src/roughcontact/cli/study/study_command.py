@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import UsageError, note, remark, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.output import command_line
@@ -21,6 +21,7 @@ from roughcontact.cli.progress_view import duration
 from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.resumable import resumable
 from roughcontact.cli.study.study_engine import Workplace
+from roughcontact.recipe.texts import whole
 
 if TYPE_CHECKING:
     import xarray
@@ -65,7 +66,9 @@ RETRY = option("Try failed cases again.", default=False)
 FOLDER = argument("The folder that a study was run in.", "DIR")
 FILE = option("File to write: .nc or .csv.", "FILE", default=...)
 FAILED = option("List all failed cases, and why they failed.", default=False)
-SAMPLES = option("Samples that every combination shall have.", "N", default=..., min=1)
+SAMPLES = option(
+    "Samples that every combination shall have.", "N", default=..., read=whole(1, "the number of samples")
+)
 
 
 def run(
@@ -134,7 +137,7 @@ def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> 
         with Store.open(folder, study.with_samples(samples)) as store:
             study, summary = store.study, store.summary()
         _tell(study, folder, summary, as_json=json)
-        note(f"to compute them: {_command('run', folder)}")
+        remark(f"to compute them: {_command('run', folder)}")
 
 
 def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:

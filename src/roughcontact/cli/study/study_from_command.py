@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import json as json_text
+import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from roughcontact.cli.messages import UsageError, note, reported
+import typer
+
+from roughcontact.cli.messages import UsageError, remark, reported
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_facts
+from roughcontact.recipe.texts import whole
 
 __all__ = ["EXAMPLES", "from_"]
 
@@ -22,13 +28,32 @@ roughcontact study from job.toml --vary "bodies.materials=steel,steel;steel,copp
 }
 
 SOURCE = argument("A job, or a result that holds its recipe.", "JOB.toml|RESULT.json")
+
+
+def _fields(ctx: typer.Context, incomplete: str) -> list[str]:
+    """Return the fields of the job that is named already, for the completion of one."""
+    from roughcontact.recipe.written import fields_in
+
+    found: dict[str, Any] = {}
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        data = Path(next(iter(ctx.args), str(ctx.params["source"]))).read_bytes()
+        found = json_text.loads(data)["recipe"] if data.startswith(b"{") else tomllib.loads(data.decode())
+    return [f"{name}=" for name in fields_in(found) if name.startswith(incomplete)]
+
+
 VARY = option(
     "A field of the job and its values, which commas separate, or semicolons where a value holds commas. May be given "
     "again, for another field.",
     "FIELD=VALUE,...",
     default=(),
+    autocompletion=_fields,
 )
-SAMPLES = option("Samples of every combination; each draws a surface of its own.", "N", default=1, min=1)
+SAMPLES = option(
+    "Samples of every combination; each draws a surface of its own.",
+    "N",
+    default="1",
+    read=whole(1, "the number of samples"),
+)
 OUT = option("Study file to write.", "STUDY.toml", default=...)
 _FLAGS = {"true": True, "false": False}
 
@@ -60,8 +85,8 @@ def from_(
         else:
             print_facts([("file", str(out)), ("cases", _counted(combinations, samples))])
         if is_random(job):
-            note("each sample draws random phases of its own, from the seed of the study")
-        note(f"to compute them: roughcontact study run {out}")
+            remark("each sample draws random phases of its own, from the seed of the study")
+        remark(f"to compute them: roughcontact study run {out}")
 
 
 def _counted(combinations: int, samples: int) -> str:

@@ -18,6 +18,7 @@ from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import FORCE, PRESSURE, has_unit, parse, parse_number
 from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
+from roughcontact.recipe.texts import choose
 
 if TYPE_CHECKING:
     import xarray
@@ -107,7 +108,7 @@ def _quantities(
         if name not in means_of(averaged):
             raise UsageError(
                 f"no {name!r} differs between samples",
-                f"choose of {', '.join(means_of(averaged))}",
+                choose(name, means_of(averaged)),
                 place="--quantity",
             )
         if name not in single:

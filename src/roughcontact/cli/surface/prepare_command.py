@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughcontact.cli.contact_of_job import name_of, prepared
-from roughcontact.cli.messages import note, plain
+from roughcontact.cli.messages import plain, remark
 from roughcontact.cli.options import JSON, OUTPUT
 from roughcontact.cli.output import output
 from roughcontact.cli.report import surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import require_output, save_surface
+from roughcontact.cli.saving import answer_beside, require_output, save_surface
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.source import File
@@ -54,16 +54,18 @@ def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     """
     source = job.source
     if isinstance(answer, Saved):
-        require_output(answer.file, Path(source.file) if isinstance(source, File) else None)
+        original = Path(source.file) if isinstance(source, File) else None
+        require_output(answer.file, original, as_json=answer.json)
     if job.preparation == Preparation():
-        note("no step is asked for: the surface is written as it was read")
+        remark("no step is asked for: the surface is written as it was read")
     with nullcontext() if isinstance(answer, Saved) else output(answer.out):
         surface = prepared(job, _require_memory)["surface"]
         if answer.file is not None:
             save_surface(surface, answer.file)
     file = name_of(source) if answer.file is None else plain(str(answer.file))
     record = {"command": "surface prepare", "file": file} | surface_record(surface)
-    tell(record, surface_facts(surface, record), as_json=answer.json)
+    with answer_beside(answer.file):
+        tell(record, surface_facts(surface, record), as_json=answer.json)
 
 
 def _require_memory(surface: Surface) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from roughcontact.cli.contact_of_job import name_of, prepared
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, note, remark
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, print_facts, quantity, size_of
@@ -163,7 +163,7 @@ def _analysed(surface: Surface, asked: Asked) -> tuple[PowerSpectrum, HurstFit]:
     band = asked.band()
     if asked.level is None and not all(surface.grid.periodic):
         trend = "plane" if surface.grid.ndim == 2 else "line"
-        note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+        remark(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
     whole = rc.power_spectrum(surface, direction, level=level, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
     return whole, rc.fit_spectrum(whole, limit=limit)

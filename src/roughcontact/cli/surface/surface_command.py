@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
-from roughcontact.cli.messages import as_typed, note, plain, reported
+from roughcontact.cli.messages import as_typed, plain, remark, reported
 from roughcontact.cli.options import JSON, OUTPUT, Answer
-from roughcontact.cli.report import print_facts, surface_facts, surface_record, tell
+from roughcontact.cli.parsing.several import Cells
+from roughcontact.cli.report import print_facts, quantity, surface_facts, surface_record, tell
 from roughcontact.cli.run_memory import require_memory
-from roughcontact.cli.saving import require_output, save_surface
+from roughcontact.cli.saving import answer_beside, require_output, save_surface
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
@@ -27,22 +28,35 @@ if TYPE_CHECKING:
     from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
-__all__ = ["EXAMPLES", "info", "make", "specified"]
+__all__ = ["CELLS", "EXAMPLES", "info", "make", "specified"]
 
 EXAMPLES = {
     "info": """
 roughcontact surface info part.x3p --out result --format svg
 roughcontact surface info heights.csv --unit nm --size 1mm --json
 roughcontact surface info scan.csv
+roughcontact surface info *.x3p
 """,
     "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
+roughcontact surface make - --hurst 0.8 --rms 1um --size 1mm | roughcontact surface spectrum -
 """,
     "specified": """
 roughcontact surface specified joint.npz --sigma 1.2um --slope 0.12 --hurst 0.8 --rolloff 64um --size 0.5mm --periodic
 roughcontact surface specified face.npz --ra 1um --hurst 0.8 --correlation-length 20um --short-cutoff 8um --size 1mm
 """,
+}
+CELLS: dict[str, Cells] = {
+    "info": {
+        "cells": lambda record: " x ".join(map(str, record["shape"])),
+        "size": lambda record: " x ".join(quantity("lengths", length) for length in record["lengths"]),
+        "missing": lambda record: str(record["missing"]),
+        "rms height": lambda record: quantity("rms", record["rms"]),
+        "lowest": lambda record: quantity("depth", record["lowest"]),
+        "highest": lambda record: quantity("depth", record["highest"]),
+        "suspicious": lambda record: str(len(record["suspicious"])),
+    }
 }
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
 _BYTES_PER_POINT = 47  # of the synthesis 21, of its facts and the file up to 49: measured with NPZ and X3P
@@ -81,7 +95,7 @@ def info(source: File, *, answer: Answer) -> None:
                     _draw(surface, spikes, folder / f"surface.{answer.ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=answer.json)
         if folder is not None:
-            note(f"surface.{answer.ending} is in {folder}")
+            remark(f"surface.{answer.ending} is in {folder}")
 
 
 def _require_memory(surface: Surface) -> None:
@@ -112,7 +126,7 @@ def _make(out: Path, source: SelfAffine | Specified, waves: Sequence[str], *, js
     import roughcontact as rc
 
     slabs, shape = slabs_of_job(), points(source.points)
-    require_output(out, in_slabs=slabs is not None)
+    require_output(out, in_slabs=slabs is not None, as_json=json)
     share = 1 if slabs is None else slabs.communicator.size
     require_memory(_BYTES_PER_POINT * math.prod(shape) // share, shape)
     surface = prepared(SurfaceJob(source=source))["surface"]
@@ -122,7 +136,8 @@ def _make(out: Path, source: SelfAffine | Specified, waves: Sequence[str], *, js
     surface = replace(surface, provenance=(*surface.provenance, made))
     save_surface(surface, out)
     record = {"file": plain(str(out)), "seed": seed} | surface_record(surface)
-    tell(record, surface_facts(surface, record), as_json=json)
+    with answer_beside(out):
+        tell(record, surface_facts(surface, record), as_json=json)
 
 
 def _channels(file: Path) -> list[dict[str, Any]]:

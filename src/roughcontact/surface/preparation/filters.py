@@ -74,8 +74,9 @@ def filtered(
         )
     if short_cutoff is not None and long_cutoff is not None and not short_cutoff < long_cutoff:
         raise InputError(
-            f"short_cutoff {short_cutoff:g} m must be below long_cutoff {long_cutoff:g} m",
-            place="short_cutoff, long_cutoff",
+            f"the short cut-off of {short_cutoff:g} m must be below the long one of {long_cutoff:g} m",
+            "exchange them",
+            "short_cutoff, long_cutoff",
         )
     grid = surface.grid
     for name, cutoff in (("short_cutoff", short_cutoff), ("long_cutoff", long_cutoff)):

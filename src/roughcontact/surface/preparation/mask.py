@@ -49,7 +49,7 @@ def masked(
     Raises
     ------
     ValueError
-        If there is not one region, it has no cell, or no measured point is left.
+        If there is not one region, it ends beyond the map, it has no cell, or no measured point is left.
 
     Examples
     --------

@@ -36,7 +36,8 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
     Raises
     ------
     ValueError
-        If there is not one slice for each axis, a slice has a step, is empty, or holds no measured point.
+        If there is not one slice for each axis, a slice has a step, ends beyond the map, is empty, or holds no
+        measured point.
 
     Examples
     --------
@@ -108,7 +109,7 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
         )
     ]
     how = "after a Gaussian filter" if anti_alias else "without a filter"
-    line = f"downsampled by {' x '.join(map(str, factors))} {how}"
+    line = f"downsampled by {' x '.join(map(str, factors))} {how}{_left_out(grid, factors)}"
     return surface.with_heights(chosen, line, _coarse(grid, factors))
 
 
@@ -155,7 +156,7 @@ def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
     total = np.where(measured, blocks, 0.0).sum(axis=inner)
     enough = 2 * count >= np.prod(factors)
     heights = np.divide(total, count, out=np.full(coarse.shape, np.nan), where=enough)
-    line = f"averaged over pixels of {' x '.join(map(str, factors))} cells"
+    line = f"averaged over pixels of {' x '.join(map(str, factors))} cells{_left_out(grid, factors)}"
     return surface.with_heights(heights, line, coarse)
 
 
@@ -180,6 +181,16 @@ def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
     return tuple(int(k) for k in factors)
 
 
+def _left_out(grid: Grid, factors: tuple[int, ...]) -> str:
+    """Return which cells at the end fill no block, as the end of a line of the history."""
+    names = ("rows", "columns") if grid.ndim == 2 else ("cells",)
+    over = [n % k for n, k in zip(grid.shape, factors, strict=True)]
+    parts = [
+        f"{count} of {n} {name}" for count, n, name in zip(over, grid.shape, names, strict=True) if count
+    ]
+    return f"; the last {' and '.join(parts)} are left out" if parts else ""
+
+
 def _coarse(grid: Grid, factors: tuple[int, ...]) -> Grid:
     shape = [n // k for n, k in zip(grid.shape, factors, strict=True)]
     return Grid(shape, [step * k for step, k in zip(grid.spacing, factors, strict=True)], grid.periodic)
@@ -191,7 +202,8 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
     Raises
     ------
     ValueError
-        If there is not one for each axis, one has a step, or holds no cell; the message says `what` they are of.
+        If there is not one for each axis, one has a step, ends beyond the grid, or holds no cell; the message says
+        `what` they are of.
     """
     if len(parts) != grid.ndim:
         raise about(
@@ -201,6 +213,14 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
         )
     if any(part.step not in (None, 1) for part in parts):
         raise about(what, "has no step", "use downsampled for a subsample")
+    for part, n in zip(parts, grid.shape, strict=True):
+        if any(end is not None and not -n <= end <= n for end in (part.start, part.stop)):
+            words = f"{'' if part.start is None else part.start}:{'' if part.stop is None else part.stop}"
+            raise about(
+                what,
+                f"of cells {words} ends beyond the {n} cells of the map",
+                f"end at {n} at most; an open end, such as 0:, is that of the map",
+            )
     ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]
     if any(stop <= start for start, stop in ranges):
         raise InputError(f"nothing is left of {grid.shape} cells in {range_words(ranges)}")

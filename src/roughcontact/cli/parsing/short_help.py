@@ -30,7 +30,7 @@ def write_short_help(command: Any, context: Any, formatter: Any, more: Collectio
     others = []
     for each in command.params:
         if each.name in more:
-            others.append(each.opts[0])
+            others.append(max(each.opts, key=len))
         elif each.name != "help_all":
             heading = getattr(each, "rich_help_panel", None) or "Arguments"
             headings.setdefault(heading, []).append((_words(each), _first_sentence(each.help)))

@@ -1,0 +1,92 @@
+"""One command on several files: a table with a row a file, or one array of JSON; a file that fails keeps its row."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import typer
+
+from roughcontact.cli.exits import INTERRUPTED, MISSED
+from roughcontact.cli.verbosity import is_quiet
+
+__all__ = ["Cells", "do_each"]
+
+Cells: TypeAlias = Mapping[str, Callable[[Mapping[str, Any]], str]]
+"""By the heading of a column, what stands in it of an answer in plain values."""
+
+_STATUS = {0: "ok", MISSED: "tolerance missed", INTERRUPTED: "stopped"}
+
+
+def do_each(
+    files: Sequence[str], one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any], cells: Cells
+) -> None:
+    """Do a command on one file after the other, and print what it answers of each.
+
+    Parameters
+    ----------
+    files : sequence of str
+        As they were typed.
+    one : function
+        Does the command, with its options by name, on one of them.
+    given : mapping
+        The options for all of them; ``out`` gets a folder for each.
+    cells : mapping
+        The columns of the table.
+
+    Raises
+    ------
+    typer.Exit
+        With the status of the file that went worst, if it is not 0. Ctrl-C ends the work with the files that are done.
+    """
+    from roughcontact.cli.report import print_table
+
+    answers: list[tuple[str, Mapping[str, Any], int]] = []
+    for file, folder in zip(files, _folders(files), strict=True):
+        if not is_quiet():
+            typer.echo(f"{file}:", err=True)
+        out = None if given["out"] is None else given["out"] / folder
+        record, status = _answer(one, {**given, "file": file, "json": True, "out": out})
+        answers.append((file, {"file": file, **record}, status))
+        if status == INTERRUPTED:
+            break
+    if given["json"]:
+        typer.echo(json.dumps([record for _, record, _ in answers], allow_nan=False, ensure_ascii=True))
+    else:
+        width = max(map(len, files))
+        rows = [list(_row(file.ljust(width), record, status, cells)) for file, record, status in answers]
+        print_table(("file".ljust(width), *cells, "status"), rows)
+    if worst := max(status for *_, status in answers):
+        raise typer.Exit(worst)
+
+
+def _answer(one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any]) -> tuple[dict[str, Any], int]:
+    """Return what a command answers as plain values, and its status."""
+    status = 0
+    with redirect_stdout(StringIO()) as printed:
+        try:
+            one(given)
+        except typer.Exit as end:
+            status = end.exit_code
+    record: dict[str, Any] = json.loads(printed.getvalue())
+    return record, status
+
+
+def _row(file: str, record: Mapping[str, Any], status: int, cells: Cells) -> Iterator[str]:
+    failed = "error" in record
+    yield file
+    for cell in cells.values():
+        yield "-" if failed else cell(record)
+    yield "failed" if failed and status != INTERRUPTED else _STATUS[status]
+
+
+def _folders(files: Sequence[str]) -> list[str]:
+    """Return the name of a folder for each file: without its ending, where it is the only one of that name."""
+    stems = [Path(file).stem for file in files]
+    if len(set(stems)) == len(stems):
+        return stems
+    return [f"{number}-{Path(file).name}" for number, file in enumerate(files, 1)]

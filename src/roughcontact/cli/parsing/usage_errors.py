@@ -1,0 +1,114 @@
+"""What the parser of the command line refuses, in the words of our own errors: what, where, and what to write."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from roughcontact.cli.messages import UsageError
+from roughcontact.errors import InputError
+from roughcontact.recipe.texts import choose
+
+__all__ = ["in_our_words", "no_such_command"]
+
+
+@contextmanager
+def in_our_words(context: Any = None) -> Iterator[None]:
+    """Turn what the parser refuses into a `UsageError`; a group that is called alone has shown its help.
+
+    The `context` of click is taken where the error does not carry its own.
+    """
+    try:
+        yield
+    except InputError as refused:  # of what reads the text of an option
+        raise UsageError(refused.message, refused.remedy, refused.place) from refused
+    except Exception as raised:
+        error: Any = raised  # typers differ in the module of the class
+        if type(error).__name__ == "NoArgsIsHelpError":  # which has shown it
+            raise typer.Exit(error.exit_code) from None
+        if not hasattr(error, "format_message"):
+            raise
+        raise _stated(error, error.ctx or context) from error
+
+
+def no_such_command(context: Any, name: str, known: Iterable[str]) -> UsageError:
+    """Return the error about a command that there is not."""
+    return UsageError(f"{context.command_path!r} has no command {name!r}", choose(name, tuple(known)))
+
+
+def _stated(error: Any, context: Any) -> UsageError:
+    name: Any = getattr(error, "option_name", None)
+    if hasattr(error, "possibilities"):
+        return UsageError("there is no such option", _instead(context, name), name)
+    if name is not None:
+        named = next((each for each in context.command.params if name in each.opts), None)
+        if named is None or named.is_flag:
+            return UsageError("this option takes no value", f"write {name} alone", name)
+        return UsageError("the value is missing", f"write {name} {named.metavar}", name)
+    named = getattr(error, "param", None)
+    if named is not None and type(error).__name__ == "MissingParameter":
+        option = named.opts[0]
+        if named.param_type_name == "option":
+            return UsageError("this option must be given", f"write {option} {named.metavar}", option)
+        return UsageError(f"{named.metavar} is missing", _as_in_example(context), named.metavar)
+    if (extra := re.search(r"unexpected extra argument\S* \((.*)\)", error.message)) is not None:
+        words = f"there is no place for {extra[1]!r}"
+        return UsageError(words, "put quotes around a value that holds a space, such as '10 N'")
+    return UsageError(error.message, place=None if named is None else named.opts[0])
+
+
+def _instead(context: Any, option: str) -> str:
+    """Return what to write instead of an option that a command does not have."""
+    if option in _VERBOSITY and isinstance(context.command, TyperGroup):
+        return f"write it behind the name of a command: {context.command_path} COMMAND {option}"
+    arguments = [each.opts[0] for each in context.command.params if each.param_type_name == "argument"]
+    if option.removeprefix("--") in arguments:
+        return f"write its value alone, without {option}"
+    if found := _elsewhere(context, option):
+        return f"use {' or '.join(found)} for it"
+    known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]
+    near = difflib.get_close_matches(option, known, 2)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"choose one that '{context.command_path} --help-all' lists"
+
+
+_VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
+
+
+def _elsewhere(context: Any, option: str) -> list[str]:
+    """Return which commands of the same name in other groups take an option, else which of the same nested group do."""
+    root = context.find_root()
+    if isinstance(context.command, TyperGroup):
+        return []
+    groups = {root.info_name: root.command} | {
+        f"{root.info_name} {name}": group
+        for name, group in root.command.commands.items()
+        if isinstance(group, TyperGroup)
+    }
+
+    def taking(path: str, names: Iterable[str]) -> list[str]:
+        known = [(name, groups[path].get_command(context, name)) for name in names]
+        return [f"'{path} {name}'" for name, each in known if any(option in one.opts for one in each.params)]
+
+    found = [
+        word
+        for path in groups
+        if context.info_name in groups[path].commands
+        for word in taking(path, [context.info_name])
+    ]
+    if not found and context.parent is not root:
+        found = taking(context.parent.command_path, context.parent.command.commands)
+    return found
+
+
+def _as_in_example(context: Any) -> str:
+    """Return the first example of a command, as a remedy."""
+    lines = (context.command.epilog or "").split("\n\n")
+    return f"write a line such as: {lines[1]}" if len(lines) > 1 else f"see {context.command_path} --help"
