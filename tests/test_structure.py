@@ -22,6 +22,7 @@ ORDER = [
     {"errors"},
     {"cached", "memory", "progress", "threads", "units", "version"},
     {"validation"},
+    {"guesses"},
     {"late"},
     {"kernels"},
     {"arrays"},

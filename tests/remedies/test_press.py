@@ -58,7 +58,7 @@ LOADS = [
     ),
     row(
         lambda: press(ROUGH.heights),
-        "surface must be a Surface, such as rc.Surface(heights, grid), or a RadialProfile",
+        "surface must be a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
         lambda: press(rc.Surface(ROUGH.heights, PLANE)),
         lambda: press(rc.RadialProfile(np.zeros(4), rc.RadialGrid.uniform(4, 1e-6))),
     ),

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from operator import index
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
+from roughcontact.adhesion.adhesive_record import AdhesivePoint
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.quasi_static import Jump
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
 from roughcontact.labels.column import stored_in
+from roughcontact.labels.records import records
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
@@ -31,6 +35,7 @@ _POINTS = (
 )
 
 
+@hinted
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AdhesiveCurve:
     """Points of a path of surfaces that stick, and its jumps; made by `adhesive_curve` and `adhesive_loop`.
@@ -119,6 +124,14 @@ class AdhesiveCurve:
     def __len__(self) -> int:
         return len(self.force)
 
+    def __getitem__(self, place: int) -> AdhesivePoint:
+        """Return one point as a record, counted from 0, from the end if negative."""
+        return tuple(self)[index(place)]
+
+    def __iter__(self) -> Iterator[AdhesivePoint]:
+        """Yield the points in the order of the path, each as a record."""
+        return records(AdhesivePoint, self)
+
     @property
     def branch(self) -> npt.NDArray[np.str_]:
         """Of each point ``"approach"`` or ``"retreat"``."""
@@ -171,6 +184,7 @@ class AdhesiveCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
+    to_csv = methods.csv_of
     to_dataset = methods.adhesive_curve_dataset
     to_record = methods.adhesive_curve_record
     plot = methods.jump_loop

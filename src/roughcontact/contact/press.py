@@ -67,9 +67,9 @@ def press(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual; see docs/conventions.md.
-    hardness : float, array or function, optional
+    hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
-        or a function of the radii of the contact spots [m], such as `NixGao`.
+        a function of the radii of the contact spots [m], such as `NixGao`, or a material of the `handbook` or its name.
 
     Returns
     -------

@@ -22,6 +22,7 @@ from roughcontact.contact.stiffness import (
     frozen_contact,
     full_contact_stiffness,
 )
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.variables import unit_of
@@ -37,6 +38,7 @@ from roughcontact.validation import Array
 __all__ = ["Solution"]
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
     """A pressure, its depth and its certificate; the rest is computed when asked for, once.
