@@ -77,7 +77,8 @@ class Grid:
         lengths = in_si(stated, "m", given)
         steps = _per_axis(lengths, len(sizes), given)
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise about(given, f"must be positive, finite numbers [m], not {steps}")
+            remedy = "give metres, such as 1e-6" if any(isinstance(step, str) for step in steps) else None
+            raise about(given, f"must be positive, finite numbers [m], not {steps}", remedy)
         if given == "size":
             cells = (sizes[-1],) * len(sizes) if np.ndim(lengths) == 0 else sizes
             steps = tuple(length / n for length, n in zip(steps, cells, strict=True))

@@ -106,7 +106,10 @@ def require_solid(body: Any) -> Solid:
         If it is none.
     """
     if not isinstance(body, Solid):
-        raise InputError(f"a Solid is wanted (young_modulus, poisson_ratio), not {shown(body)}")
+        raise InputError(
+            f"a Solid is wanted (young_modulus, poisson_ratio), not {shown(body)}",
+            "give such as rc.Solid(210e9, 0.3), or by name rc.reduced_modulus('steel', 'aluminium')",
+        )
     return body
 
 

@@ -231,7 +231,8 @@ def hardness_of(value: Any) -> Any:
     return material.hardness if isinstance(material, Material) else value
 
 
-def _solids(*bodies: Elastic | None) -> tuple[Solid, ...]:
-    """Return the solids of the bodies that are not rigid."""
-    materials = [handbook(body) if isinstance(body, str) else body for body in bodies if body is not None]
+def _solids(first: Elastic, second: Elastic | None) -> tuple[Solid, ...]:
+    """Return the solids of one body, or of two."""
+    bodies = (first,) if second is None else (first, second)
+    materials = (handbook(body) if isinstance(body, str) else body for body in bodies)
     return tuple(require_solid(each.solid if isinstance(each, Material) else each) for each in materials)

@@ -113,8 +113,26 @@ BODIES = [
     ),
     row(
         lambda: press(modulus=(1e9, 2e9)),
-        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0",
-        lambda: press(modulus=(rc.Solid(1e9, 0.3), rc.Solid(2e9, 0.3))),
+        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0: give such as rc.Solid(210e9, 0.3), or by "
+        "name rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=(rc.Solid(1e9, 0.3), rc.Solid(210e9, 0.3))),
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(modulus=("steel", "aluminium")),
+        "or by name rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(modulus=rc.handbook("steel")),
+        "give a number, or of materials rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(hardness="cheese"),
+        "there is no material named 'cheese'; there are steel",
+        lambda: press(hardness="steel"),
+        lambda: press(hardness=rc.handbook("gold")),
     ),
     row(lambda: rc.Solid(0, 0.3), "young_modulus must be positive [Pa], not 0", lambda: rc.Solid(1e9, 0.3)),
     row(

@@ -241,7 +241,7 @@ def compare(
     if not hasattr(theory, "quantities"):
         name = theory if isinstance(theory, str) else "gw"
         raise InputError(
-            f"a theory of the surface that was pressed is wanted, which a curve does not hold, not {shown(theory)}",
+            f"a theory is wanted, made for the surface that was pressed, not {shown(theory)}",
             f"give rc.loading_laws(surface, modulus, {name!r})[0], or a LoadingLaw of your own",
             "theory",
         )

@@ -43,8 +43,8 @@ class CurvePoint:
     >>> curve = rc.loading_curve(ball, 1e9, forces=[1e-2, 2e-2])
     >>> for point in curve:
     ...     print(f"{point.force:.2f} N, {point.depth * 1e9:.0f} nm, {point.status.value}")
-    0.01 N, 825 nm, converged
-    0.02 N, 1310 nm, converged
+    0.01 N, 823 nm, converged
+    0.02 N, 1308 nm, converged
     """
 
     force: float
