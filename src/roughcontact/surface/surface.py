@@ -74,7 +74,7 @@ class Surface:
             wanted = f"grid must be a Grid, or the size of a cell [m] such as 1e-6, not {shown(grid)}"
             require(not isinstance(grid, RadialGrid | None), wanted, place="grid")
             with placed("grid"):
-                grid = Grid(np.shape(heights), grid)
+                grid = Grid(np.shape(heights), in_si(grid, "m", "grid"))
         object.__setattr__(self, "grid", grid)
         object.__setattr__(self, "heights", own_heights(in_si(heights, "m", "heights"), grid.shape))
         object.__setattr__(self, "provenance", tuple(provenance))
