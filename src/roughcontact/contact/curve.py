@@ -19,7 +19,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
 from roughcontact.labels.records import records
@@ -329,10 +329,3 @@ def collect(path: Iterable[Solution]) -> Curve:
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
     )
-
-
-def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
-    """Return the length L of the dimensionless numbers [m]."""
-    if geometry is Geometry.RING:
-        return math.sqrt(math.pi) * lengths[0]
-    return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]

@@ -24,7 +24,7 @@ from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require
 
-__all__ = ["BRANCHES", "Loop", "closed_loop", "loading_loop", "loads_of_loop"]
+__all__ = ["BRANCHES", "Loop", "closed_loop", "collect_loop", "loading_loop", "loads_of_loop"]
 
 BRANCHES = ("loading", "unloading", "reloading")
 

@@ -28,7 +28,7 @@ from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, numeric, scalar
 
-__all__ = ["lock", "press", "solve", "solve_state"]
+__all__ = ["grid_of", "lock", "make_problem", "press", "solve", "solve_state"]
 
 
 _DEFAULT = ActiveSet()

@@ -73,8 +73,11 @@ class Surface:
         if not isinstance(grid, Grid):
             wanted = f"grid must be a Grid, or the size of a cell [m] such as 1e-6, not {shown(grid)}"
             require(not isinstance(grid, RadialGrid | None), wanted, place="grid")
+            shape = np.shape(heights)
+            found = f"heights must be an array of one or two axes [m], not {shown(heights)}"
+            require(len(shape) in (1, 2), found, place="heights")
             with placed("grid"):
-                grid = Grid(np.shape(heights), in_si(grid, "m", "grid"))
+                grid = Grid(shape, in_si(grid, "m", "grid"))
         object.__setattr__(self, "grid", grid)
         object.__setattr__(self, "heights", own_heights(in_si(heights, "m", "heights"), grid.shape))
         object.__setattr__(self, "provenance", tuple(provenance))

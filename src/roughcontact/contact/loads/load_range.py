@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from roughcontact.arrays import is_numpy, on_host
-from roughcontact.contact.curve import DECADE, length_scale
+from roughcontact.contact.curve import DECADE
 from roughcontact.contact.loads.load_ends import with_ends
 from roughcontact.contact.loads.load_search import SEARCHED, SPOT_CELLS, LoadSearch, SurfaceKind, find_range
 from roughcontact.contact.press import grid_of, make_problem
@@ -18,7 +18,7 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
-from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus

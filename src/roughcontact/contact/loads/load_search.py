@@ -37,6 +37,7 @@ __all__ = [
     "SPOT_CELLS",
     "STEPS_PER_DECADE",
     "LoadSearch",
+    "SearchedLoad",
     "SurfaceKind",
     "find_range",
     "pilot_of",

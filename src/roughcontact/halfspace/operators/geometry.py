@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 
 from roughcontact.grid import AnyGrid, RadialGrid
 
-__all__ = ["Geometry"]
+__all__ = ["Geometry", "length_scale"]
 
 
 class Geometry(Enum):
@@ -52,3 +53,10 @@ class Geometry(Enum):
     def axes(self) -> tuple[str, ...]:
         """Names of the axes of its grid."""
         return {"surface": ("y", "x"), "ring": ("r",)}.get(self.value, ("x",))
+
+
+def length_scale(geometry: Geometry, lengths: tuple[float, ...]) -> float:
+    """Return the length L of the dimensionless numbers [m]."""
+    if geometry is Geometry.RING:
+        return math.sqrt(math.pi) * lengths[0]
+    return math.sqrt(math.prod(lengths)) if len(lengths) == 2 else lengths[0]
