@@ -131,7 +131,7 @@ def test_a_theory_by_its_name_needs_the_surface(name):
 EXAMPLES = {
     "roughcontact": rc,
     **{type(value).__name__: value for value in (BALL, SOLUTION, CURVE_OF_BALL, LOOP, STICKY)},
-    **{type(value).__name__: value for value in (STEEL, STEEL.solid, BALL.grid)},
+    **{type(value).__name__: value for value in (STEEL, STEEL.solid)},
 }
 HINTS = [(owner, name) for owner in EXAMPLES for name in MEANT[owner]]
 

@@ -28,14 +28,16 @@ if TYPE_CHECKING or _LATE is None:
         study as study,
         theory as theory,
     )
-    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
+    from roughcontact.adhesion.adhesive_curve import (
+        AdhesiveCurve as AdhesiveCurve,
+        AdhesivePoint as AdhesivePoint,
+    )
     from roughcontact.adhesion.adhesive_loading import (
         adhesive_curve as adhesive_curve,
         adhesive_path as adhesive_path,
         adhesive_state as adhesive_state,
     )
     from roughcontact.adhesion.adhesive_loop import adhesive_loop as adhesive_loop
-    from roughcontact.adhesion.adhesive_record import AdhesivePoint as AdhesivePoint
     from roughcontact.adhesion.adhesive_state import AdhesiveState as AdhesiveState
     from roughcontact.adhesion.attraction import Adhesion as Adhesion
     from roughcontact.adhesion.detachment import Detachment as Detachment

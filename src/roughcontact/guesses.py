@@ -11,91 +11,56 @@ __all__ = ["MEANT", "did_you_mean", "hinted"]
 
 T = TypeVar("T")
 
-_FILES = {
-    "save": "rc.write(curve, 'curve.nc') or to_csv('curve.csv')",
-    "to_netcdf": "rc.write(curve, 'curve.nc')",
-    "to_xarray": "to_dataset()",
+_CURVE = {
+    "rc.write(curve, 'curve.nc') or to_csv('curve.csv')": "save to_netcdf",
+    "to_dataset()": "to_xarray",
+    "contact_area": "area",
+    "depth": "displacement",
+    "mean_gap": "gap",
 }
-_CURVE = _FILES | {"area": "contact_area", "displacement": "depth", "gap": "mean_gap", "load": "force"}
-_TABLE = dict.fromkeys(("to_dataframe", "to_pandas"), "to_dataset().to_dataframe()")
-_BRANCHES = (
-    "force",
-    "depth",
-    "stiffness",
-    "contact_area",
-    "interfacial_stiffness",
-    "mean_gap",
-    "nominal_pressure",
-)
+_TABLE = {"to_dataset().to_dataframe()": "to_dataframe to_pandas"}
 _STATE = {
-    **dict.fromkeys(("to_dataframe", "to_pandas"), "to_record() or to_dataset()"),
-    **dict.fromkeys(("save", "to_netcdf"), "rc.write(solution, 'state.nc')"),
-    "area": "contact_area",
-    "grid": "problem.operator.grid",
-    "modulus": "problem.modulus",
-    "surface": "problem.surface",
-    "to_xarray": "to_dataset()",
+    "to_record() or to_dataset()": "to_dataframe to_pandas to_xarray",
+    "rc.write(solution, 'state.nc')": "save to_netcdf",
+    "contact_area": "area",
+    "problem.modulus": "modulus",
+    "problem.surface": "surface",
 }
-_SOLID = {"e": "young_modulus", "g": "shear_modulus", "nu": "poisson_ratio"}
-
+_SOLID = {"young_modulus": "e young", "shear_modulus": "g", "poisson_ratio": "nu poisson"}
+_BRANCHES = ("force", "depth", "stiffness", "contact_area", "mean_gap", "nominal_pressure")
+_GUESSED = {
+    "roughcontact": {
+        "rc.read": "load open",
+        "rc.write": "save to_csv",
+        "rc.press": "solve",
+        "rc.loading_curve": "curve",
+        "rc.loading_loop": "loop",
+        "rc.power_spectrum": "psd",
+    },
+    "Surface": {
+        "heights": "data values z",
+        "rms": "sq std",
+        "grid.periodic": "periodic",
+        "grid.spacing": "spacing",
+        "grid.lengths": "lengths extent",
+        "grid.lengths or grid.size": "size",
+        "cropped": "crop",
+        "levelled": "level detrend",
+        "rc.write(surface, 'part.npz')": "save",
+        "to_dataset()": "to_xarray",
+    },
+    **dict.fromkeys(("Solution", "AdhesiveState", "DetachmentState"), _STATE),
+    "Curve": _CURVE
+    | {"nominal_pressure": "pressure", "fit().exponent": "exponent", "to_dataframe()": "to_pandas"},
+    **dict.fromkeys(("AdhesiveCurve", "DetachmentCurve"), _CURVE | _TABLE),
+    "Loop": _TABLE | {f"loading.{name} or unloading.{name}": name for name in _BRANCHES},
+    "Solid": _SOLID,
+    "Material": {f"solid.{meant}": f"{meant} {names}" for meant, names in _SOLID.items()},
+}
 MEANT: Mapping[str, Mapping[str, str]] = MappingProxyType(
     {
-        "roughcontact": {
-            "curve": "rc.loading_curve",
-            "generate": "rc.self_affine",
-            "load": "rc.read",
-            "load_curve": "rc.read_curve",
-            "loop": "rc.loading_loop",
-            "open": "rc.read",
-            "psd": "rc.power_spectrum",
-            "save": "rc.write",
-            "solve": "rc.press",
-            "sphere": "rc.shapes.sphere",
-            "to_csv": "rc.write",
-        },
-        "Surface": {
-            **dict.fromkeys(("data", "values", "z"), "heights"),
-            **dict.fromkeys(("extent", "lengths"), "grid.lengths"),
-            **dict.fromkeys(("sa", "slope"), "rc.areal_parameters(surface)"),
-            **dict.fromkeys(("sq", "std"), "rms"),
-            "crop": "cropped",
-            "detrend": "levelled",
-            "level": "levelled",
-            "ndim": "grid.ndim",
-            "periodic": "grid.periodic",
-            "psd": "rc.power_spectrum(surface)",
-            "save": "rc.write(surface, 'part.npz')",
-            "show": "plot()",
-            "size": "grid.lengths or grid.size",
-            "spacing": "grid.spacing",
-            "to_csv": "rc.write(surface, 'heights.txt')",
-            "to_xarray": "to_dataset()",
-        },
-        "Solution": _STATE,
-        "AdhesiveState": _STATE,
-        "DetachmentState": _STATE,
-        "Curve": {
-            **_CURVE,
-            "exponent": "fit().exponent",
-            "pressure": "nominal_pressure",
-            "to_pandas": "to_dataframe()",
-        },
-        "AdhesiveCurve": _CURVE | _TABLE,
-        "DetachmentCurve": _CURVE | _TABLE,
-        "Loop": {
-            **{name: f"loading.{name} or unloading.{name}" for name in _BRANCHES},
-            "area": "loading.contact_area or unloading.contact_area",
-            **_FILES,
-            **_TABLE,
-        },
-        "Solid": _SOLID,
-        "Material": {
-            **{name: f"solid.{meant}" for name, meant in _SOLID.items()},
-            **{name: f"solid.{name}" for name in _SOLID.values()},
-        },
-        "Grid": dict.fromkeys(("dx", "dy"), "spacing")
-        | dict.fromkeys(("n", "nx", "ny"), "shape")
-        | {"extent": "lengths"},
+        owner: {name: meant for meant, names in table.items() for name in names.split()}
+        for owner, table in _GUESSED.items()
     }
 )
 """Names that users guess, by where they look for them, in lower case; misspelt ones are found by likeness."""

@@ -18,14 +18,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 __all__ = [
-    "AdhesiveLoad",
-    "AdhesiveLoads",
-    "FallingLoads",
-    "OneLoad",
-    "RisingLoads",
-    "kinds_of",
-    "numbers",
-    "one_load",
+    *("AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad"),
+    *("RisingLoads", "kinds_of", "numbers", "one_load"),
 ]
 
 

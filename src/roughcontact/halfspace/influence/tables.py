@@ -15,17 +15,8 @@ from roughcontact.halfspace.influence.love import love, love_table, strip, wave_
 from roughcontact.validation import Array
 
 __all__ = [
-    "Influence",
-    "Love",
-    "Periodic",
-    "Strip",
-    "Tables",
-    "blocks",
-    "definite",
-    "definite_columns",
-    "spans",
-    "table_of_waves",
-    "wavenumbers",
+    *("Influence", "Love", "Periodic", "Strip", "Tables"),
+    *("blocks", "definite", "definite_columns", "spans", "table_of_waves", "wavenumbers"),
 ]
 
 # Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
