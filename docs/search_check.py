@@ -27,6 +27,7 @@ QUESTIONS = {
     "method of adhesion": "method-adhesion",
     "memory": "memory",
     "hardness": "plastic",
+    "joint known by two numbers": "specified",
     "how many threads": "threads",
     "tab key": "completion",
     "shell completion": "completion",

@@ -54,7 +54,7 @@ def demonstrate(name, surface, modulus, folder):
     for kind, (what, picture) in pictures.items():
         write_netcdf(what.to_dataset(), folder / f"{name}_{kind}.nc", source)
         save(picture, folder / f"{name}_{kind}.png")
-    write_csv(curve.to_dataset(), folder / f"{name}_curve.csv", source)
+    write_csv(curve.to_dataset(), folder / f"{name}_curve.csv")
     return curve
 
 

@@ -15,6 +15,7 @@ from roughcontact.recipe.written import from_plain
 FILE = {"file": "part.x3p"}
 BODIES = {"modulus": "110GPa"}
 ADHESION = {"work": "10mJ/m^2", "range": "20nm"}
+SPECTRUM = {"sigma": "1um", "slope": "1", "hurst": "0.8", "rolloff": "50um"}
 SMALLEST = {
     "surface": {},
     "press": {"load": {"depth": "1um"}, "bodies": BODIES},
@@ -23,10 +24,17 @@ SMALLEST = {
     "adhesion curve": {"loads": {"depths": "0nm,5nm"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion loop": {"turn": {"depth": "5nm"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion detach": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": {"work": "10mJ/m^2"}},
+    "theory": {
+        "source": {"sigma": "1um", "slope": "0.1"},
+        "bodies": BODIES,
+        "pressures": {"pressures": "1MPa"},
+        "theories": {"theory": "mikic"},
+    },
 }
 SOURCE = {
     "file": FILE,
     "self-affine": {"kind": "self-affine", "hurst": "0.8", "rms": "1um", "size": "1mm"},
+    "specified": {"kind": "specified", **SPECTRUM, "size": "1mm"},
     "shape": {"kind": "shape", "shape": "sphere", "radius": "5mm", "size": "1mm"},
     "example": {"kind": "example", "example": "ground"},
     "combined": {"kind": "combined", "lower": FILE, "upper": {"kind": "example", "example": "ground"}},
@@ -34,6 +42,16 @@ SOURCE = {
 }
 
 _YOUNG = {"modulus": None, "young": "210GPa", "poisson": "0.3"}
+_RZ = {"sigma": None, "rz": "6um", "rz_over_ra": "6"}
+_OF_JOINT = {
+    "ra": {"sigma": None},
+    "rz": _RZ,
+    "rz_over_ra": _RZ,
+    "rolloff": {"hurst": "0.8"},
+    "correlation_length": {"hurst": "0.8", "rolloff": None},
+    "short_cutoff": {"hurst": "0.8", "rolloff": "100um", "slope": None},
+    "nayak": {"rolloff": None},
+}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -54,6 +72,11 @@ BESIDE = {
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
     "InterfaceTables.table_area": {"table": "lammps"},
+    **{
+        f"{part}.{name}": beside
+        for part in ("Specified", "SpecifiedJoint")
+        for name, beside in _OF_JOINT.items()
+    },
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,

@@ -21,6 +21,8 @@ OPTIONS = {
     "surface prepare": 24,
     "surface spectrum": 16,
     "surface make": 15,
+    "surface specified": 18,
+    "theory": 26,
 }
 FILES = {"files": 57}  # one a format: their names are the table of contents
 # Changes of file and calls, with machine code; a tenth more for other processors, where other kernels are called.

@@ -42,6 +42,8 @@ WORK = {
     "rng=1": lambda: np.array_equal(_rough(1), _rough(np.random.default_rng(1))),
     "rc.Grid(shape, size=)": lambda: rc.Grid((4, 8), size=8e-6) == rc.Grid((4, 8), 1e-6),
     "surface.shape": lambda: BALL.shape == (16, 16),
+    "solution.max_pressure": lambda: SOLUTION.max_pressure == SOLUTION.pressure.max(),
+    "solution.mean_pressure": lambda: SOLUTION.mean_pressure == SOLUTION.force / SOLUTION.contact_area,
     "solution.nominal_pressure": lambda: SOLUTION.nominal_pressure == SOLUTION.force / BALL.grid.area,
     "solution.interfacial_stiffness_per_area": lambda: (
         SOLUTION.interfacial_stiffness_per_area == SOLUTION.interfacial_stiffness / BALL.grid.area

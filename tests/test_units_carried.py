@@ -38,6 +38,7 @@ STICKY = rc.Adhesion(work=10e-3, range=4e-9)
 STRETCHED = rc.StretchedSpectrum(LAW, 2.0)
 DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
 LINE_OPERATOR = rc.line(SCAN.grid, 1e9)
 SHAPES = {
@@ -120,6 +121,18 @@ MORE = [
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),
     (CURVE.fit, {"window": (1e-2, 1e-1)}),
+    (rc.SurfaceSpecification, {"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "nayak": 9.0}),
+    (rc.SurfaceSpecification, {"sigma": 1e-6, "hurst": 0.8, "rolloff": 5e-5, "short_cutoff": 5e-6}),
+    (rc.SurfaceSpecification, {"sigma": 1e-6, "hurst": 0.8, "correlation_length": 2e-5, "nayak": 9.0}),
+    (rc.specified, {"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "rolloff": 5e-5}),
+    (rc.specified, {"ra": 1e-6, "hurst": 0.8, "correlation_length": 2e-5, "short_cutoff": 5e-6}),
+    (rc.specified, {"rz": 6e-6, "rz_over_ra": 6.0, "nayak": 9.0}),
+    (rc.theory_table, {"joint": JOINT, "modulus": 5e10, "names": "cmy", "pressures": [1e6], "hardness": 1e9}),
+    (
+        rc.theory_table,
+        {"joint": JOINT, "modulus": 5e10, "names": "mikic", "pressures": [1e6]}
+        | {"resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)},
+    ),
     (rc.conductance, {"contact": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)}),
     (rc.interface_table, {"curve": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0), "area": 1e-6}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
@@ -132,7 +145,7 @@ MORE = [
 UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
-    " reference_length section_length amplitude wavelength rise separation size grid",
+    " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid",
     "Pa": "young_modulus modulus hardness pressure pressures initial",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",

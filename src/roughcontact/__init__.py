@@ -1,7 +1,7 @@
 """Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.
 
-Get a surface: `read`, `Surface`, `self_affine`, `shapes`, `examples`; `read_line` for a profile. Its methods prepare
-it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
+Get a surface: `read`, `Surface`, `self_affine`, `specified`, `shapes`, `examples`; `read_line` for a profile. Its
+methods prepare it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
 
 Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` where surfaces
 attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer.
@@ -77,6 +77,7 @@ if TYPE_CHECKING or _LATE is None:
         interface_table as interface_table,
     )
     from roughcontact.evaluation.theories import loading_laws as loading_laws
+    from roughcontact.evaluation.theory_table import theory_table as theory_table
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
     from roughcontact.files.read import read as read, read_line as read_line
@@ -157,6 +158,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.generation.midpoint import (
         midpoint_line as midpoint_line,
         midpoint_surface as midpoint_surface,
+    )
+    from roughcontact.surface.generation.specification import (
+        SurfaceSpecification as SurfaceSpecification,
+        specified as specified,
     )
     from roughcontact.surface.generation.spectrum import (
         DirectionalSpectrum as DirectionalSpectrum,

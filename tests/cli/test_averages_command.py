@@ -11,6 +11,7 @@ import xarray
 from roughcontact.statistics import averages
 from roughcontact.statistics.fit_window import force_window
 from roughcontact.study import Store, export
+from tables import read_table
 
 PAGE = Path(__file__).parents[2] / "docs" / "studies.md"
 TEXT = """
@@ -58,7 +59,7 @@ def test_averages_are_written_as_netcdf_and_as_a_table(invoke, study, averaged, 
         invoke("study", "average", study, "--out", tmp_path / "a.csv", *WINDOW, "--json").stdout
     )
     assert told["cases"] == 6
-    table = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True, comments="#")
+    table = read_table(tmp_path / "a.csv")
     assert len(table) == 2 * 8
     np.testing.assert_array_equal(table["stiffness_mean"], averaged["stiffness_mean"].to_numpy().ravel())
     np.testing.assert_array_equal(table["exponent"][::8], averaged["exponent"])
@@ -104,8 +105,46 @@ def test_means_can_be_asked_for_at_a_force(invoke, study, averaged):
             assert row["stiffness"][word] == averaged[f"stiffness_{word}"][i, 3]
         assert row["rms"]["mean"] == pytest.approx(1e-6, rel=1e-12)
     header, first, _ = invoke("study", "table", study, *words).stdout.splitlines()
-    assert header.split()[:4] == ["hurst", "samples", "stiffness", "[MN/m]"]
-    assert first.split()[2] == f"{averaged['stiffness_mean'][0, 3].item() * 1e-6:.2f}"
+    assert header.split()[:5] == ["hurst", "samples", "resolved", "stiffness", "[MN/m]"]
+    assert first.split()[3] == f"{averaged['stiffness_mean'][0, 3].item() * 1e-6:.2f}"
+
+
+@pytest.mark.parametrize(("text", "name", "scale"), [("2MPa", "nominal_pressure", 1e6), ("2N", "force", 1.0)])
+def test_means_can_be_asked_for_at_a_pressure_and_at_a_force(invoke, study, text, name, scale):
+    """A side of 1 mm makes 1 MPa of 1 N; numbers follow straight lines between the logarithms of the loads."""
+    told = json.loads(invoke("study", "table", study, "--at", text, "--json").stdout)
+    assert told[name] == 2 * scale
+    with Store.open(study) as store:
+        dataset = export(store)
+    assert dataset["nominal_pressure"].attrs["units"] == "Pa"
+    np.testing.assert_allclose(dataset["nominal_pressure"], dataset["force"] / 1e-6, rtol=1e-15)
+    for i, row in enumerate(told["rows"]):
+        curves = dataset.isel(hurst=i)
+        logs = [
+            np.interp(np.log(2.0), np.log(curves["force"].to_numpy().ravel()[-8:]), np.log(each))
+            for each in curves["stiffness"].to_numpy()
+        ]
+        assert row["stiffness"]["mean"] == pytest.approx(np.exp(logs).mean(), rel=1e-12)
+        areal = row["interfacial_stiffness_per_area"]["mean"]
+        assert 0.5 < areal / (row["stiffness"]["mean"] / 1e-6) < 2
+    header = invoke("study", "table", study, "--at", text).stdout.splitlines()[0]
+    assert header.startswith(
+        "hurst  samples  resolved  interfacial stiffness per area [N/µm/mm²]  stiffness [MN/m]"
+    )
+
+
+def test_it_counts_the_samples_whose_load_is_resolved(invoke, study, tmp_path):
+    """On 64 x 64 cells no load is, at the end of the power law; pressed twenty times as hard, all are."""
+    answer = invoke("study", "table", study, "--at", "2MPa")
+    assert [row.split()[1:3] for row in answer.stdout.splitlines()[1:]] == [["3", "0"], ["3", "0"]]
+    assert "some means contain loads that are not resolved" in answer.stderr
+    (tmp_path / "hard.toml").write_text(TEXT.replace("loads = 8", "loads = 3, highest_force = 1.0"))
+    invoke("study", "run", tmp_path / "hard.toml", "--out", tmp_path / "hard", "--executor", "serial")
+    answer = invoke("study", "table", tmp_path / "hard", "--at", "1.0")
+    assert [row.split()[1:3] for row in answer.stdout.splitlines()[1:]] == [["3", "3"], ["3", "3"]]
+    assert "not resolved" not in answer.stderr
+    rows = json.loads(invoke("study", "table", tmp_path / "hard", "--at", "1.0", "--json").stdout)["rows"]
+    assert [row["resolved"] for row in rows] == [3, 3]
 
 
 def test_json_holds_the_laws(invoke, study, averaged):
@@ -162,14 +201,25 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
         (
             ("table", "STUDY", "--at", "2"),
-            "--at: the loads go from 0.005 to 0.07; choose a force between them",
+            "--at: the loads go from 0.005 to 0.07; choose one between them, not 2",
         ),
-        (("table", "STUDY", "--at", "0"), "--at: a force over E* h L is above 0"),
+        (
+            ("table", "STUDY", "--at", "1GPa"),
+            "--at: the loads go from 550 kPa to 7.7 MPa; choose one between",
+        ),
+        (
+            ("table", "STUDY", "--at", "5kg"),
+            "--at: '5kg' is neither a pressure nor a force; write a pressure",
+        ),
+        (("table", "STUDY", "--at", "0"), "--at: '0' is not above 0; choose a load above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),
             "--quantity: no 'stifness' differs between samples; choose of",
         ),
-        (("table", "STUDY", "--quantity", "stiffness"), "stiffness lies along load: choose a force by --at"),
+        (
+            ("table", "STUDY", "--quantity", "stiffness"),
+            "stiffness lies along load; choose a load by --at, such as --at 1MPa",
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused(invoke, study, tmp_path, monkeypatch, words, message):

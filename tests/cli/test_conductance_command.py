@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 import xarray
 
+from tables import read_table
+
 MODULUS = ("--modulus", "110GPa")
 COPPER = ("--resistivity", "17nohm*m")
 
@@ -79,7 +81,7 @@ def test_a_folder_serves_and_gets_files(invoke, curve):
     assert {"conductance.csv", "conductance.nc", "conductance.png"} <= {
         p.name for p in curve.parent.iterdir()
     }
-    table = np.genfromtxt(curve.parent / "conductance.csv", delimiter=",", names=True)
+    table = read_table(curve.parent / "conductance.csv")
     assert (table["electrical_resistance"] > 0).all()
 
 

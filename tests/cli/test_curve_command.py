@@ -11,6 +11,7 @@ from roughcontact.cli.report import quantity
 from roughcontact.contact import loading
 from roughcontact.plot import canvas
 from roughcontact.theory.random_surfaces.waves import Waves
+from tables import read_table
 
 MODULUS = ("--modulus", "110GPa")
 FORCES = ("--forces", "1mN:1N:12")
@@ -102,7 +103,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     names = ["curve.csv", "curve.json", "curve.nc", "curve.png"]
     assert sorted(path.name for path in out.iterdir()) == names
     record = json.loads(answer.stdout)
-    table = np.genfromtxt(out / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    table = read_table(out / "curve.csv")
     with xarray.open_dataset(out / "curve.nc") as dataset:
         for name in ("force", "stiffness"):
             assert table[name].tolist() == record[name]
@@ -278,9 +279,7 @@ def test_units_are_those_of_the_user(invoke, rough, tmp_path):
     assert record["units"]["interfacial_stiffness_per_area"] == "Pa m-1"
     expected = {"nominal_pressure": ("bar", np.array(record["nominal_pressure"]) / 1e5)}
     expected["interfacial_stiffness_per_area"] = "MPa/mm", areal / 1e9
-    table = np.genfromtxt(
-        tmp_path / "out" / "curve.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
-    )
+    table = read_table(tmp_path / "out" / "curve.csv")
     with xarray.open_dataset(tmp_path / "out" / "curve.nc") as dataset:
         for name, (unit, values) in expected.items():
             np.testing.assert_allclose(dataset[name], values, rtol=1e-15)
@@ -359,7 +358,7 @@ def test_no_stiffness_of_flowing_spots_is_drawn_beside_that_of_a_plastic_curve(
 ):
     drawn = []
 
-    def figure(curve, fit, laws):
+    def figure(curve, fit, laws, errors):
         drawn.extend(laws)
         return canvas.Figure()
 
@@ -393,7 +392,9 @@ def test_errors_are_those_of_the_first_and_the_last_resolved_load(invoke, rough,
     for each in record["errors"]:
         budget = rc.error_budget(rc.press(surface, 110e9, force=each["force"]))
         number = budget["interfacial_stiffness"]
-        assert each["interfacial_stiffness"]["error"] == pytest.approx(number.error, rel=1e-5)
+        for name, part in zip(("grid", "short_cutoff", "levelling", "sampling"), number.parts, strict=True):
+            expected = None if np.isnan(part) else pytest.approx(part, rel=1e-5)
+            assert each["interfacial_stiffness"][name] == expected
         assert each["interfacial_stiffness"]["value"] == pytest.approx(number.value, rel=1e-6)
     assert json.loads((tmp_path / "out" / "curve.json").read_text())["errors"] == record["errors"]
     assert json.loads(invoke(*words[:-1], "--json").stdout)["errors"] == []
@@ -438,6 +439,14 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     whole_curve = rc.read_curve(tmp_path / "out" / "curve.nc")
     assert whole_curve.depth[:2].tolist() == kept.depth.tolist()
     np.testing.assert_allclose(whole_curve.force, [1e-6, 2e-6, 4e-6, 8e-6])
+    # Nothing is computed then; the notes on the stored loads are those that were given, in their order.
+    stored = invoke(*words).stderr.splitlines()
+    assert "4 of 4 loads are in" in "".join(stored)
+    kept_notes = [line for line in stored if "loads are in" not in line]
+    assert kept_notes == [line for line in again.stderr.splitlines() if "loads are in" not in line]
+    record = json.loads((tmp_path / "out" / "curve.json").read_text())
+    assert record["note_ranks"][0] == "wrong"
+    assert len(record["note_ranks"]) == len(record["notes"])
 
 
 def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, tmp_path, monkeypatch):
@@ -465,6 +474,11 @@ def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, sur
     np.testing.assert_allclose(flat.heights, loop.flattened.heights, rtol=0, atol=1e-15)
     assert "raised by" in flat.provenance[-2] + flat.provenance[-1]
     assert rc.read_curve(tmp_path / "out" / "curve.nc").flow is not None
+    with xarray.open_dataset(tmp_path / "out" / "curve.nc") as curve:
+        areal = curve["unloaded_interfacial_stiffness_per_area"]
+        unloading = loop.unloading.interfacial_stiffness_per_area[::-1]
+        np.testing.assert_allclose(areal, unloading, rtol=1e-5)
+        assert areal.units == "Pa m-1"
     told = invoke(*words, "--loop").stdout
     assert all(line in told for line in ("residual depth", "stiffness on unloading", "dissipated work"))
 
@@ -523,3 +537,33 @@ def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):
     answer = invoke("curve", rough, *MODULUS, *given)
     assert answer.exit_code == 2
     assert says in " ".join(answer.stderr.split())
+
+
+def test_the_edge_of_the_map_is_named_once_and_last(invoke, rough):
+    """Under forces of a free map of 24 x 32 cells: a hundredth of the force lies on its edge at every load."""
+    words = ("curve", rough, "--pressures", "1MPa,5MPa,20MPa", *MODULUS, "--errors")
+    answer = invoke(*words)
+    notes = [line for line in answer.stderr.splitlines() if line.startswith("Note: ")]
+    assert "reaches the edge" in notes[-1]
+    assert len(notes) == len(set(notes))
+    assert sum("reaches the edge" in note for note in notes) == 1
+    assert not any("reaches the edge" in line for line in invoke(*words, "--periodic").stderr.splitlines())
+
+
+@pytest.mark.parametrize("areal", [True, False])
+def test_a_loop_tells_the_stiffness_of_unloading_at_each_load(invoke, rough, areal):
+    loads = ("--pressures", "2MPa,5MPa,10MPa") if areal else ("--forces", "5mN,10mN,20mN")
+    words = ("curve", rough, *loads, *MODULUS, "--hardness", "2GPa", "--loop")
+    name, label, unit, factor = "stiffness", "stiffness", "kN/m", 1e-3
+    if areal:
+        words = (*words, "--unit-stiffness", "MPa/mm")
+        name, label = "interfacial_stiffness_per_area", "interfacial stiffness per area K/A0"
+        unit, factor = "MPa/mm", 1e-9
+    lines = invoke(*words).stdout.splitlines()
+    [at] = [k for k, line in enumerate(lines) if "mean gap [" in line]
+    header = [cell.strip() for cell in lines[at].split("  ") if cell.strip()]
+    place = header.index(f"{label} on unloading [{unit}]")
+    shown = [float(line.split()[place]) for line in lines[at + 1 : at + 4]]
+    unloading = json.loads(invoke(*words, "--json").stdout)["loop"]["unloading"]
+    # Four digits are shown.
+    np.testing.assert_allclose(shown, np.array(unloading[name])[::-1] * factor, rtol=5e-4)

@@ -1,10 +1,12 @@
 import dataclasses
 import errno
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
+from matplotlib.text import Text
 
 import roughcontact as rc
 from roughcontact.cli.report import solution_facts
@@ -29,7 +31,7 @@ def test_it_answers_as_the_library_does(invoke, rough, surface):
         "residual",
     ):
         assert record[name] == getattr(solution, name), name
-    assert record["largest_pressure"] == solution.pressure.max()
+    assert record["max_pressure"] == solution.pressure.max()
     assert record["spots"] == solution.spots.count
     assert record["converged"] is True
     assert record["tolerance"] == 1e-8
@@ -104,6 +106,25 @@ def test_a_person_gets_a_table(invoke, rough):
     assert "tolerance 1e-08: met" in lines["certificate"]
 
 
+def test_numbers_per_area_are_told_in_the_units_of_the_user(invoke, rough):
+    words = ("press", rough, "--pressure", "5MPa", *MODULUS)
+    record = json.loads(invoke(*words, "--json").stdout)
+    areal = record["interfacial_stiffness"] / record["nominal_area"]
+    assert record["interfacial_stiffness_per_area"] == pytest.approx(areal, rel=1e-15)
+    assert record["nominal_area"] == pytest.approx(48e-6 * 32e-6, rel=1e-12)
+
+    def told(*more):
+        lines = invoke(*words, *more).stdout.splitlines()
+        facts = dict(line.split("   ", 1) for line in lines if "   " in line)
+        return [facts[name].split() for name in ("interfacial stiffness per area K/A0", "nominal pressure")]
+
+    assert told() == [[f"{areal / 1e12:.4g}", "N/µm/mm²"], ["5", "MPa"]]
+    units = ("--unit-stiffness", "MPa/mm", "--unit-pressure", "bar")
+    assert told(*units) == [[f"{areal / 1e9:.4g}", "MPa/mm"], ["50", "bar"]]
+    errors = invoke(*words, *units, "--errors").stdout.partition("errors at")[2]
+    assert any("K/A0" in line and "MPa/mm" in line for line in errors.splitlines())
+
+
 def test_a_gap_that_is_mere_rounding_is_none(invoke, rough):
     answer = invoke("press", rough, "--force", "1e9N", *MODULUS)
     (gap,) = (line.split()[2:] for line in answer.stdout.splitlines() if line.startswith("mean gap"))
@@ -117,8 +138,11 @@ def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):
     heights[0, 0] = 2 * np.nanmax(heights)
     np.savez(rough, heights=heights, spacing=np.array(surface.grid.spacing), unit=np.array("m"))
     answer = invoke("press", rough, *FORCE, *MODULUS)
-    assert "Note: 2 cells hold no height" in answer.stderr
-    assert "Note: Contact reaches the edge of the map" in answer.stderr
+    tilt, *notes = answer.stderr.splitlines()
+    assert "the tilt is removed" in tilt
+    assert [line.split(maxsplit=2)[1:2] for line in notes[:1]] in ([["A"]], [["Not"]])  # what is wrong
+    assert "Note: 2 cells hold no height" in notes[-2]
+    assert "Note: Contact reaches the edge of the map" in notes[-1]
 
 
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
@@ -133,7 +157,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     with xarray.open_dataset(out / "pressure.nc") as dataset:
         assert float(dataset["force"]) == record["force"]
         assert dataset["pressure"].shape == (24, 32)
-        assert float(dataset["pressure"].max()) == record["largest_pressure"]
+        assert float(dataset["pressure"].max()) == record["max_pressure"]
     assert (out / "pressure.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -235,7 +259,7 @@ def test_the_distribution_of_the_pressure_is_drawn_beside_a_theory(invoke, rough
 def test_a_hardness(invoke, rough):
     words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--json")
     soft = json.loads(invoke(*words, "--hardness", "2GPa").stdout)
-    assert soft["largest_pressure"] == 2e9
+    assert soft["max_pressure"] == 2e9
     assert any("they are plastic" in note for note in soft["notes"])
     for bad in ("--hardness=-1GPa", "--hardness=2N"):
         assert invoke(*words, bad).exit_code == 2
@@ -254,8 +278,8 @@ def test_bodies_can_be_named(invoke, rough, surface):
 def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
     given = ("press", rough, "--force", "1N", "--materials", "steel,aluminium", "--level", "none", "--json")
     record = json.loads(invoke(*given, "--hardness", "aluminium").stdout)
-    assert record["largest_pressure"] == pytest.approx(rc.handbook("aluminium").hardness)
-    assert json.loads(invoke(*given).stdout)["largest_pressure"] > record["largest_pressure"]
+    assert record["max_pressure"] == pytest.approx(rc.handbook("aluminium").hardness)
+    assert json.loads(invoke(*given).stdout)["max_pressure"] > record["max_pressure"]
 
 
 @pytest.mark.parametrize(
@@ -333,16 +357,17 @@ def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
 
 
 def test_errors_are_told_in_units_that_suit(invoke, rough):
-    told = invoke("press", rough, *FORCE, *MODULUS, "--errors").stdout
-    table = told.partition("errors at 10 mN\n")[2].splitlines()
-    assert table[0].split() == ["value", "error", "grid", "short", "cut-off", "levelling"]
+    force = ("--force", "0.5N")  # 11 spots
+    told = invoke("press", rough, *force, *MODULUS, "--errors").stdout
+    table = told.partition("errors at 500 mN\n")[2].splitlines()
+    assert table[0].split() == ["value", "error", "grid", "short", "cut-off", "levelling", "sampling"]
     stiffness = next(line for line in table if line.lstrip().startswith("interfacial stiffness"))
-    record = json.loads(invoke("press", rough, *FORCE, *MODULUS, "--errors", "--json").stdout)["errors"]
+    record = json.loads(invoke("press", rough, *force, *MODULUS, "--errors", "--json").stdout)["errors"]
     known = record["interfacial_stiffness"]
     value, _, error, unit = stiffness.split()[2:6]
-    assert unit == "kN/m"
-    assert float(error) == pytest.approx(known["error"] * 1e-3, rel=0.05)
-    assert float(value) == pytest.approx(known["value"] * 1e-3, abs=float(error) / 10)
+    assert unit == "MN/m"
+    assert float(error) == pytest.approx(known["error"] * 1e-6, rel=0.05)
+    assert float(value) == pytest.approx(known["value"] * 1e-6, abs=float(error) / 10)
     assert "short cut-off   bias: Gaussian low-pass at" in told
     # A periodic map has no levelling, and stands for a joint: numbers per area.
     joint = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--periodic").stdout.partition("errors at")[
@@ -350,6 +375,40 @@ def test_errors_are_told_in_units_that_suit(invoke, rough):
     ]
     assert "levelling" not in joint
     assert "K/A0" in joint
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.findobj(Text)]
+
+
+def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, rough, tmp_path, monkeypatch):
+    """A sentence with 3 spots, at 10 mN; a number with 11, at 0.5 N."""
+    drawn = []
+    monkeypatch.setattr(figures, "save", lambda figure, path: drawn.append(figure) or Path(path).touch())
+    answers = {}
+    for force in ("10mN", "0.5N"):
+        words = ("press", rough, "--force", force, *MODULUS, "--errors")
+        answers[force] = invoke(*words, "--out", tmp_path / force), invoke(*words, "--json")
+    sentence = "3 spots: one map cannot say how much another map of this surface would differ"
+    (told, record), (known, numbers) = (
+        (answer.stdout.partition("errors at")[2], json.loads(json_answer.stdout)["errors"])
+        for answer, json_answer in answers.values()
+    )
+    assert f"sampling        {sentence}" in told
+    assert "+- unknown" in told
+    assert "bias of size" not in told
+    assert record["sources"]["sampling"] == {"kind": "unknown", "how": sentence}
+    assert record["interfacial_stiffness"]["sampling"] is record["interfacial_stiffness"]["error"] is None
+    assert record["bias_of_size"] == {}
+    assert f"at 10 mN, {sentence}" in texts(drawn[0])
+    assert "sampling        order of magnitude: four free quarters" in known
+    assert "bias of size    interfacial stiffness per area K/A0 " in known
+    assert "unknown" not in next(line for line in known.splitlines() if "mean gap" in line)
+    number = numbers["interfacial_stiffness"]
+    assert 0 < number["sampling"] <= number["error"]
+    part = 100 * number["sampling"] / number["value"]
+    words = f"at 500 mN, sampling, in order of magnitude: interfacial stiffness {part:.0f} %"
+    assert any(text.startswith(words) for text in texts(drawn[1]))
 
 
 def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):

@@ -4,9 +4,11 @@ import json
 
 import numpy as np
 import pytest
+import xarray
 
 import roughcontact as rc
 from roughcontact.plot import canvas
+from tables import read_table
 
 
 @pytest.fixture
@@ -50,8 +52,8 @@ def test_spectrum_writes_a_table_that_numpy_reads_and_a_picture(invoke, free, tm
     out = tmp_path / "out"
     answer = invoke("surface", "spectrum", path, "--direction", "x", "--limit", "none", "--out", out)
     assert answer.exit_code == 0, answer.stderr
-    assert sorted(file.name for file in out.iterdir()) == ["spectrum.csv", "spectrum.png"]
-    table = np.genfromtxt(out / "spectrum.csv", delimiter=",", names=True)
+    assert sorted(file.name for file in out.iterdir()) == ["spectrum.csv", "spectrum.nc", "spectrum.png"]
+    table = read_table(out / "spectrum.csv")
     whole = rc.power_spectrum(surface, "x", per_decade=200)
     expected = whole.rebinned(20)
     np.testing.assert_array_equal(table["wavenumber"], expected.wavenumber)
@@ -59,7 +61,8 @@ def test_spectrum_writes_a_table_that_numpy_reads_and_a_picture(invoke, free, tm
     law = rc.fit_spectrum(whole, limit="none")
     np.testing.assert_allclose(table["law"], law(expected.wavenumber), rtol=1e-15)
     assert 0 < table["reliable"].sum() <= expected.wavenumber.size
-    assert "kind = C1D" in (out / "spectrum.csv").read_text(encoding="utf-8")
+    with xarray.open_dataset(out / "spectrum.nc") as dataset:
+        assert dataset.attrs["kind"] == "C1D"
     assert (out / "spectrum.png").read_bytes().startswith(b"\x89PNG")
     assert "Hurst exponent H" in answer.stdout
 
@@ -214,13 +217,12 @@ def test_spectrum_of_a_line_scan_is_c1d_and_the_c2d_that_follows(invoke, line, t
     moments = rc.spectrum_moments(profile.rebinned(20), q_min=profile.q_min, q_max=profile.q_max)
     assert record["rms_slope"] == pytest.approx(moments.rms_slope, rel=1e-12)
     assert record["isotropic_rms_slope"] == pytest.approx(np.sqrt(2) * moments.rms_slope, rel=1e-12)
-    table = np.genfromtxt(out / "spectrum.csv", delimiter=",", names=True)
+    table = read_table(out / "spectrum.csv")
     np.testing.assert_array_equal(table["density"], profile.rebinned(20).density)
     areal = rc.surface_spectrum(profile.rebinned(20), hurst=fit.hurst)
     np.testing.assert_array_equal(table["isotropic_density"], areal.density)
-    text = (out / "spectrum.csv").read_text(encoding="utf-8")
-    assert "isotropic_density [m4]" in text
-    assert f"# hurst_standard_error = {fit.standard_error!r}\n" in text
+    assert table.attrs["units"]["isotropic_density"] == "m4"
+    assert set(table["hurst_standard_error"]) == {fit.standard_error}
     assert "isotropic surface" in invoke("surface", "spectrum", path).stdout
 
 

@@ -85,7 +85,7 @@ def test_solution_dataset_holds_the_solution(solution):
         assert dataset[name].dims == ()
         assert dataset[name] == getattr(solution, name), name
     np.testing.assert_array_equal(dataset.heights, solution.problem.surface.heights)
-    assert dataset.largest_pressure == solution.pressure.max()
+    assert dataset.max_pressure == solution.pressure.max()
     assert dataset.status == "converged"
     assert dataset.missing == 3
     assert int(np.isnan(dataset.gap).sum()) == 3
@@ -164,7 +164,7 @@ def test_bodies_that_do_not_touch(surface):
     assert dataset.sizes["spot"] == 0
     assert dataset.status == "no contact"
     assert not dataset.contact.any()
-    assert solution_record(apart)["largest_pressure"] == 0.0
+    assert solution_record(apart)["max_pressure"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -229,7 +229,7 @@ def test_what_is_shown_on_a_screen_and_on_the_page_is_marked_in_the_table():
     )
     assert set(CURVE_POINTS) == {
         *("force", "depth", "stiffness", "interfacial_stiffness"),
-        *("contact_area", "mean_gap", "elastic_energy"),
+        *("contact_area", "max_pressure", "mean_gap", "elastic_energy"),
     }
 
 

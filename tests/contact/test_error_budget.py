@@ -11,7 +11,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import REMEDIES, notes_on_sources
-from roughcontact.evaluation.error_sources import NUMBERS
+from roughcontact.evaluation.error_numbers import NUMBERS
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.surface.finest_waves import is_rough_to_cells
 
@@ -39,14 +39,20 @@ def value(solution, name):
     return others[name]() if name in others else getattr(solution, name)
 
 
+def of_map(number):
+    """The error of a map of heights as it is, without what other maps would give: from its biases."""
+    return math.hypot(*number.parts[:2])
+
+
 def test_parts_are_the_changes_of_the_same_load_on_other_maps():
-    surface = rough(short_cutoff=SMOOTH).levelled("plane")
+    surface = rough(short_cutoff=SMOOTH, rolloff=10e-6).levelled("plane")
     solution = pressed(surface)
     budget = rc.error_budget(solution, short_cutoff=8e-6)
     assert [(source.name, source.kind) for source in budget.sources] == [
         ("grid", "bias"),
         ("short cut-off", "bias"),
         ("levelling", "bias"),
+        ("sampling", "order of magnitude"),
     ]
     others = [surface.averaged(2), surface.filtered(short_cutoff=8e-6), surface.levelled("quadratic")]
     again = [pressed(other) for other in others]
@@ -55,7 +61,7 @@ def test_parts_are_the_changes_of_the_same_load_on_other_maps():
         assert number.value == value(solution, number.name)
         # Both certified to 1e-8; heights of the coarse map differ by rounding.
         changes = [value(other, number.name) - number.value for other in again]
-        assert number.parts == pytest.approx(changes, rel=1e-6, abs=1e-7 * number.value), number.name
+        assert number.parts[:3] == pytest.approx(changes, rel=1e-6, abs=1e-7 * number.value), number.name
         assert number.error == pytest.approx(math.sqrt(sum(part**2 for part in number.parts)), rel=1e-14)
         assert number.relative_error == number.error / number.value
     assert not any("rough down to its cells" in note for note in budget.notes)
@@ -82,7 +88,7 @@ def test_under_a_depth_the_force_has_an_error():
 
 def test_levelling_is_a_choice_of_free_flat_maps_alone():
     periodic = rc.error_budget(pressed(rough(periodic=True, short_cutoff=SMOOTH)))
-    assert [source.name for source in periodic.sources] == ["grid", "short cut-off"]
+    assert [source.name for source in periodic.sources] == ["grid", "short cut-off", "sampling"]
     assert not any("Levelling" in note for note in periodic.notes)
     ball = rough() + rc.shapes.paraboloid(rc.Grid((48, 48), 64e-6 / 48), radius=2e-4)
     form = rc.error_budget(pressed(ball))
@@ -98,10 +104,10 @@ def test_a_map_that_is_rough_to_its_cells_has_no_error_of_the_depth(hurst, perio
     marked = rc.error_budget(pressed(rough(**waves)))
     assert math.isnan(marked["depth"].error)
     assert [note for note in marked.notes if "Quote the mean gap" in note]
-    assert marked["mean_gap"].error > 0
+    assert of_map(marked["mean_gap"]) > 0
     assert json.loads(json.dumps(marked.to_record(), allow_nan=False))["depth"]["error"] is None
     smooth = rc.error_budget(pressed(rough(**waves, short_cutoff=8 * 64e-6 / 48)))
-    assert smooth["depth"].error > 0
+    assert of_map(smooth["depth"]) > 0
     assert not [note for note in smooth.notes if "Quote the mean gap" in note]
     at_depth = rc.error_budget(pressed(rough(**waves), depth=marked["depth"].value))
     assert "Prescribe the force or the pressure" in at_depth.notes[0]
@@ -126,9 +132,12 @@ def test_one_source_that_is_nearly_all_of_an_error_is_named():
     whole = rc.self_affine(grid, 0.8, 1e-6, 4, short_cutoff=8e-6).levelled("plane")
     budget = rc.error_budget(rc.press(whole, MODULUS, pressure=2e5))
     k = budget["stiffness"]
-    assert abs(k.parts[2]) > 0.9 * k.error > 0.09 * k.value
+    known = math.hypot(*k.parts[:3])  # 2 spots: what other maps would give is unknown
+    assert math.isnan(k.error)
+    assert abs(k.parts[2]) > 0.9 * known > 0.09 * k.value
     (note,) = (note for note in budget.notes if "that of levelling" in note)
-    assert f"stiffness ({100 * k.relative_error:.0f} %)" in note
+    assert note.startswith("Nearly all of the known error of")
+    assert f"stiffness ({100 * known / k.value:.0f} %)" in note
     assert "measure a larger map" in note
     many = rc.self_affine(grid, 0.8, 1e-6, 4, short_cutoff=8e-6, rolloff=12e-6).levelled("plane")
     budget = rc.error_budget(rc.press(many, MODULUS, pressure=2e6))
@@ -199,11 +208,12 @@ def test_the_record_is_plain_and_the_table_has_two_digits_of_the_error():
         "error": number.error,
         "grid": number.parts[0],
         "short_cutoff": number.parts[1],
+        "sampling": number.parts[2],
         "unit": "N m-1",
     }
     assert record["sources"]["short_cutoff"]["kind"] == "bias"
     header, rows = budget.table(["interfacial_stiffness"], lambda name, value: (1e-3, "kN/m"))
-    assert header == ["", "value", "error", "", "", "grid", "short cut-off"]
+    assert header == ["", "value", "error", "", "", "grid", "short cut-off", "sampling"]
     ((label, shown, error, unit, percent, *parts),) = rows
     assert (label, unit) == ("interfacial stiffness", "kN/m")
     assert error.startswith("+- ")
@@ -237,8 +247,8 @@ def test_an_error_above_its_value_leaves_two_digits_of_it():
 def test_near_full_contact_an_infinite_stiffness_has_no_error_and_a_depth_may_be_too_much():
     surface = rough(32, periodic=True) * 0.1
     full = rc.error_budget(pressed(surface, pressure=1e9))
-    assert (full["stiffness"].value, full["stiffness"].parts) == (math.inf, (0.0, 0.0))
-    assert (full["mean_gap"].value, full["mean_gap"].error) == (0.0, 0.0)
+    assert (full["stiffness"].value, full["stiffness"].parts[:2]) == (math.inf, (0.0, 0.0))
+    assert (full["mean_gap"].value, of_map(full["mean_gap"])) == (0.0, 0.0)
     assert len(full.notes) == 1  # of the depth
     nearly = pressed(surface, depth=0.99 * pressed(surface, depth=0.0).problem.mean_separation)
     half = rc.error_budget(nearly)
@@ -319,8 +329,12 @@ def test_the_answer_on_four_times_as_many_cells_lies_within(cutoff, periodic):
             for n in (64, 256)
         )
         budget = rc.error_budget(coarse)
+        assert budget.sources[-1].kind == "order of magnitude"
         missed.append([value(fine, name) / budget[name].value - 1 for name in names])
-        claimed.append([budget[name].relative_error for name in names])
+        biases = [budget[name].parts[:-1] for name in names]  # other maps are another question
+        claimed.append(
+            [math.hypot(*each) / budget[name].value for name, each in zip(names, biases, strict=True)]
+        )
     assert (rms(missed) <= rms(claimed)).all()
     # What is claimed says something: the stiffness is known better than the area of a surface that is rough below.
     assert rms(claimed)[1] < 0.3

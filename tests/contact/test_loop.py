@@ -1,14 +1,18 @@
 """A whole loop of loads: its branches, its balance of energy, and what it says of itself."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 import xarray
 
 import roughcontact as rc
+from roughcontact.contact.loop_dataset import unloaded
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import FLOW
+from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.plot.facts import loop_facts
 
 MODULUS, HARDNESS = 2.0, 0.1
 FORCES = np.linspace(0.0, 0.02, 6)[1:]
@@ -187,3 +191,26 @@ def test_rings_and_lines_have_loops():
         assert loop.flow.volume > 0
         assert loop.converged
         assert loop.to_dataset().flow_volume.attrs["units"] == ("m2" if body is line else "m3")
+
+
+def test_the_points_of_unloading_stand_beside_those_of_loading(loop):
+    table = unloaded(loop)
+    for name in ("interfacial_stiffness_per_area", "stiffness", "mean_gap", "spots"):
+        along, values, words = table[f"unloaded_{name}"]
+        assert along == ("load",)
+        np.testing.assert_array_equal(values[::-1], getattr(loop.unloading, name))
+        assert words["long_name"].endswith(", on unloading")
+    np.testing.assert_allclose(loop.unloading.force[::-1], loop.loading.force, rtol=1e-9)
+    areal = table["unloaded_interfacial_stiffness_per_area"]
+    assert areal[2]["units"] == "Pa m-1"
+    assert (areal[1] > loop.loading.interfacial_stiffness_per_area).all()
+
+
+def test_the_mean_gap_grows_at_the_turn_by_what_has_flowed(loop):
+    """On first loading the gap of a cell that flows is minus the depth of its flow; then no gap is negative."""
+    at_turn = loop.unloading.mean_gap[0] - loop.loading.mean_gap[-1]
+    # Each gap is good to the tolerance, 1e-10 of the displacement, and the flow is a hundredth of that.
+    assert at_turn == pytest.approx(loop.flow.volume / plane().grid.area, rel=1e-7)
+    [words] = [text for name, text in loop_facts(loop) if name == "mean gap at the largest load"]
+    gaps = [written(curve.mean_gap[k], "m", 4) for curve, k in ((loop.loading, -1), (loop.unloading, 0))]
+    assert re.findall(r"([\d.]+ \S+) on", words) == gaps

@@ -69,7 +69,7 @@ def test_added_columns_are_passed_over(tmp_path):
 
 def test_what_holds_no_curve_is_refused(tmp_path):
     rc.write(surface(), tmp_path / "surface.nc")
-    with pytest.raises(rc.ReadError, match="holds no loading curve: no force, depth"):
+    with pytest.raises(rc.ReadError, match="holds no loading curve: no force, max_pressure, depth"):
         read_curve(tmp_path / "surface.nc")
     rc.write(rc.press(surface(), MODULUS, force=1e-3), tmp_path / "solution.nc")
     with pytest.raises(rc.ReadError, match="holds no loading curve"):

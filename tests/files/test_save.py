@@ -20,6 +20,7 @@ from roughcontact.files.aside import WriteError
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import read_line
 from roughcontact.files.save import require_surface_file, write
+from tables import read_table
 
 RNG = np.random.default_rng(8)
 
@@ -251,7 +252,7 @@ def test_a_curve_is_written_and_can_be_opened(tmp_path):
         np.testing.assert_array_equal(dataset.stiffness, curve.stiffness)
     rc.write(curve, tmp_path / "curve.csv")
     header = (tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
-    assert {"force", "depth", "stiffness"} <= set(header)
+    assert {"force", "depth", "stiffness"} <= {title.partition(" [")[0] for title in header}
     assert header[-1] == "status"  # words go last
     with pytest.raises(rc.WriteError, match=r"a Curve is written as one of \.nc, \.csv"):
         rc.write(curve, tmp_path / "curve.vti")
@@ -263,7 +264,7 @@ def test_the_table_of_an_interface_is_written_for_other_programs(tmp_path):
     table = rc.interface_table(rc.loading_curve(rough, 1e11, pressures=[1e8, 3e8, 1e9]))
     for name in ("a.csv", "a.inp", "a.table"):
         rc.write(table, tmp_path / name)
-    columns = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True)
+    columns = read_table(tmp_path / "a.csv")
     np.testing.assert_array_equal(columns["nominal_pressure"], table.pressure)
     np.testing.assert_array_equal(columns["overclosure"], table.overclosure)
     assert (tmp_path / "a.inp").read_text(encoding="utf-8") == abaqus_text(table)

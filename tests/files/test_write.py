@@ -81,7 +81,7 @@ def test_maps_are_compressed_and_any_hdf5_reader_opens_them(solution, tmp_path):
 def test_the_dataset_itself_is_not_touched(curve, tmp_path, source):
     before = dict(curve.attrs)
     write_netcdf(curve, tmp_path / "a.nc", source)
-    write_csv(curve, tmp_path / "a.csv", source)
+    write_csv(curve, tmp_path / "a.csv")
     assert curve.attrs == before
 
 
@@ -89,41 +89,52 @@ def test_the_dataset_itself_is_not_touched(curve, tmp_path, source):
 
 
 def test_numpy_reads_the_table_with_every_digit(curve, tmp_path, source):
-    write_csv(curve, tmp_path / "a.csv", source)
+    write_csv(curve, tmp_path / "a.csv")
     table = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True)
-    for name in set(table.dtype.names) - {"status"}:
-        np.testing.assert_array_equal(table[name], curve[name].astype(float))
-    assert {"force", "depth", "stiffness", "contact_area", "resolved"} <= set(table.dtype.names)
+    points = [name for name in curve.data_vars if curve[name].dims == ("load",) and name != "status"]
+    for column, name in zip(table.dtype.names, points, strict=False):
+        assert column.startswith(name)  # NumPy writes "force_N" for "force [N]"
+        np.testing.assert_array_equal(table[column], curve[name].astype(float))
+    assert {"force", "depth", "stiffness", "contact_area", "resolved"} <= set(points)
+
+
+def _title(dataset, name):
+    """Return the header of a column as the page on files states it."""
+    unit = dataset[name].attrs.get("units", "1")
+    return name if unit == "1" else f"{name} [{unit}]"
 
 
 def test_pandas_reads_the_table_with_every_digit(curve, tmp_path, source):
-    write_csv(curve, tmp_path / "a.csv", source)
+    write_csv(curve, tmp_path / "a.csv")
     # By Python's float, since older pandas drops the last digits of its own accord.
     reals = {name: float for name in curve.data_vars if curve[name].dtype.kind == "f"}
-    table = pandas.read_csv(tmp_path / "a.csv", comment="#", converters=reals)
-    assert {"force", "depth", "stiffness", "status"} <= set(table.columns)
-    for name in table.columns:
-        np.testing.assert_array_equal(table[name].to_numpy(), curve[name].to_numpy())
+    table = pandas.read_csv(tmp_path / "a.csv", converters={_title(curve, name): float for name in reals})
+    assert {"force [N]", "depth [m]", "stiffness [N m-1]", "status"} <= set(table.columns)
+    for name in curve.data_vars:
+        if curve[name].dims in (("load",), ()):
+            np.testing.assert_array_equal(table[_title(curve, name)].to_numpy(), curve[name].to_numpy())
 
 
-def test_remarks_give_units_scales_and_provenance(curve, tmp_path, source):
-    write_csv(curve, tmp_path / "a.csv", source)
+def test_the_header_states_units_and_scales_are_columns(curve, tmp_path):
+    write_csv(curve, tmp_path / "a.csv")
     lines = (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()
-    remarks = [line for line in lines if line.startswith("#")]
-    assert lines[0].startswith("force,")
-    assert "stiffness [N m-1]" in remarks[0]
-    assert f"# modulus = {MODULUS!r} Pa" in remarks
-    assert f"# full_contact_stiffness = {float(curve.full_contact_stiffness)!r} N m-1" in remarks
-    assert "# input_surface = made, for a test | levelled" in remarks
-    assert len(lines) == 1 + len(remarks) + curve.sizes["load"]
+    header = lines[0].split(",")
+    assert header[0] == "force [N]"
+    assert {"stiffness [N m-1]", "lengths_y [m]", "lengths_x [m]", "resolved"} <= set(header)
+    rows = list(csv.DictReader(lines))
+    assert len(rows) == len(lines) - 1 == curve.sizes["load"]
+    assert {row["modulus [Pa]"] for row in rows} == {repr(MODULUS)}
+    assert {row["full_contact_stiffness [N m-1]"] for row in rows} == {
+        repr(float(curve.full_contact_stiffness))
+    }
 
 
 def test_a_single_state_is_a_table_of_one_row(solution, tmp_path):
     write_csv(solution, tmp_path / "a.csv")
     with open(tmp_path / "a.csv", encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+        rows = list(csv.DictReader(stream))
     assert len(rows) == 1
-    assert float(rows[0]["force"]) == float(solution.force)
+    assert float(rows[0]["force [N]"]) == float(solution.force)
     assert rows[0]["status"] == "converged"
 
 
@@ -144,15 +155,11 @@ def test_points_may_lie_along_any_dimension(tmp_path):
         },
         attrs={"kind": "C2D"},
     )
-    write_csv(dataset, tmp_path / "a.csv", {"source": "here"}, dimension="bin")
+    write_csv(dataset, tmp_path / "a.csv", dimension="bin")
     assert (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines() == [
-        "density,reliable",
-        "# units: density [m4]",
-        "# hurst = 0.8",
-        "# kind = C2D",
-        "# source = here",
-        "1e-20,1",
-        f"{2e-20 / 3!r},0",
+        "density [m4],reliable,hurst",
+        "1e-20,1,0.8",
+        f"{2e-20 / 3!r},0,0.8",
     ]
     with pytest.raises(ValueError, match="nothing lies along 'x': choose one of bin, load"):
         write_csv(dataset, tmp_path / "b.csv", dimension="x")

@@ -2,9 +2,11 @@
 
 import io
 import json
+import re
 import shlex
 import zipfile
 from dataclasses import replace
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -74,8 +76,13 @@ def test_the_points_of_a_curve_are_those_of_its_command(ask):
     said = ask(curve, loads=LOADS)
     record = json.loads(run(of(said, "stated")[0]["command"] + " --json"))
     points = of(said, "point")
-    for name in ("force", "depth", "stiffness", "interfacial_stiffness", "contact_fraction", "mean_gap"):
+    shown = [column["name"] for column in of(said, "loads")[0]["columns"]]
+    assert {"interfacial_stiffness_per_area", "max_pressure", "mean_pressure"} <= {*shown}
+    for name in shown:
         assert [point[name] for point in points] == record[name]
+    table = (files("roughcontact.page") / "static" / "curve_table.js").read_text(encoding="utf-8")
+    in_table = re.findall(r'"(\w+)"', table.partition("const COLUMNS = [")[2].partition("]")[0])
+    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*shown}
     assert [point["resolved"] for point in points] == record["resolved"]
     space = {}
     exec(of(said, "stated")[0]["python"], space)
@@ -155,7 +162,7 @@ def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
         shared = ours.keys() & theirs.keys() - {"theories"}
         assert {"force", "depth", "stiffness", "contact_area"} <= shared
         assert {key: ours[key] for key in shared} == {key: theirs[key] for key in shared}
-    assert rows(archive.read("curve.csv").decode())[0].startswith("force,")
+    assert rows(archive.read("curve.csv").decode())[0].startswith("force [N],")
     space = {}
     exec(archive.read("same.py"), space)
     assert space["solution"].force == json.loads(archive.read("press.json"))["force"]
@@ -241,10 +248,10 @@ def test_the_branches_of_a_loop_are_those_of_the_library(ask):
     assert of(said, "loads")[0]["count"] == len(points) == 12
     for name, branch in loop.curves.items():
         mine = [point for point in points if point["branch"] == name]
-        for quantity in ("force", "depth", "stiffness", "contact_area"):
+        for quantity in ("force", "depth", "stiffness", "contact_area", "interfacial_stiffness_per_area"):
             assert [point[quantity] for point in mine] == getattr(branch, quantity).tolist(), (name, quantity)
     facts = dict(of(said, "curve")[0]["facts"])
-    assert {"residual depth", "volume of flow", "dissipated work"} <= facts.keys()
+    assert {"residual depth", "volume of flow", "dissipated work", "mean gap at the largest load"} <= {*facts}
     [(header, data)] = [(header, data) for header, data in said if header["type"] == "map"]
     heights = loop.flattened.heights
     assert header["map"] == "flattened"

@@ -413,6 +413,8 @@ def test_a_row_of_the_points_shows_its_contact(tab, part):
     tab.page.locator("#points button").nth(1).press("Enter")
     tab.settled()
     assert tab.facts["nominal pressure"] == "2 MPa"
+    assert tab.facts["interfacial stiffness per area K/A0"].endswith("N/µm/mm²")
+    assert "K/A0 [N/µm/mm²]" in tab.text("points")
     tab.wait("() => document.querySelector('#points tr[aria-current] button') === document.activeElement")
 
 

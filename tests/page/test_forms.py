@@ -6,7 +6,10 @@ from typing import ClassVar, get_type_hints
 
 import pytest
 
+from every_field import smallest
+from roughcontact.errors import InputError
 from roughcontact.page.forms import forms
+from roughcontact.page.server.page_request import PageRequest
 from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.recipe_fields import described, specs
@@ -19,7 +22,7 @@ def field_of(form, name):
     return found
 
 
-@pytest.mark.parametrize("job", sorted(JOBS))
+@pytest.mark.parametrize("job", sorted(JOBS.keys() - {"theory"}))
 def test_every_job_has_the_steps_of_the_preparation(job):
     form = forms()["jobs"][job]["preparation"]
     assert [each["name"] for each in form["fields"]] == [each.name for each, _ in specs(Preparation)]
@@ -55,6 +58,13 @@ def test_what_excludes_another_is_one_choice():
 def test_a_source_that_nothing_makes_again_has_no_form():
     assert "python" not in forms()["sources"]
     assert forms()["sources"]["self-affine"]["title"] == SelfAffine.TITLE
+
+
+def test_a_job_without_heights_has_no_form_and_is_refused():
+    assert "theory" not in forms()["jobs"]
+    with pytest.raises(InputError, match="run a job of theories by the command") as met:
+        PageRequest.of(smallest("theory"), {}, {})
+    assert met.value.place == "job"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

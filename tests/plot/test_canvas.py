@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -69,6 +70,60 @@ def test_no_text_overlaps_on_curves(periodic):
     assert overlaps(curve_figure(curve, law)) == []
     assert overlaps(curve_figure(curve)) == []
     assert overlaps(areal_figure(curve, law)) == []
+
+
+def bars(axes):
+    return [each for each in axes.containers if isinstance(each, ErrorbarContainer)]
+
+
+@pytest.mark.parametrize("per_area", [False, True])
+def test_errors_are_bars_and_what_other_maps_would_give_is_written_below(per_area):
+    surface = rough((48, 48)).levelled("plane")
+    forces = MODULUS * 1e-7 * 48e-7 * np.geomspace(1e-3, 0.5, 12)
+    curve = rc.loading_curve(surface, MODULUS, forces=forces)
+    errors = {
+        float(force): rc.error_budget(rc.press(surface, MODULUS, force=force)) for force in forces[[0, -1]]
+    }
+    light, heavy = (budget["stiffness"].error for budget in errors.values())
+    assert np.isnan(light)  # a few spots: its error is unknown
+    assert heavy > 0
+    figure = (areal_figure if per_area else curve_figure)(curve, errors=errors)
+    plain = (areal_figure if per_area else curve_figure)(curve)
+    names = ("interfacial_stiffness_per_area", "contact_fraction", "mean_gap")
+    for axes, bare, name in zip(
+        figure.axes[:3],
+        plain.axes[:3],
+        names if per_area else ("stiffness", "contact_area", "depth"),
+        strict=True,
+    ):
+        assert bars(bare) == []
+        assert axes.get_ylim() == bare.get_ylim()
+        known = errors[float(forces[-1])][name]
+        if name == "depth":  # of a map that is rough to its cells
+            assert np.isnan(known.error)
+            assert bars(axes) == []
+            continue
+        (bar,) = bars(axes)
+        ((low, high),) = (segment[:, 1] for segment in bar.lines[2][0].get_segments())
+        assert (high - low) / (high + low) == pytest.approx(known.relative_error, rel=1e-9)
+    first, last = figure.get_supxlabel().split("\n")
+    assert first.startswith("at 48 ")
+    assert "one map cannot say" in first
+    assert "sampling, in order of magnitude: interfacial stiffness" in last
+    assert plain.get_supxlabel() == ""
+    assert overlaps(figure) == overlaps(plain)
+
+
+def test_below_a_pressure_map_stands_what_other_maps_would_give():
+    surface = rough((32, 32)).levelled("plane")
+    solution = rc.press(surface, MODULUS, force=1e-4)
+    budget = rc.error_budget(solution)
+    figure = solution_figure(solution, budget)
+    assert figure.get_supxlabel().endswith(budget.sampling)
+    assert solution_figure(solution).get_supxlabel() == ""
+    assert overlaps(figure) == []
+    ball = rc.press(rc.shapes.paraboloid(surface.grid, radius=1e-5), MODULUS, force=1e-4)
+    assert solution_figure(ball, rc.error_budget(ball)).get_supxlabel() == ""
 
 
 def test_the_picture_of_a_surface_rings_its_spikes_beside_its_distribution():

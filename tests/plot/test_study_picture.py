@@ -77,7 +77,8 @@ def test_means_laws_and_exponents_are_drawn(averaged):
 
     # There are three numbers of points and two Hurst exponents: the former stand on the axis, by their logarithm.
     assert (right.get_xlabel(), right.get_xscale()) == ("points", "log")
-    assert [text.get_text() for text in right.get_legend().get_texts()] == ["hurst = 0.2", "hurst = 0.8"]
+    assert [text.get_text() for text in right.get_legend().get_texts()] == ["0.2", "0.8"]
+    assert right.get_legend().get_title().get_text() == "hurst"
     for i, (_, x, y, limits) in enumerate(marks(right)):
         np.testing.assert_array_equal(x, POINTS)
         np.testing.assert_array_equal(y, averaged["exponent"][i])
@@ -141,6 +142,25 @@ def test_of_one_combination_there_is_one_curve(averaged):
     assert axes.get_legend() is None
     with pytest.raises(ValueError, match="'rms' is one number, and nothing varies"):
         study_figure(one, "rms")
+
+
+def test_more_lines_than_a_legend_holds_stand_in_panels(averaged):
+    """Of 9 combinations each panel shows those of one rms height, which its title states in micrometres."""
+    more = xarray.concat([averaged, averaged.isel(hurst=0)], "hurst", data_vars="minimal").assign_coords(
+        hurst=[0.2, 0.8, 1.2]
+    )
+    more = more.rename(points="height").assign_coords(height=("height", [1e-6, 2e-6, 5e-7], {"units": "m"}))
+    *panels, last = study_figure(more, "dimensionless_stiffness", "hurst").axes
+    assert [axes.get_title() for axes in panels] == ["height = 1 µm", "height = 2 µm", "height = 0.5 µm"]
+    for j, axes in enumerate(panels):
+        for i, line in enumerate(means_drawn(axes)):
+            expected = more["dimensionless_stiffness_mean"][i, j].to_numpy()
+            np.testing.assert_array_equal(line.get_ydata(), expected[FORCE > 1e-3])
+        assert len([line for line in axes.lines if line.get_linestyle() == "--"]) == 3
+    assert [axes.get_legend() is None for axes in panels] == [False, True, True]
+    assert [text.get_text() for text in panels[0].get_legend().get_texts()] == ["0.2", "0.8", "1.2"]
+    assert last.get_legend().get_title().get_text() == "height [µm]"
+    assert [text.get_text() for text in last.get_legend().get_texts()] == ["1", "2", "0.5"]
 
 
 def test_rows_are_groups_with_all_their_parameters(averaged):

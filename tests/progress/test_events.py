@@ -66,7 +66,10 @@ TASKS = {  # what is done, and the tasks that count in it: how many, and of what
         lambda: list(rc.slide_path(pressed(), RUBBER, friction=0.5, forces=[1e-4, 2e-4])),
         [(2, "loads")],
     ),
-    "errors": (lambda: rc.error_budget(rc.press(rough(), MODULUS, pressure=1e7)), [(2, "maps")]),
+    "errors": (
+        lambda: rc.error_budget(rc.press(rough(), MODULUS, pressure=3e7)),  # 17 spots
+        [(2, "maps"), (4, "quarters")],
+    ),
     "stress": (lambda: rc.largest_von_mises(pressed(), 0.3), [(None, "depths")]),
     "waves": (rough, [(1, "blocks")]),
     "midpoint": (

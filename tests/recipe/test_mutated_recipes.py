@@ -96,6 +96,29 @@ OUT_OF_RANGE = {
     "SelfAffine.short_cutoff": ("5N", "5um"),
     "SelfAffine.periodic": (0, True, False),
     "SelfAffine.nodal": (1.0, True, False),
+    **{
+        f"{part}.{name}": values
+        for part in ("Specified", "SpecifiedJoint")
+        for name, values in {
+            "sigma": ("0um", "5um"),
+            "ra": ("0um,1um", "5um"),
+            "rz": ("-6um", "5um"),
+            "rz_over_ra": ("0.5", "6"),
+            "slope": ("0", "0.12"),
+            "hurst": ("1.1", "0.8"),
+            "nayak": ("1.5", "20"),
+            "rolloff": ("0mm", "5um"),
+            "correlation_length": ("5N", "5um"),
+            "short_cutoff": ("-5um", "5um"),
+        }.items()
+    },
+    "Specified.size": ("1 x", "5um"),
+    "Specified.points": ("0", "512", "512x256"),
+    "Specified.seed": ("-1", "2"),
+    "Specified.periodic": (0, True, False),
+    "NominalPressures.pressures": ("5MPa:1MPa:3", "1mPa:1Pa:100"),
+    "JointTheories.theory": ("hertz", "persson", "mikic"),
+    "JointTheories.hardness": ("2", "2GPa", "2Pa"),
     "SmoothBody.shape": ("cube", "sphere", "cylinder", "paraboloid"),
     "SmoothBody.radius": ("0mm", "5um"),
     "SmoothBody.slope": ("0", "0.1"),
@@ -141,6 +164,7 @@ FROM_ZERO = {
     *("AdhesiveLoads.depths", "AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
     *("Bodies.poisson", "Bodies.poisson2", "Theories.hurst", "SelfAffine.hurst", "SelfAffine.seed"),
+    *("Specified.hurst", "SpecifiedJoint.hurst", "Specified.seed"),
     *("Preparation.form", "Preparation.share"),
 }
 

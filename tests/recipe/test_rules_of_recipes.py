@@ -253,6 +253,12 @@ RULES = [
         [with_parts("curve", contact=SPRINGS, conduction={"resistivity": "copper", "of": "total"})],
     ),
     (
+        with_parts("press", contact=SPRINGS, units={"unit_stiffness": "N/um/mm^2"}),
+        "units.unit_stiffness, units.unit_pressure",
+        "leave them out",
+        [with_parts("press", contact=SPRINGS)],
+    ),
+    (
         with_parts("curve", contact=SPRINGS, units={"unit_pressure": "MPa"}),
         "units.unit_stiffness, units.unit_pressure",
         "leave them out",

@@ -30,7 +30,7 @@ from roughcontact.threads import limit_threads, one_blas_thread
 
 JOBS = {path.stem: path for path in sorted((Path(__file__).parent / "jobs").glob("*.toml"))}
 KINDS = {
-    "elastic": ("press_measured", "curve_self_affine"),
+    "elastic": ("press_measured", "curve_self_affine", "curve_specified"),
     "under a hardness": ("loop_shape", "press_after_example"),
     "sticking": ("adhesive_state", "adhesive_curve", "adhesive_loop", "detachment"),
     "line": ("line_press", "line_curve"),

@@ -215,6 +215,14 @@ $ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --har
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile line --hardness 1GPa
 
+$ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --unit-stiffness N/um/mm^2
+! on springs loads and stiffness are per length; leave them out
+> press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
+
+$ {PRESS} --force 1mN --unit-stiffness lbf
+! 'lbf' is no unit of a stiffness per area; give one such as N/um/mm^2
+> {PRESS} --force 1mN --unit-stiffness N/um/mm^2
+
 $ {PROFILE} --profile line --errors
 ! --errors are those of a map of heights, not of a profile: leave it out
 > {PROFILE} --profile line

@@ -195,15 +195,15 @@ $ study table done --quantity weight
 > study table loads --quantity stiffness --at 0.01
 
 $ study table loads --quantity stiffness
-! choose a force by --at, such as --at 0.01
+! choose a load by --at, such as --at 1MPa
 > study table loads --quantity stiffness --at 0.01
 
 $ study table loads --at 100
-! choose a force between them, not 100
+! choose one between them, not 100
 > study table loads --at 0.01
 
 $ study table loads --at 0
-! a force over E* h L is above 0
+! choose a load above 0
 > study table loads --at 0.01
 
 $ study run broken.toml

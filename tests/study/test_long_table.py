@@ -3,6 +3,7 @@
 import csv
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 
@@ -44,10 +45,20 @@ def path(tmp_path):
 
 def test_every_value_stands_in_its_line(path):
     lines = path.read_text(encoding="utf-8").splitlines()
-    names, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    names, *rows = csv.reader(lines)
     assert names == [
-        *("hurst", "sample", "load", "force", "common", "resolved", "rms", "lengths_y", "lengths_x"),
-        *("status", "case_status"),
+        *(
+            "hurst",
+            "sample",
+            "load",
+            "force [N]",
+            "common",
+            "resolved",
+            "rms [m]",
+            "lengths_y [m]",
+            "lengths_x [m]",
+        ),
+        *("periodic", "sides_y [m]", "sides_x [m]", "modulus [Pa]", "status", "case_status"),
     ]
     table = {tuple(map(float, row[:3])): dict(zip(names, row, strict=True)) for row in rows}
     data = dataset()
@@ -56,39 +67,42 @@ def test_every_value_stands_in_its_line(path):
     for (hurst, sample, load), found in table.items():
         case = data.sel(hurst=hurst).isel(sample=int(sample))
         point = case.isel(load=int(load))
-        np.testing.assert_array_equal(float(found["force"]), point["force"])
-        assert float(found["rms"]) == case["rms"]
-        assert float(found["lengths_x"]) == case["lengths"][1]
+        np.testing.assert_array_equal(float(found["force [N]"]), point["force"])
+        assert float(found["rms [m]"]) == case["rms"]
+        assert float(found["lengths_x [m]"]) == case["lengths"][1]
         assert found["resolved"] == str(int(point["resolved"]))
         assert found["status"] == point["status"]
         assert float(found["common"]) == load
+        assert (found["modulus [Pa]"], found["periodic"], found["sides_x [m]"]) == (
+            "110000000000.0",
+            "0",
+            "2.0",
+        )
 
 
-def test_remarks_tell_units_scales_attributes_and_what_is_left_out(path):
-    remarks = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
-    assert remarks == [
-        "# units: force [N], rms [m], lengths_y [m], lengths_x [m]",
-        "# periodic = 0",
-        "# sides = 1.0, 2.0 m (y, x)",
-        "# modulus = 110000000000.0 Pa",
-        "# not in this table: secant (hurst, sample, interval)",
-        "# cases: 5 done, 1 failed",
-        "# title = two | lines",
-    ]
+def test_what_has_no_column_is_returned(tmp_path):
+    assert write_long_csv(dataset(), tmp_path / "out.csv") == ["secant"]
+    assert write_long_csv(dataset().drop_vars("secant"), tmp_path / "out.csv") == []
+
+
+def test_pandas_reads_it_without_options(path):
+    table = pandas.read_csv(path)
+    np.testing.assert_allclose(table["force [N]"], dataset()["force"].to_numpy().reshape(-1)[:20], rtol=1e-15)
+    assert table["status"].dtype.kind in "OUT"
 
 
 def test_numpy_reads_it(path):
     table = np.genfromtxt(path, delimiter=",", names=True, usecols=range(9))
-    assert table.dtype.names[:4] == ("hurst", "sample", "load", "force")
+    assert table.dtype.names[:4] == ("hurst", "sample", "load", "force_N")
     data = dataset()["force"].to_numpy().reshape(-1)[:20]
-    np.testing.assert_array_equal(table["force"], data)
+    np.testing.assert_array_equal(table["force_N"], data)
 
 
 def test_points_that_were_filled_up_are_no_lines(tmp_path):
     data = dataset()[["force", "resolved", "common", "case_status"]]
     write_long_csv(data, tmp_path / "out.csv")
     lines = (tmp_path / "out.csv").read_text().splitlines()
-    assert sum(not line.startswith("#") for line in lines) == 1 + 2 * 3 * 4 - 4 - 1
+    assert len(lines) == 1 + 2 * 3 * 4 - 4 - 1
 
 
 def test_points_belong_to_cases_where_there_are_cases(tmp_path):
@@ -113,9 +127,9 @@ def test_more_lines_than_are_written_at_once(tmp_path):
 
 def test_scalars_alone_are_one_line_and_nothing_is_none(tmp_path):
     write_long_csv(xarray.Dataset({"a": ((), 1.5)}), tmp_path / "out.csv")
-    assert (tmp_path / "out.csv").read_text() == "a\n# units: \n1.5\n"
+    assert (tmp_path / "out.csv").read_text() == "a\n1.5\n"
     write_long_csv(xarray.Dataset(), tmp_path / "none.csv")
-    assert (tmp_path / "none.csv").read_text() == "\n# units: \n"
+    assert (tmp_path / "none.csv").read_text() == "\n"
 
 
 def test_where_it_cannot_be_written(tmp_path):

@@ -81,3 +81,11 @@ def test_the_certificate_is_the_largest_residual():
     assert residual_of(xarray.Dataset({"residual": ("load", [np.nan, 3e-9])})) == 3e-9
     assert residual_of(xarray.Dataset({"residual": ("load", [np.nan])})) is None
     assert residual_of(xarray.Dataset({"force": 1.0})) is None
+
+
+def test_variables_of_earlier_builds_have_the_names_of_today():
+    """Records hold `max_pressure`; a store of before, whose keys are still valid, holds it by another name."""
+    record = xarray.Dataset({"largest_pressure": ((), 2.0, {"units": "Pa"}), "force": ((), 1.0)})
+    found = decode(encode(record))
+    assert set(found.data_vars) == {"max_pressure", "force"}
+    assert found["max_pressure"].identical(record["largest_pressure"].rename("max_pressure"))

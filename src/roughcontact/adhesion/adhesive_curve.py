@@ -42,6 +42,8 @@ class AdhesivePoint:
     ----------
     branch : {"approach", "retreat"}
         Whether what is prescribed brought the bodies together.
+    nominal_pressure : float
+        [Pa]
     depth, force, contact_area, mean_gap : float
         [m], [N], [m^2], [m]; tension is negative. As in `AdhesiveCurve`, on a line per unit length.
     contact_fraction : float
@@ -68,6 +70,7 @@ class AdhesivePoint:
     """
 
     branch: Literal["approach", "retreat"]
+    nominal_pressure: float
     depth: float
     force: float
     contact_area: float
@@ -218,6 +221,11 @@ class AdhesiveCurve:
     def adhesive_energy(self) -> Array:
         """Energy of the attraction [J], negative, shape (n,)."""
         return self.energy - self.elastic_energy
+
+    @property
+    def nominal_pressure(self) -> Array:
+        """Force over the nominal area [Pa], tension negative, shape (n,)."""
+        return self.force / self.nominal_area
 
     @property
     def contact_fraction(self) -> Array:

@@ -162,17 +162,22 @@ class AdhesiveState:
         return geometry_of(self.problem.operator)
 
     @property
-    def nominal_pressure(self) -> float:
-        """Force over the nominal area [Pa]."""
-        return self.force / self.problem.operator.grid.area
+    def nominal_area(self) -> float:
+        """Area of all cells [m^2], missing ones included."""
+        return self.problem.operator.grid.area
 
     @property
-    def largest_pressure(self) -> float:
+    def nominal_pressure(self) -> float:
+        """Force over the nominal area [Pa]."""
+        return self.force / self.nominal_area
+
+    @property
+    def max_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
         return float(self.pressure.max())
 
     @property
-    def largest_tension(self) -> float:
+    def max_tension(self) -> float:
         """Largest tension of a cell [Pa], positive."""
         return max(0.0, -float(self.pressure.min()))
 
@@ -196,7 +201,7 @@ class AdhesiveState:
     @property
     def contact_fraction(self) -> float:
         """Contact area over the nominal area."""
-        return self.contact_area / self.problem.operator.grid.area
+        return self.contact_area / self.nominal_area
 
     @property
     def elastic_energy(self) -> float:

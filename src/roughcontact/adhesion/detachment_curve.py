@@ -140,6 +140,11 @@ class DetachmentCurve:
         return self.elastic_energy + self.adhesive_energy
 
     @property
+    def nominal_pressure(self) -> Array:
+        """Force over the nominal area [Pa], tension negative, shape (n,)."""
+        return self.force / self.nominal_area
+
+    @property
     def contact_fraction(self) -> Array:
         """Contact area over the nominal area, shape (n,)."""
         return self.contact_area / self.nominal_area

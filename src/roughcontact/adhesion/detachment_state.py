@@ -165,20 +165,25 @@ class DetachmentState:
     @property
     def contact_fraction(self) -> float:
         """Contact area over the nominal area."""
-        return self.contact_area / self.problem.grid.area
+        return self.contact_area / self.nominal_area
+
+    @property
+    def nominal_area(self) -> float:
+        """Area of all cells [m^2], missing ones included."""
+        return self.problem.grid.area
 
     @property
     def nominal_pressure(self) -> float:
         """Force over the nominal area [Pa]."""
-        return self.force / self.problem.grid.area
+        return self.force / self.nominal_area
 
     @property
-    def largest_pressure(self) -> float:
+    def max_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
         return float(self.pressure.max())
 
     @property
-    def largest_tension(self) -> float:
+    def max_tension(self) -> float:
         """Largest tension of a cell [Pa], positive."""
         return max(0.0, -float(self.pressure.min()))
 

@@ -26,11 +26,13 @@ if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
         conductance_command as conductance_command,
         curve_command as curve_command,
         press_command as press_command,
+        theory_command as theory_command,
     )
     from roughcontact.cli.study import (
         averages_command as averages_command,
         study_command as study_command,
         study_from_command as study_from_command,
+        table_command as table_command,
     )
     from roughcontact.cli.surface import (
         prepare_command as prepare_command,

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ADHESION", "ALONE", "STUDY", "SURFACE", "do"]
 
-ALONE = {name: f"contact.{name}_command" for name in ("press", "curve", "conductance")}
+ALONE = {name: f"contact.{name}_command" for name in ("press", "curve", "conductance", "theory")}
 ALONE |= {name: f"{name}_command" for name in ("run", "serve", "doctor")}
 ADHESION = {
     "press": "adhesion.adhesive_press_command",
@@ -24,6 +24,7 @@ ADHESION = {
 SURFACE = {
     "info": "surface.surface_command",
     "make": "surface.surface_command",
+    "specified": "surface.surface_command",
     "prepare": "surface.prepare_command",
     "spectrum": "surface.spectrum_command",
 }
@@ -35,7 +36,7 @@ STUDY = {
     "add": "study.study_command",
     "average": "study.averages_command",
     "plot": "study.averages_command",
-    "table": "study.averages_command",
+    "table": "study.table_command",
 }
 
 

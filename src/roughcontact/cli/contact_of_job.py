@@ -16,7 +16,7 @@ from roughcontact.progress.events import task
 from roughcontact.recipe.bodies import hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.job_calls import Call, perform
-from roughcontact.recipe.jobs import Job, known_names, surface_calls
+from roughcontact.recipe.jobs import JobOfHeights, known_names, surface_calls
 from roughcontact.recipe.plastic_flow import yields_at
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.source import File, Source
@@ -27,7 +27,15 @@ if TYPE_CHECKING:
     from roughcontact.recipe.elastic_jobs import CurveJob, PressJob
     from roughcontact.surface.surface import Surface
 
-__all__ = ["best_state", "contact_of", "hardness_of_job", "name_of", "prepared", "softer_of"]
+__all__ = [
+    "best_state",
+    "contact_of",
+    "hardness_of_job",
+    "name_of",
+    "note_materials",
+    "prepared",
+    "softer_of",
+]
 
 _READERS = ("rc.read", "rc.read_line")
 _NAME_THE_BODY = (
@@ -50,7 +58,7 @@ def contact_of(job: Any) -> dict[str, Any]:
         If the surface cannot be read or prepared, or several processes cannot press it together.
     """
     known = prepared(job, _require_together)
-    _note_materials(job.bodies)
+    note_materials(job.bodies)
     if job.contact.profile is not None:
         _note_profile(job.contact.profile, known["surface"])
     for call in (*job.bodies.calls(), *job.contact.calls()):
@@ -58,7 +66,7 @@ def contact_of(job: Any) -> dict[str, Any]:
     return known
 
 
-def prepared(job: Job, check: Callable[[Surface], None] = lambda surface: None) -> dict[str, Any]:
+def prepared(job: JobOfHeights, check: Callable[[Surface], None] = lambda surface: None) -> dict[str, Any]:
     """Return what calls refer to, the surface of a job among them; what was read is checked before it is prepared."""
     from roughcontact.files.read import read_either
 
@@ -109,7 +117,7 @@ def hardness_of_job(job: PressJob | CurveJob) -> float | None:
     return softer[0]
 
 
-def _adapted(call: Call, job: Job) -> Call:
+def _adapted(call: Call, job: JobOfHeights) -> Call:
     """Return a call as this program makes it: for a profile too where nothing is pressed, in slabs by several."""
     if call.function == "rc.read" and isinstance(job, SurfaceJob):
         call = replace(call, function="read_either")
@@ -119,7 +127,7 @@ def _adapted(call: Call, job: Job) -> Call:
 
 
 @contextmanager
-def _reading(call: Call, job: Job) -> Iterator[None]:
+def _reading(call: Call, job: JobOfHeights) -> Iterator[None]:
     """Name a file as it was typed, and options where the library names its functions for maps and for profiles."""
     file = Path(call.given[0])
     with as_typed(file):
@@ -162,7 +170,8 @@ def _note_level(call: Call, surface: Surface) -> None:
         note(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
 
 
-def _note_materials(bodies: Bodies) -> None:
+def note_materials(bodies: Bodies) -> None:
+    """Note which materials of the handbook bodies that are named stand for."""
     from roughcontact.materials import handbook
 
     for name in dict.fromkeys(value_of(bodies, "materials") or ()):

@@ -12,7 +12,7 @@ from contextlib import contextmanager, redirect_stdout
 from decimal import Decimal
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -23,7 +23,10 @@ from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.memory import MemoryWarning
 from roughcontact.recipe.recipe_fields import option_of
 
-__all__ = ["UsageError", "as_typed", "ended", "note", "plain", "reported"]
+if TYPE_CHECKING:
+    from roughcontact.labels.note import Note
+
+__all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "reported"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
 # What the library says by keywords and calls of Python, and no place of an error tells.
@@ -58,6 +61,14 @@ class UsageError(InputError):
 def note(text: str) -> None:
     """Print one line on standard error."""
     typer.echo(f"Note: {_line(text)}", err=True)
+
+
+def note_all(notes: Iterable[Note]) -> None:
+    """Print the notes on an answer, each once: what makes a number wrong first, what is usual last."""
+    from roughcontact.labels.note import in_order
+
+    for text in in_order(notes):
+        note(text)
 
 
 @contextmanager

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
     from roughcontact.cli.options import Answer
-    from roughcontact.recipe.jobs import Job
+    from roughcontact.recipe.jobs import JobOfHeights
     from roughcontact.surface.surface import Surface
 
 __all__ = ["PathAnswer", "collected"]
@@ -70,7 +70,7 @@ class PathAnswer:
 
     Parameters
     ----------
-    job : Job
+    job : JobOfHeights
     surface : Surface
     found : AdhesiveCurve or DetachmentCurve
     whole : bool
@@ -83,7 +83,7 @@ class PathAnswer:
         Where it goes.
     """
 
-    job: Job
+    job: JobOfHeights
     surface: Surface
     found: AdhesiveCurve | DetachmentCurve
     whole: bool
@@ -118,9 +118,9 @@ class PathAnswer:
         dataset = self.found.to_dataset()
         with task("Writing files"), writing(), all_or_none(folder) as aside:
             write_netcdf(dataset, aside / f"{self.stem}.nc", source)
-            write_csv(dataset, aside / f"{self.stem}.csv", source)
+            write_csv(dataset, aside / f"{self.stem}.csv")
             event = self.events.rpartition("_")[2].removesuffix("s")
-            write_csv(dataset, aside / f"{self.events}.csv", source, dimension=event)
+            write_csv(dataset, aside / f"{self.events}.csv", dimension=event)
             save(drawn(self.found), aside / f"{self.stem}.{self.answer.ending}")
             write_json(self.record(), aside / f"{self.stem}.json", source)
 

@@ -42,6 +42,7 @@ _RESULTS = (".json", ".nc")
 _STEMS = {
     "press": "press",
     "curve": "curve",
+    "theory": "theory",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",
     "adhesion loop": "adhesive_loop",

@@ -15,7 +15,7 @@ from roughcontact.arrays import on_host
 from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.contact.solution import Solution
+from roughcontact.contact.solution import Solution, mean_pressure
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
@@ -47,9 +47,11 @@ class Curve:
 
     Attributes
     ----------
-    force, depth, stiffness, interfacial_stiffness, contact_area, mean_gap, elastic_energy : array, shape (n,)
-        [N], [m], [N/m], [N/m], [m^2], [m], [J]. `stiffness` is dF/dd at the frozen contact region (a
+    force, depth, stiffness, interfacial_stiffness : array, shape (n,)
+        [N], [m], [N/m], [N/m]. `stiffness` is dF/dd at the frozen contact region (a
         staircase in load); `secant_stiffness` is the finite difference that averages over its steps.
+    contact_area, max_pressure, mean_gap, elastic_energy : array, shape (n,)
+        [m^2], [Pa], [m], [J]; `max_pressure` is the largest of a cell.
     spots : int array, shape (n,)
         Number of contact spots.
     residual, stiffness_residual : array, shape (n,)
@@ -92,6 +94,7 @@ class Curve:
     stiffness: Array
     interfacial_stiffness: Array
     contact_area: Array
+    max_pressure: Array
     mean_gap: Array
     elastic_energy: Array
     spots: npt.NDArray[np.intp]
@@ -162,6 +165,11 @@ class Curve:
     def nominal_pressure(self) -> Array:
         """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
         return self.force / self.nominal_area
+
+    @property
+    def mean_pressure(self) -> Array:
+        """Force over the real contact area [Pa]; NaN without contact."""
+        return mean_pressure(self.force, self.contact_area)
 
     @property
     def contact_fraction(self) -> Array:

@@ -17,8 +17,8 @@ class CurvePoint:
     ----------
     force, depth, stiffness, interfacial_stiffness, contact_area, mean_gap, elastic_energy : float
         [N], [m], [N/m], [N/m], [m^2], [m], [J]; as in `Curve`, on a line per unit length.
-    nominal_pressure : float
-        [Pa]
+    nominal_pressure, max_pressure, mean_pressure : float
+        Over all cells, of one cell, and over the contact area [Pa].
     contact_fraction : float
         Relative real contact area A/A0.
     interfacial_stiffness_per_area : float
@@ -49,6 +49,8 @@ class CurvePoint:
 
     force: float
     nominal_pressure: float
+    max_pressure: float
+    mean_pressure: float
     depth: float
     stiffness: float
     interfacial_stiffness: float

@@ -8,14 +8,22 @@ import numpy as np
 
 from roughcontact.contact.dataset import curve_dataset, curve_record
 from roughcontact.contact.loop import Loop
-from roughcontact.labels.contact_columns import FLOW, LOOP
-from roughcontact.labels.labelled import centres, dataset_of, record_of, variable, variables_of
+from roughcontact.labels.contact_columns import FLOW, LOOP, UNLOADED
+from roughcontact.labels.labelled import (
+    Variables,
+    attributes_of,
+    centres,
+    dataset_of,
+    record_of,
+    variable,
+    variables_of,
+)
 
 if TYPE_CHECKING:
     import xarray
 
 
-__all__ = ["loop_dataset", "loop_record"]
+__all__ = ["loop_dataset", "loop_record", "unloaded"]
 
 _NAMES = {
     "heights": "surface.heights",
@@ -84,3 +92,15 @@ def loop_record(loop: Loop) -> dict[str, Any]:
     kind = loop.loading.geometry
     data = variables_of(loop, {(): (*LOOP[()], *FLOW[1:3])}, kind, _NAMES)
     return record_of(data, kind) | {name: curve_record(curve) for name, curve in loop.curves.items()}
+
+
+def unloaded(loop: Loop) -> Variables:
+    """Return the points of unloading in the order of first loading, each under the load of its row."""
+    return {
+        column.name: (
+            ("load",),
+            getattr(loop.unloading, column.name.removeprefix("unloaded_"))[::-1],
+            attributes_of(column, loop.loading.geometry),
+        )
+        for column in UNLOADED
+    }

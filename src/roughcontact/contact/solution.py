@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
-from roughcontact.arrays import is_numpy, max_abs, on_host
+from roughcontact.arrays import as_like, is_numpy, max_abs, on_host
 from roughcontact.cached import cached_property
 from roughcontact.contact.flow import Flow, flow_of
 from roughcontact.contact.open_cells import ACCURACY, ROUNDING, mean_opening
@@ -25,6 +25,7 @@ from roughcontact.contact.stiffness import (
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
+from roughcontact.labels.note import in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.complementarity import weakly_active
 from roughcontact.solver.control import Status
@@ -35,7 +36,7 @@ from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
 
-__all__ = ["Solution"]
+__all__ = ["Solution", "mean_pressure"]
 
 
 @hinted
@@ -111,19 +112,29 @@ class Solution:
         return float(self._measure.on(self._cells).sum())
 
     @property
+    def nominal_area(self) -> float:
+        """Area of all cells [m^2], missing ones included; of a line and of springs their length [m]."""
+        return self.problem.grid.area
+
+    @property
     def contact_fraction(self) -> float:
-        """Real contact area over the nominal area of all cells, missing ones included."""
-        return self.contact_area / self.problem.grid.area
+        """Relative real contact area A/A0, missing cells included in A0."""
+        return self.contact_area / self.nominal_area
 
     @property
     def nominal_pressure(self) -> float:
-        """Force over the nominal area of all cells [Pa]."""
-        return self.force / self.problem.grid.area
+        """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
+        return self.force / self.nominal_area
 
     @property
-    def largest_pressure(self) -> float:
+    def max_pressure(self) -> float:
         """Largest pressure of a cell [Pa]."""
         return max_abs(self.pressure)
+
+    @property
+    def mean_pressure(self) -> float:
+        """Force over the real contact area [Pa]; NaN without contact."""
+        return float(mean_pressure(self.force, self.contact_area))
 
     @cached_property
     def mean_gap(self) -> float:
@@ -236,8 +247,8 @@ class Solution:
 
     @property
     def interfacial_stiffness_per_area(self) -> float:
-        """Interfacial stiffness over the nominal area of all cells, K/A0 [Pa/m]."""
-        return self.interfacial_stiffness / self.problem.grid.area
+        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; of a foundation over its length [N/m^2]."""
+        return self.interfacial_stiffness / self.nominal_area
 
     @cached_property
     def spots(self) -> Spots:
@@ -280,15 +291,23 @@ class Solution:
         return self.problem.missing
 
     @cached_property
+    def edge_share(self) -> float:
+        """Part of the force on the outermost cells of a free grid, beyond which nothing is known."""
+        grid, pressure, xp = self.problem.grid, self.pressure, self._measure.xp
+        weights = np.broadcast_to(self.problem.operator.weights, grid.shape)
+        inner: tuple[slice, ...] = ()  # of the axes before: no corner counts twice
+        load = 0.0
+        for count, ends in zip(grid.shape, grid.ends, strict=True):
+            for end in {end % count for end in ends}:
+                rim: Any = (*inner, end, ...)
+                load += float(xp.sum(as_like(weights[rim].copy(), pressure) * pressure[rim]))
+            inner = (*inner, slice(1 if 0 in ends else 0, -1 if ends else None))
+        return load / self.force if load else 0.0
+
+    @property
     def touches_edge(self) -> bool:
-        """Whether contact reaches the edge of a free grid, beyond which nothing is known."""
-
-        def rim(axis: int, end: int) -> Any:
-            return self.contact[(slice(None),) * axis + (end, ...)]
-
-        xp = self._measure.xp
-        ends = self.problem.grid.ends
-        return any(bool(xp.any(rim(axis, end))) for axis in range(len(ends)) for end in ends[axis])
+        """Whether contact reaches the edge of a free grid."""
+        return self.edge_share > 0
 
     @cached_property
     def resolved(self) -> bool:
@@ -300,8 +319,8 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences."""
-        return methods.notes_on(self)
+        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        return in_order(methods.notes_on(self))
 
     @property
     def resolved_from_below(self) -> bool:
@@ -371,3 +390,8 @@ class Solution:
         cells = self._cells
         force = self._measure.on(cells) * pressure.ravel()[cells]
         return float(force @ self.problem.mean_response.ravel()[cells])
+
+
+def mean_pressure(force: float | Array, contact_area: float | Array) -> Array:
+    """Return the mean pressure in contact [Pa]; NaN without contact."""
+    return force / np.where(np.asarray(contact_area) > 0, contact_area, np.nan)

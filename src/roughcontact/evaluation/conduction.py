@@ -162,14 +162,13 @@ def conductance(
     if isinstance(contact, Solution):
         contact = contact.flattened  # plastic cells conduct as well
     scales = contact.problem if isinstance(contact, Solution) else contact
-    area = scales.nominal_area if isinstance(scales, Curve) else scales.grid.area
     name = _PARTS[of]
     known: Curve | Solution | FlowCurve | None = contact
     if isinstance(contact, Curve) and contact.hardness < math.inf:
         name, known = f"unloading_{name}", contact.flow
     _require_conducting(scales.geometry, known is None, of)
     stiffness = np.asarray(getattr(known, name), dtype=np.float64)
-    return _of_part(materials.of(stiffness, scales.modulus), area, of)
+    return _of_part(materials.of(stiffness, scales.modulus), contact.nominal_area, of)
 
 
 def with_conductance(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from roughcontact.labels.labelled import plain_values
@@ -14,8 +14,9 @@ __all__ = ["ErrorBudget", "ErrorSource", "QuotedNumber"]
 
 MANY_TIMES = 10  # a value: how large an error then is says no more
 ROUNDING = 1e-12  # of a value: an error below is none, as a gap is that is so small beside the depth
+SAMPLED = ("interfacial_stiffness", "contact_area", "mean_gap")  # numbers that a picture names
 
-Kind: TypeAlias = Literal["bias", "standard error"]
+Kind: TypeAlias = Literal["bias", "standard error", "order of magnitude", "unknown"]
 InUnit: TypeAlias = Callable[[str, float], tuple[float, str]]
 
 
@@ -27,16 +28,21 @@ class ErrorSource:
     ----------
     name : str
         In words.
-    kind : {"bias", "standard error"}
+    kind : {"bias", "standard error", "order of magnitude", "unknown"}
         A bias is by how much a number changes if one thing is done otherwise; its sign is kept. A standard error is
-        that of a mean over patches.
+        that of a mean over patches. An order of magnitude is a standard deviation that few values show. The parts of
+        an unknown source are NaN.
     how : str
-        What was done.
+        What was done, or why the source is unknown.
     """
 
     name: str
     kind: Kind
     how: str
+
+    def __str__(self) -> str:
+        """Return what was done, and what that shows."""
+        return self.how if self.kind == "unknown" else f"{self.kind}: {self.how}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +68,7 @@ class QuotedNumber:
 
     @property
     def error(self) -> float:
-        """The square root of the sum of the squares of the parts, in its unit."""
+        """The square root of the sum of the squares of the parts, in its unit; NaN if one is unknown."""
         return math.hypot(*self.parts)
 
     @property
@@ -81,11 +87,15 @@ class ErrorBudget:
     sources : tuple of ErrorSource
     notes : tuple of str
         What is left out, and why, in sentences.
+    bias_of_size : mapping of str to float
+        By how much the mean over four quarters of the map differs from the whole map, relative, for the numbers that a
+        map of any size has; empty where no quarter was pressed. It is no error, and no correction of a number.
     """
 
     numbers: tuple[QuotedNumber, ...]
     sources: tuple[ErrorSource, ...]
     notes: tuple[str, ...]
+    bias_of_size: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> QuotedNumber:
         """Return a number by its name."""
@@ -138,7 +148,7 @@ class ErrorBudget:
         Returns
         -------
         dict
-            By the name of each number its value, error and parts, with the sources and the notes.
+            By the name of each number its value, error and parts, with the sources, the bias of size and the notes.
         """
         keys = [source.name.replace(" ", "_").replace("-", "") for source in self.sources]
         numbers = {
@@ -154,17 +164,45 @@ class ErrorBudget:
             key: {"kind": source.kind, "how": source.how}
             for key, source in zip(keys, self.sources, strict=True)
         }
-        return {**numbers, "sources": sources, "notes": list(self.notes)}
+        bias = {name: plain_values(value) for name, value in self.bias_of_size.items()}
+        return {**numbers, "sources": sources, "bias_of_size": bias, "notes": list(self.notes)}
+
+    def facts(self) -> list[tuple[str, str]]:
+        """Return what each source is, and the bias of size, in words.
+
+        Returns
+        -------
+        list of tuple of str
+            Names and sentences.
+        """
+        facts = [(source.name, str(source)) for source in self.sources]
+        if self.bias_of_size:
+            each = "; ".join(
+                f"{VARIABLES[name].label} {_percent(bias, '+')}" for name, bias in self.bias_of_size.items()
+            )
+            facts.append(("bias of size", f"{each} (quarters against the map; no error, not subtracted)"))
+        return facts
+
+    @property
+    def sampling(self) -> str:
+        """How much another map of the surface would differ, in a line for a picture; empty where it is left out."""
+        for place, source in enumerate(self.sources):
+            if source.name == "sampling":
+                parts = {number.name: number.parts[place] / number.value for number in self.numbers}
+                shown = ", ".join(f"{VARIABLES[name].label} {_percent(parts[name])}" for name in SAMPLED)
+                return source.how if source.kind == "unknown" else f"sampling, in order of magnitude: {shown}"
+        return ""
 
     def __repr__(self) -> str:
-        """Return the table in SI units."""
+        """Return the table in SI units, and what each source is."""
         header, rows = self.table()
         lines = [header, *rows]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-        return "\n".join(
+        table = [
             "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
             for line in lines
-        )
+        ]
+        return "\n".join((*table, *(f"{name}: {words}" for name, words in self.facts())))
 
 
 def _decimals(error: float, value: float) -> int:
@@ -187,10 +225,10 @@ def _text(value: float, decimals: int, sign: str = "") -> str:
     return f"{value:{sign}.{max(0, digits)}e}"
 
 
-def _percent(part: float) -> str:
-    """Return a relative error of two digits."""
+def _percent(part: float, sign: str = "") -> str:
+    """Return a relative error, or with the sign "+" a bias, of two digits."""
     if not math.isfinite(part):
         return "unknown"
     if part > MANY_TIMES:
         return f"> {100 * MANY_TIMES:.0f} %"
-    return f"{100 * part:.{0 if part >= 0.0995 else 1}f} %"
+    return f"{100 * part:{sign}.{0 if abs(part) >= 0.0995 else 1}f} %"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from types import MappingProxyType
 
@@ -19,6 +20,7 @@ REMEDIES = MappingProxyType(
         "of the instrument (short_cutoff, --shortest-wave).",
         "levelling": "The longest waves are about as long as the map, and a quadratic form takes them away: measure a "
         "larger map, or find out whether the form is that of the instrument.",
+        "sampling": "Other maps of this surface differ by about as much: measure a larger map, or several.",
         "patches": "The patches differ by as much: take more or larger ones.",
     }
 )
@@ -27,16 +29,19 @@ OTHERWISE = ("_per_area", "_fraction")  # endings of names: numbers that are oth
 
 def notes_on_sources(numbers: Sequence[QuotedNumber], sources: Sequence[ErrorSource]) -> list[str]:
     """Return a sentence for each source that is nearly all of a large error, with the numbers and the remedy."""
+    known = [place for place, source in enumerate(sources) if source.kind != "unknown"]
+    error = "error" if len(known) == len(sources) else "known error"
+    sizes = [math.hypot(*(number.parts[place] for place in known)) for number in numbers]
     notes = []
-    for place, source in enumerate(sources):
+    for place in known:
         made = [
-            f"{VARIABLES[number.name].label} ({100 * number.relative_error:.0f} %)"
-            for number in numbers
+            f"{VARIABLES[number.name].label} ({100 * size / abs(number.value):.0f} %)"
+            for number, size in zip(numbers, sizes, strict=True)
             if not number.name.endswith(OTHERWISE)
-            and abs(number.parts[place]) >= ALL * number.error
-            and number.relative_error >= LARGE
+            and abs(number.parts[place]) >= ALL * size
+            and size >= LARGE * abs(number.value) > 0
         ]
         if made:
-            words = f"Nearly all of the error of {', '.join(made)} is that of {source.name}."
-            notes.append(f"{words} {REMEDIES[source.name]}")
+            words = f"Nearly all of the {error} of {', '.join(made)} is that of {sources[place].name}."
+            notes.append(f"{words} {REMEDIES[sources[place].name]}")
     return notes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,9 +15,10 @@ from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
-from roughcontact.evaluation.error_budget import ROUNDING, ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import notes_on_sources
-from roughcontact.evaluation.perimeter import corrected_area
+from roughcontact.evaluation.error_numbers import NUMBERS, number_table
+from roughcontact.evaluation.other_maps import sampling_of
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.labels.variables import VARIABLES
@@ -27,18 +28,20 @@ from roughcontact.surface.finest_waves import is_rough_to_cells
 from roughcontact.surface.preparation.filters import require_cells
 from roughcontact.surface.preparation.halving import halved
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric, positive_scalar
+from roughcontact.validation import numeric, positive_scalar
 
-__all__ = ["NUMBERS", "checked_cutoff", "error_budget"]
+__all__ = ["checked_cutoff", "error_budget"]
 
 CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none on a free map
 OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
-SAME = 1e-9  # relative difference up to which two loads or spacings are one
-NUMBERS = (
-    *("force", "depth", "stiffness", "interfacial_stiffness", "interfacial_stiffness_per_area"),
-    *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
-    *("mean_gap", "elastic_energy"),
+OF_FORM = (
+    "Levelling and sampling are left out: a form larger than the roughness is the body itself, and its quarters are "
+    "other bodies. Remove the form if it is not (levelled('quadratic'), --level quadratic)."
 )
+AT_DEPTH = (
+    "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
+)
+SAME = 1e-9  # relative difference up to which two loads or spacings are one
 
 
 @numeric(short_cutoff="m")
@@ -47,7 +50,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
 
     The load is pressed again on half as many cells, on the map without its short waves, and, where the map is free and
     nominally flat, without its quadratic form; the changes of a number are its parts. They are not corrections: each
-    says how much a number depends on what was not known when the map was made.
+    says how much a number depends on what was not known when the map was made. Four quarters of the map show how much
+    another map would differ.
 
     Parameters
     ----------
@@ -80,6 +84,9 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     The largest pressure grows with the waves, and at the border of a free map with the grid: it has no error at all.
     *Levelling*: the map less its least-squares quadratic. *Patches*: the standard error of the mean over them. The
     first two have the waves of two to four cells in common, so that the error is rather too large (docs/errors.md).
+    *Sampling*: how much another map of the surface would differ, as an order of magnitude, for one periodic or
+    nominally flat map under a force. Four free quarters are pressed at the same nominal pressure; half of their
+    relative standard deviation is the part. With fewer than ten spots the part, and so the error, is NaN.
 
     The area is given as the cells count it and as corrected for its perimeter by Yastrebov, Anciaux and Molinari,
     Tribology International 114 (2017) 161.
@@ -89,12 +96,12 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     >>> import numpy as np
     >>> import roughcontact as rc
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
-    >>> waves = {"hurst": 0.8, "rms": 1e-7, "rolloff": 32e-6, "short_cutoff": 8e-6}
+    >>> waves = {"hurst": 0.8, "rms": 1e-7, "rolloff": 16e-6, "short_cutoff": 8e-6}
     >>> surface = rc.self_affine(grid, rng=np.random.default_rng(1), **waves)
     >>> budget = rc.error_budget(rc.press(surface, 1e9, pressure=1e6))
     >>> [source.name for source in budget.sources]
-    ['grid', 'short cut-off']
-    >>> budget["interfacial_stiffness"].relative_error < 0.1
+    ['grid', 'short cut-off', 'sampling']
+    >>> budget["interfacial_stiffness"].relative_error < 0.3
     True
     """
     patches = tuple(pressed) if isinstance(pressed, Iterable) else (pressed,)
@@ -113,12 +120,12 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         sources.append(ErrorSource("levelling", "bias", "without the least-squares quadratic"))
         otherwise.append(lambda surface: surface.levelled("quadratic"))
     elif SurfaceKind.FORM in kinds:
-        notes.append("Levelling is left out: a form larger than the roughness is the body itself.")
-    values, parts = _table(patches), []
+        notes.append(OF_FORM)
+    values, parts = number_table(patches), []
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
         maps = list(zip(sources, otherwise, strict=True))
         for source, change in tracked(maps, "Errors: pressing maps made otherwise", "maps"):
-            again = _table([_again(each, change) for each in patches])
+            again = number_table([_again(each, change) for each in patches])
             parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
             if np.isnan(again).all(axis=0).any():
                 notes.append(
@@ -129,6 +136,15 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
             sources.append(ErrorSource("patches", "standard error", many))
             parts.append(values.std(axis=1, ddof=1) / math.sqrt(len(patches)))
     prescribed = "force" if isinstance(first.control, Force) else "depth"
+    bias_of_size: Mapping[str, float] = {}
+    if len(patches) == 1 and SurfaceKind.FORM not in kinds:
+        if prescribed == "depth":
+            notes.append(AT_DEPTH)
+        else:
+            sampling = sampling_of(patches[0])
+            sources.append(sampling.source)
+            parts.append(sampling.parts)
+            bias_of_size = sampling.bias_of_size
     if any(map(is_rough_to_cells, surfaces)):
         for part in parts[: len(OF_CELLS)]:
             part[NUMBERS.index("depth")] = math.nan
@@ -138,7 +154,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         for name, value, part in zip(NUMBERS, values.mean(axis=1), np.transpose(parts), strict=True)
         if name != prescribed
     )
-    return ErrorBudget(numbers, tuple(sources), (*notes, *notes_on_sources(numbers, sources)))
+    notes += notes_on_sources(numbers, sources)
+    return ErrorBudget(numbers, tuple(sources), tuple(notes), bias_of_size)
 
 
 def _of_highest_point(prescribed: str) -> str:
@@ -237,23 +254,3 @@ def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution
     if not answer.status.converged:
         raise ConvergenceError(answer)
     return answer
-
-
-def _table(solutions: Sequence[Solution | None]) -> Array:
-    """Return the numbers of contacts, shape (numbers, contacts)."""
-    return np.array([list(_numbers(each)) for each in solutions]).T
-
-
-def _numbers(solution: Solution | None) -> Iterator[float]:
-    """Yield the values of NUMBERS; NaN of no contact that there is."""
-    if solution is None:
-        yield from (math.nan for _ in NUMBERS)
-        return
-    nominal, corrected = solution.problem.grid.area, corrected_area(solution)
-    yield from (solution.force, solution.depth, solution.stiffness, solution.interfacial_stiffness)
-    yield solution.interfacial_stiffness / nominal
-    yield from (solution.contact_area, corrected)
-    yield from (solution.contact_fraction, corrected / nominal)
-    gap = solution.mean_gap  # a difference of lengths of the depth's size
-    yield 0.0 if abs(gap) <= ROUNDING * solution.depth else gap
-    yield solution.elastic_energy

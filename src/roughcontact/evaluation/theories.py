@@ -123,7 +123,7 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise InputError("Persson's theory is about surfaces on a grid of two axes")
     waves = _waves(surface)
-    nominal = solution.force / surface.grid.area
+    nominal = solution.nominal_pressure
     modulus = solution.problem.modulus
     return partial(persson.pressure_density, pressure=nominal, modulus=modulus, surface=waves)
 

@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = [
-    *("netcdf_bytes", "plain_cells", "require_netcdf", "scale_remark", "units_remark"),
+    *("netcdf_bytes", "in_parts", "plain_cells", "require_netcdf"),
     *("write_csv", "write_json", "write_netcdf", "write_table", "write_text"),
 ]
 
@@ -136,27 +136,18 @@ def require_netcdf() -> None:
         raise WriteError(f"NetCDF needs {lack[0]}", lack[1])
 
 
-def write_csv(
-    dataset: xarray.Dataset,
-    path: str | os.PathLike[str],
-    provenance: Attributes | None = None,
-    *,
-    dimension: str | None = None,
-) -> None:
+def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimension: str | None = None) -> None:
     """Write the points of a curve or spectrum, or the scalars of one state, as a table of comma-separated values.
 
-    The first line names the columns. Lines that start with ``#`` follow it: units, scales,
-    provenance. Then one line a point, every number with all its digits; truth values are 1 and 0.
-    It stands in this order because `numpy.genfromtxt` (``delimiter=",", names=True``) takes names from
-    the first line of a file; `pandas.read_csv` (``comment="#"``) reads it as well. A vector with a
-    ``component`` takes one column for each: ``tangential_force_x``, ``tangential_force_y``.
+    The first line names the columns with their units: ``force [N]``. Each further line is a point, every number with
+    all its digits; truth values are 1 and 0. Scales such as the modulus are columns of equal values.
+    `pandas.read_csv` and spreadsheets read it without options, `numpy.genfromtxt` with ``delimiter=",", names=True``.
+    A vector with a ``component`` or an ``axis`` takes one column for each: ``tangential_force_x``, ``lengths_y``.
 
     Parameters
     ----------
     dataset : Dataset
     path : str or path
-    provenance : mapping, optional
-        Further remarks, see `roughcontact.files.provenance`.
     dimension : str, optional
         The dimension that the points lie along; by default ``load``, and a single row where there is none.
 
@@ -176,48 +167,40 @@ def write_csv(
     along = () if dimension is None else (dimension,)
     columns: dict[str, xarray.DataArray] = {}
     for name, values in dataset.data_vars.items():
-        if values.dims == along:
+        if values.dims in (along, ()):
             columns[str(name)] = values
-        elif values.dims == (*along, "component"):
-            parts = values["component"].to_numpy().tolist()
-            columns |= {f"{name}_{part}": values.sel(component=part) for part in parts}
-    # Words go last, so that readers of pure numbers can ask for the columns before them.
-    columns = dict(sorted(columns.items(), key=lambda each: each[1].dtype.kind in "OUT"))
-    scales = [v for v in dataset.data_vars.values() if v.dims in ((), ("axis",)) and v.dims != along]
-    remarks = [units_remark(columns), *map(scale_remark, scales)]
-    remarks += [f"{name} = {value}" for name, value in (dataset.attrs | dict(provenance or {})).items()]
-    cells = (plain_cells(values.to_numpy()).reshape(-1).tolist() for values in columns.values())
-    write_table(path, columns, remarks, zip(*cells, strict=True))
+        elif len(parts := set(values.dims) - set(along)) == 1 and parts <= {"component", "axis"}:
+            columns |= in_parts(values, *parts)
+    # Points before scales; words last, so that readers of pure numbers can ask for the columns before them.
+    columns = dict(
+        sorted(columns.items(), key=lambda each: (each[1].dtype.kind in "OUT", each[1].dims != along))
+    )
+    count = 1 if dimension is None else dataset.sizes[dimension]
+    cells = (np.broadcast_to(plain_cells(each.to_numpy()), count).tolist() for each in columns.values())
+    write_table(path, columns, zip(*cells, strict=True))
 
 
 def write_table(
-    path: str | os.PathLike[str],
-    columns: Iterable[str],
-    remarks: Iterable[str],
-    rows: Iterable[Iterable[Any]],
+    path: str | os.PathLike[str], columns: Mapping[str, xarray.DataArray], rows: Iterable[Iterable[Any]]
 ) -> None:
-    """Write the names of columns, remarks that start with ``#``, and rows; the file appears whole or not at all."""
+    """Write a line with the names and units of the columns, and the rows; the file appears whole or not at all."""
     # Line ends as they are, on every system, so that equal results are equal files.
     with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="\n") as file:
         table = csv.writer(file, lineterminator="\n")  # of a real number it writes all digits, by `repr`
-        table.writerow(columns)
-        # A remark is one line: a break within it becomes a bar.
-        file.writelines(f"# {' | '.join(remark.splitlines())}\n" for remark in remarks)
+        table.writerow(_title(name, values.attrs.get("units", "1")) for name, values in columns.items())
         table.writerows(rows)
 
 
-def units_remark(columns: Mapping[str, xarray.DataArray]) -> str:
-    """Return the units of the columns that have one."""
-    units = {name: values.attrs["units"] for name, values in columns.items() if "units" in values.attrs}
-    return f"units: {', '.join(f'{name} [{unit}]' for name, unit in units.items())}"
+def _title(name: str, unit: str) -> str:
+    return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
-def scale_remark(values: xarray.DataArray) -> str:
-    """Return one scale as a remark: ``lengths = 1e-05, 2e-05 m (y, x)``."""
-    numbers = ", ".join(map(str, plain_cells(values.to_numpy()).reshape(-1).tolist()))
-    axes = f" ({', '.join(map(str, values['axis'].to_numpy()))})" if values.dims else ""
-    unit = values.attrs.get("units", "1")
-    return f"{values.name} = {numbers}{'' if unit == '1' else f' {unit}'}{axes}"
+def in_parts(values: xarray.DataArray, dimension: Hashable) -> dict[str, xarray.DataArray]:
+    """Return a variable as one column for each name along a dimension: ``lengths_y``, ``lengths_x``."""
+    return {
+        f"{values.name}_{part}": values.sel({dimension: part})
+        for part in values[dimension].to_numpy().tolist()
+    }
 
 
 def plain_cells(values: npt.NDArray[Any]) -> npt.NDArray[Any]:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from roughcontact.labels.column import CELLS, Column, Table, columns
 from roughcontact.labels.contact_columns import (
     CERTIFICATES,
-    LARGEST_PRESSURE,
     MAPS,
     MODULUS,
     POINTS,
@@ -44,7 +43,7 @@ LOWEST_FORCE = Column(
 )
 PULL_OFF = Column("pull_off_force", "N", "largest tension of the retreat, between the loads and in jumps")
 LOST = Column("lost_energy", "J", "energy lost in all jumps", "", "energy lost")
-LARGEST_TENSION = Column("largest_tension", "Pa", "largest tension of a cell")
+MAX_TENSION = Column("max_tension", "Pa", "largest tension of a cell", "", "largest tension")
 UNRESOLVED = Column("unresolved", "", "attraction varies from cell to cell: states are those of the lattice")
 WORK_OF_ADHESION = Column(
     "work_of_adhesion", "J m-2", "work of adhesion, to part a unit area", "", "work of adhesion w"
@@ -60,6 +59,7 @@ _ENERGIES = (_OF["elastic_energy"], ADHESIVE_ENERGY, ENERGY)
 ADHESIVE_CURVE: Table = {
     ("load",): (
         Column("branch", "", "branch of the path: approach or retreat", "path"),
+        _OF["nominal_pressure"],
         *_POINTS,
         *_ENERGIES,
         LOWEST_FORCE,
@@ -91,9 +91,10 @@ ADHESIVE_STATE: Table = {
     ),
     (): (
         MODULUS,
+        _OF["nominal_area"],
         _OF["nominal_pressure"],
-        LARGEST_PRESSURE,
-        LARGEST_TENSION,
+        _OF["max_pressure"],
+        MAX_TENSION,
         *_POINTS,
         *_ENERGIES,
         *columns("""
@@ -129,7 +130,7 @@ BRACKETS = {
 _PRELOAD = Column("preload_too_small", "", "whether a larger preload may raise the pull-off force")
 _STUCK = (DEPTH, FORCE, AREA, FRACTION, STIFFNESS, MEAN_GAP, *_ENERGIES, LOWEST_FORCE)
 DETACHMENT_CURVE: Table = {
-    ("load",): (*_STUCK, RESIDUAL, STATUS),
+    ("load",): (_OF["nominal_pressure"], *_STUCK, RESIDUAL, STATUS),
     ("detachment",): (
         Column("detached_at", "1", "load, counted from 0, that the detachment came on the way to"),
     ),
@@ -140,9 +141,10 @@ DETACHMENT_MAPS = ADHESIVE_STATE[(CELLS,)][:4]
 DETACHMENT_STATE: Table = {
     (): (
         MODULUS,
+        _OF["nominal_area"],
         _OF["nominal_pressure"],
-        LARGEST_PRESSURE,
-        LARGEST_TENSION,
+        _OF["max_pressure"],
+        MAX_TENSION,
         *_STUCK,
         Column("lowest_force_area", "m2", "area in contact under the lowest force"),
         PULL_OFF,

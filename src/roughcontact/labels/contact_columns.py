@@ -5,6 +5,7 @@ A new column is one line here. Files, records, tables on a screen and on the pag
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import MappingProxyType
 
 from roughcontact.labels.column import CELLS, Column, Table, columns
@@ -21,19 +22,21 @@ __all__ = [
         "FLOW_RISE",
     ),
     *("HARDNESS", "HEIGHTS", "INTERFACE", "LOOP", "MAPS", "POINTS", "RMS", "SCALES", "SIZES", "SPOTS"),
-    *("SPOT_LABEL", "STATE", "STATE_NAMES", "STATUS"),
+    *("SPOT_LABEL", "STATE", "STATE_NAMES", "STATUS", "UNLOADED"),
 ]
 
 POINTS = columns("""
     force | N | normal force | patch page facts
     nominal_pressure | Pa | force over the nominal area | joint page facts
+    max_pressure | Pa | largest contact pressure of a cell | page facts | largest pressure
+    mean_pressure | Pa | force over the real contact area | page facts | mean pressure in contact
     depth | m | approach of the bodies since first touch | patch page facts
     stiffness | N m-1 | normal stiffness dF/dd of the contact region held fixed | patch page facts
     interfacial_stiffness | N m-1 | normal stiffness against the mean gap, contact region held fixed | page facts
     contact_area | m2 | real contact area | patch page facts
     contact_fraction | 1 | relative real contact area, real over nominal | joint page facts | \
         relative real contact area A/A0
-    interfacial_stiffness_per_area | Pa m-1 | interfacial stiffness over the nominal area | joint page | \
+    interfacial_stiffness_per_area | Pa m-1 | interfacial stiffness over the nominal area | joint page facts | \
         interfacial stiffness per area K/A0
     spots | 1 | number of connected contact spots | patch joint page facts | contact spots | d
     mean_gap | m | gap averaged over the measured cells | patch joint page facts
@@ -103,7 +106,6 @@ HEIGHTS = Column("heights", "m", "height of the surface, positive toward the oth
 CONTACT = Column("contact", "", "whether the cell is in contact")
 PRESSURE = Column("pressure", "Pa", "contact pressure")
 STEPS = Column("steps", "1", "steps of the solver")
-LARGEST_PRESSURE = Column("largest_pressure", "Pa", "largest contact pressure of a cell", "facts")
 MAPS = (
     PRESSURE,
     *columns("""
@@ -124,9 +126,8 @@ SPOTS: Table = {
 STATE: Table = {
     (): (
         MODULUS,
-        *POINTS[:2],
-        LARGEST_PRESSURE,
-        *POINTS[2:],
+        *POINTS,
+        SCALES[-1],
         *CERTIFICATES,
         STATUS,
         STEPS,
@@ -163,6 +164,18 @@ LOOP: Table = {
         FLOW_RISE,
     ),
 }
+UNLOADED = tuple(
+    replace(
+        column,
+        name=f"unloaded_{column.name}",
+        long_name=f"{column.long_name}, on unloading",
+        shown=column.shown if "stiffness" in column.name else "",
+        label=f"{column.label} on unloading",
+    )
+    for column in POINTS
+    if column.name not in ("force", "nominal_pressure")
+)
+"""What a loop has on unloading under the loads of first loading, in tables with a row for each of these."""
 BRANCH = Column("branch", "", "branch of the loop: first loading, unloading or reloading")
 
 _OF_POINTS = {column.name: column for column in POINTS}

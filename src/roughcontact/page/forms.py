@@ -9,6 +9,7 @@ from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
 from roughcontact.recipe.source import SOURCES, Combined, InPython
+from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = ["forms"]
 
@@ -22,6 +23,7 @@ def forms() -> dict[str, Any]:
     A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
     (``at_most``) is given.
     """
+    jobs = {name: job for name, job in JOBS.items() if job is not TheoryJob}  # a page shows heights
     return {
         "sources": {
             source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)
@@ -32,9 +34,9 @@ def forms() -> dict[str, Any]:
                 for part, kind in _parts(job).items()
                 if kind is _SHOWN or kind not in OUTPUTS
             }
-            for name, job in JOBS.items()
+            for name, job in jobs.items()
         },
-        "about": {name: str(job.__doc__) for name, job in JOBS.items()},
+        "about": {name: str(job.__doc__) for name, job in jobs.items()},
     }
 
 

@@ -48,15 +48,14 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
     problem, kind = state.problem, state.geometry
     grid = problem.operator.grid
     met = "met" if state.status.converged else "MISSED"
-    tension = float(np.maximum(-state.pressure, 0.0).max())
     energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
     return [
         ("surface", size_of(grid)),
         *law_facts(problem.adhesion, problem.modulus, grid.spacing),
         ("force", quantity("force", state.force, kind)),
-        ("nominal pressure", quantity("pressure", state.force / grid.area, kind)),
-        ("largest pressure", quantity("pressure", float(state.pressure.max()), kind)),
-        ("largest tension", quantity("pressure", tension, kind)),
+        ("nominal pressure", quantity("pressure", state.nominal_pressure, kind)),
+        ("largest pressure", quantity("pressure", state.max_pressure, kind)),
+        ("largest tension", quantity("pressure", state.max_tension, kind)),
         ("depth", quantity("depth", state.depth, kind)),
         ("stiffness along the branch", quantity("stiffness", state.stiffness, kind)),
         ("stiffness, attraction fixed", quantity("stiffness", state.contact_stiffness, kind)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray
@@ -13,11 +14,13 @@ from matplotlib.figure import Figure
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
+from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.files.aside import WriteError, written_aside
 from roughcontact.labels.variables import unit_of
 from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
 from roughcontact.plot.drawing.engineering_units import Scale, written
+from roughcontact.plot.drawing.error_bars import Errors, sampling_lines
 from roughcontact.plot.drawing.marks import contact_window
 from roughcontact.plot.drawing.raster import Window
 from roughcontact.plot.drawing.ticks import LABEL, TICK
@@ -37,13 +40,15 @@ _FORMATS = ("png", "pdf", "svg")
 
 
 @numeric
-def solution_figure(solution: Solution) -> Figure:
+def solution_figure(solution: Solution, errors: ErrorBudget | None = None) -> Figure:
     """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps.
 
     Parameters
     ----------
     solution : Solution
         Of a surface, a line or rings.
+    errors : ErrorBudget, optional
+        Of the solution: how much another map would differ stands below the maps.
 
     Returns
     -------
@@ -78,6 +83,8 @@ def solution_figure(solution: Solution) -> Figure:
         first.set_title("contact over the heights", fontsize=LABEL)
         second.set_title(_peak(solution, window), fontsize=LABEL)
     figure.suptitle(_summary(solution), fontsize=LABEL + 1)
+    if errors is not None:
+        sampling_lines(figure, {solution.force: errors})
     return figure
 
 
@@ -110,7 +117,12 @@ def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Dens
 
 
 @numeric
-def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[Law] = ()) -> Figure:
+def curve_figure(
+    curve: Curve,
+    law: PowerLaw | None = None,
+    theories: Sequence[Law] = (),
+    errors: Errors | None = None,
+) -> Figure:
     """Return stiffness, contact area and depth against force, and what theories say about them.
 
     Parameters
@@ -120,6 +132,8 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
         Such as ``curve.fit()``.
     theories : sequence of Law, optional
         Such as those of `roughcontact.loading_laws`.
+    errors : mapping of float to ErrorBudget, optional
+        By force [N]: bars at these loads, and in a line each how much another map would differ.
 
     Returns
     -------
@@ -137,9 +151,10 @@ def curve_figure(curve: Curve, law: PowerLaw | None = None, theories: Sequence[L
     """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "depth"]], width_ratios=(1.6, 1))
-    force_curve(curve, axes["stiffness"], law=law, theories=theories)
-    force_curve(curve, axes["area"], quantity="contact_area", theories=theories)
-    force_curve(curve, axes["depth"], quantity="depth", theories=theories)
+    force_curve(curve, axes["stiffness"], law=law, theories=theories, errors=errors)
+    force_curve(curve, axes["area"], quantity="contact_area", theories=theories, errors=errors)
+    force_curve(curve, axes["depth"], quantity="depth", theories=theories, errors=errors)
+    sampling_lines(figure, errors or {})
     return figure
 
 
@@ -149,6 +164,7 @@ def areal_figure(
     law: PowerLaw | None = None,
     theories: Sequence[Law] = (),
     units: Mapping[str, Scale] | None = None,
+    errors: Errors | None = None,
 ) -> Figure:
     """Return K/A0, A/A0 and mean gap against nominal pressure: what a joint has whatever its size.
 
@@ -161,6 +177,8 @@ def areal_figure(
         Such as those of `roughcontact.loading_laws`.
     units : mapping of str to Scale, optional
         Units to draw in, by ``"nominal_pressure"``, ``"interfacial_stiffness_per_area"`` and ``"mean_gap"``.
+    errors : mapping of float to ErrorBudget, optional
+        By force [N]: bars at these loads, and in a line each how much another map would differ.
 
     Returns
     -------
@@ -179,11 +197,13 @@ def areal_figure(
     """
     figure = Figure(figsize=(9.5, 5.2), layout="constrained")
     axes = figure.subplot_mosaic([["stiffness", "area"], ["stiffness", "gap"]], width_ratios=(1.6, 1))
-    areal_curve(curve, axes["stiffness"], law=law, theories=theories, units=units)
+    both: Any = {"theories": theories, "units": units, "errors": errors}
+    areal_curve(curve, axes["stiffness"], law=law, **both)
     if axes["stiffness"].get_legend_handles_labels()[0]:
         axes["stiffness"].legend(loc="best" if theories else "upper left", fontsize=TICK, frameon=False)
-    areal_curve(curve, axes["area"], quantity="contact_fraction", theories=theories, units=units)
-    areal_curve(curve, axes["gap"], quantity="mean_gap", theories=theories, units=units)
+    areal_curve(curve, axes["area"], quantity="contact_fraction", **both)
+    areal_curve(curve, axes["gap"], quantity="mean_gap", **both)
+    sampling_lines(figure, errors or {})
     return figure
 
 

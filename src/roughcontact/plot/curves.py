@@ -21,6 +21,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.plot.drawing.error_bars import Errors, error_bars
 from roughcontact.plot.drawing.level import free_place, level
 from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.statistics.fit_window import CELLS
@@ -59,6 +60,7 @@ def force_curve(
     quantity: str = "stiffness",
     law: PowerLaw | None = None,
     theories: Sequence[Law] = (),
+    errors: Errors | None = None,
 ) -> Axes:
     """Draw the stiffness, the real contact area or the depth against force, both logarithmic.
 
@@ -77,6 +79,8 @@ def force_curve(
         Of the stiffness, such as ``curve.fit()``: drawn strongly over its window and thinly beyond.
     theories : sequence of Law, optional
         Such as those of `roughcontact.loading_laws`: lines in colours of their own.
+    errors : mapping of float to ErrorBudget, optional
+        By force [N]: bars at these loads.
 
     Returns
     -------
@@ -123,6 +127,7 @@ def force_curve(
     if law is not None:
         _draw_law(axes, curve, law, scales)
     _draw_laws(axes, theories, quantity, _forces(curve), scales)
+    error_bars(axes, errors or {}, quantity, scales)
     for words, value in limits.items():
         place = free_place(axes, value * y.factor, ("left", "bottom") if words == _FULL else None)
         level(axes, value * y.factor, words, (0, (6, 3)), **place)
@@ -148,6 +153,7 @@ def areal_curve(
     law: PowerLaw | None = None,
     theories: Sequence[Law] = (),
     units: Mapping[str, Scale] | None = None,
+    errors: Errors | None = None,
 ) -> Axes:
     """Draw K/A0, A/A0 or the mean gap against nominal pressure, both logarithmic: what a joint has whatever its size.
 
@@ -163,6 +169,8 @@ def areal_curve(
         Such as those of `roughcontact.loading_laws`.
     units : mapping of str to Scale, optional
         Units to draw in, by ``"nominal_pressure"`` and the quantity.
+    errors : mapping of float to ErrorBudget, optional
+        By force [N]: bars at these loads.
 
     Returns
     -------
@@ -209,6 +217,7 @@ def areal_curve(
         _draw_law(axes, curve, law, (of_force, of_patch))
     axes.set_ylim(low, high)
     _draw_laws(axes, theories, of_theory, _forces(curve), (of_force, of_patch))
+    error_bars(axes, errors or {}, quantity, (of_force, y))
     for text, value in _limits(curve).items() if is_of_k else ():
         place = value * of_patch.factor
         if low <= place <= high:

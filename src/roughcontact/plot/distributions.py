@@ -95,7 +95,7 @@ def pressure_distribution(
     stress = np.linspace(0.0, end, 400)
     for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
         axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
-    axes.set_title(f"nominal pressure {written(solution.force / grid.area, unit)}", fontsize=LABEL)
+    axes.set_title(f"nominal pressure {written(solution.nominal_pressure, unit)}", fontsize=LABEL)
     name = f"{VARIABLES['pressure'].label} [{x.unit}]"
     _finish(axes, (0.0, end * x.factor), name, f"part of the nominal area [1/{x.unit}]")
     return axes

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
-from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
 from roughcontact.labels.labelled import values_of
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.engineering_units import Scale, pretty, scale, written
@@ -31,9 +32,11 @@ __all__ = [
     *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
 ]
 
+_SUITS: Mapping[str, Scale] = MappingProxyType({})  # units that suit the numbers
 _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
-CURVE_COLUMNS = names_of(shown_in("patch", (*POINTS, *CERTIFICATES)))
-AREAL_COLUMNS = names_of(shown_in("joint", (*POINTS, *CERTIFICATES)))
+CURVE_COLUMNS = names_of(shown_in("patch", (*POINTS, *UNLOADED, *CERTIFICATES)))
+AREAL_COLUMNS = names_of(shown_in("joint", (*POINTS, *UNLOADED, *CERTIFICATES)))
+"""Of a table of loads; those of unloading are there in a loop only."""
 
 
 def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
@@ -49,37 +52,41 @@ def size_of(grid: AnyGrid) -> str:
 
 
 def column_facts(
-    answer: Any, columns: Sequence[Column], geometry: Geometry, names: Mapping[str, str]
+    answer: Any,
+    columns: Sequence[Column],
+    geometry: Geometry,
+    names: Mapping[str, str],
+    units: Mapping[str, Scale] = _SUITS,
 ) -> list[tuple[str, str]]:
-    """Return what an answer holds of columns, line by line: the label and the value in a unit that suits it."""
-    return [
-        (column.label, _fact(column, value, answer.depth, geometry))
-        for column, value in values_of(answer, columns, names).items()
-    ]
+    """Return what an answer holds of columns, line by line: the label and the value in its unit, or one that suits."""
+    facts = []
+    for column, value in values_of(answer, columns, names).items():
+        if column.name == "mean_gap":
+            value = float(closed_gap(value, answer.depth))
+        if column.digits == "d":
+            text = str(int(value))
+        elif unit := units.get(column.name):
+            text = f"{value * unit.factor:.4g} {unit.unit}"
+        else:
+            text = written(value, column.unit_on(geometry), digits=4)
+        facts.append((column.label, text))
+    return facts
 
 
-def _fact(column: Column, value: float, depth: float, geometry: Geometry) -> str:
-    if column.digits == "d":
-        return str(int(value))
-    if column.name == "mean_gap":
-        value = float(closed_gap(value, depth))
-    return written(value, column.unit_on(geometry), digits=4)
-
-
-def solution_facts(solution: Solution) -> list[tuple[str, str]]:
-    """Return what one loaded state is worth telling, line by line."""
+def solution_facts(solution: Solution, units: Mapping[str, Scale] = _SUITS) -> list[tuple[str, str]]:
+    """Return what one loaded state is worth telling, line by line, in units by the names of quantities."""
     problem = solution.problem
     met = "met" if solution.status.converged else "MISSED"
     flowed = solution.flow is not None and solution.flow.volume > 0
     return [
         ("surface", size_of(problem.grid)),
-        *column_facts(solution, shown_in("facts", STATE[()]), problem.geometry, STATE_NAMES),
-        *(_flow_facts(solution) if flowed else ()),
+        *column_facts(solution, shown_in("facts", STATE[()]), problem.geometry, STATE_NAMES, units),
+        *(_flow_facts(solution, units) if flowed else ()),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
 
 
-def _flow_facts(solution: Solution) -> list[tuple[str, str]]:
+def _flow_facts(solution: Solution, units: Mapping[str, Scale]) -> list[tuple[str, str]]:
     """Return what there is to tell of a state that has flowed."""
     flow, flattened, kind = solution.flow, solution.flattened, solution.problem.geometry
     assert flow is not None
@@ -92,12 +99,9 @@ def _flow_facts(solution: Solution) -> list[tuple[str, str]]:
     ]
     if solution.problem.flow is not None:  # unloaded: nothing flows
         return facts
+    columns = [each for each in POINTS if "stiffness" in each.name]
     stiffness = [
-        (words, quantity(name, getattr(flattened, name), kind))
-        for words, name in (
-            ("stiffness on unloading", "stiffness"),
-            ("interfacial one on unloading", "interfacial_stiffness"),
-        )
+        (f"{label} on unloading", value) for label, value in column_facts(flattened, columns, kind, {}, units)
     ]
     return [*stiffness, ("plastic part of the contact", f"{part:.2%}"), *facts]
 
@@ -106,6 +110,7 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
     """Return what a loop of loads is worth telling, line by line."""
     kind, loading, unloading = loop.loading.geometry, loop.loading, loop.unloading
     dissipated, work = loop.dissipated_work, loop.work
+    gap, flattened = float(loading.mean_gap[-1]), float(unloading.mean_gap[0])
     facts = [
         (
             "loads",
@@ -115,6 +120,11 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
         ("residual depth", quantity("residual_depth", loop.residual_depth)),
         ("stiffness on first loading", quantity("stiffness", float(loading.stiffness[-1]), kind)),
         ("stiffness on unloading", quantity("stiffness", float(unloading.stiffness[0]), kind)),
+        (
+            "mean gap at the largest load",
+            f"{quantity('mean_gap', gap)} on first loading, where cells that flow have a negative gap; "
+            f"{quantity('mean_gap', flattened)} on unloading, where it is zero",
+        ),
         ("volume of flow", quantity("flow_volume", loop.flow.volume, kind)),
         ("work of first loading", quantity("work", work, kind)),
         ("dissipated work", f"{quantity('dissipated_work', dissipated, kind)} ({dissipated / work:.2%})"),
@@ -152,10 +162,10 @@ def bend_words(law: PowerLaw) -> str:
 
 
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of columns of a curve, one row a load, each column in one unit, and remarks."""
+    """Return the header and the rows of those columns that a curve has, a row a load, each in one unit, and remarks."""
     header, columns = [], []
     geometry = Geometry(dataset.attrs.get("geometry", "surface"))
-    for name in names:
+    for name in filter(dataset.__contains__, names):
         values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
             values = closed_gap(values, dataset["depth"].to_numpy())

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray
@@ -10,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.errors import InputError
+from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
 from roughcontact.statistics.averages import combinations
@@ -20,6 +22,9 @@ _FORCES = ("dimensionless_force", "dimensionless_force_mean", "force", "force_me
 _LAW = "dimensionless_stiffness"  # the quantity whose power law there may be
 _WIDE = 16.0  # from this ratio on, values of a parameter stand on a logarithmic axis
 _APART = 0.006  # of the axis, between the marks of series
+_FEW = 7  # lines that one panel holds with a legend
+_COLUMNS = 3  # of panels
+_MOST = 0.5  # of the samples: a mean counts as resolved where more are
 
 
 def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = None) -> Figure:
@@ -94,50 +99,74 @@ def _numbers(averaged: xarray.Dataset) -> dict[str, set[float]]:
 
 def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figure:
     """Return means against force, and beside them the exponents of their laws where there are some."""
-    there = "exponent" in averaged and bool(averaged["exponent"].notnull().any())
-    laws = quantity == _LAW and along is not None and there
-    figure = Figure(figsize=(10.0 if laws else 5.6, 4.4), layout="constrained")
-    axes = figure.subplots(1, 2) if laws else [figure.subplots()]
     force = next((name for name in _FORCES if name in averaged and "load" in averaged[name].dims), None)
     if force is None:
         raise InputError("the study has no forces along its loads", "choose a quantity without loads")
-    resolved = averaged["resolved_mean"] >= 0.5 if "resolved_mean" in averaged else None
-    mean_curves(
-        _grouped(averaged, averaged[force]).rename(force.removesuffix("_mean")),
-        _grouped(averaged, averaged[f"{quantity}_mean"]).rename(quantity),
-        axes[0],
-        error=_grouped(averaged, averaged[f"{quantity}_standard_error"]),
-        resolved=None if resolved is None else _grouped(averaged, resolved),
-    )
-    words = f"means and their standard errors{'' if resolved is None else '; dotted: not resolved'}"
-    if quantity == _LAW and there:
-        _draw_laws(axes[0], averaged)
-        words = "means, their standard errors, power laws (dashed); dotted: not resolved"
-    axes[0].set_title(words, fontsize=TICK)
-    if laws and along is not None:
-        _against(axes[1], averaged, "exponent", along)
+    there = quantity == _LAW and "exponent" in averaged and bool(averaged["exponent"].notnull().any())
+    panels, title = _panels(averaged, along)
+    count = len(panels) + (there and along is not None)
+    columns = min(math.ceil(math.sqrt(count)), _COLUMNS)
+    rows = math.ceil(count / columns)
+    figure = Figure(figsize=(1.0 + 4.6 * columns, 0.4 + 4.0 * rows), layout="constrained")
+    places = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes, (words, lines) in zip(places, panels.items(), strict=False):
+        _draw_means(axes, lines, title, force, quantity)
+        if there:
+            _draw_laws(axes, lines.values())
+        axes.set_title(words, fontsize=TICK)
+        if axes is not places[0] and (legend := axes.get_legend()) is not None:
+            legend.remove()  # that of the first panel is the legend of all
+    if there and along is not None:
+        _against(places[len(panels)], averaged, "exponent", along)
+    for axes in places[count:]:
+        axes.remove()
+    dotted = "; dotted: not resolved" if "resolved_mean" in averaged else ""
+    laws = ", power laws (dashed)" if there else ""
+    figure.suptitle(f"means and their standard errors{laws}{dotted}", fontsize=TICK)
     return figure
 
 
-def _grouped(averaged: xarray.Dataset, values: xarray.DataArray) -> xarray.DataArray:
-    """Return values with one dimension for all combinations, named by what varies."""
-    groups = [d for d in averaged["cases"].dims if d in values.dims]
-    if not groups or (len(groups) == 1 and groups[0] != "row"):
-        return values.transpose(*groups, ...)
-    labels = [
-        ", ".join(_word(value) for value in parameters.values()) for parameters, _ in combinations(averaged)
-    ]
-    name = ", ".join(next(combinations(averaged))[0])
-    missing = [d for d in averaged["cases"].dims if d not in values.dims]
-    whole = values.expand_dims({d: averaged.sizes[d] for d in missing})
-    bare = whole.reset_coords(drop=True).drop_vars([d for d in whole.dims if d in whole.coords])
-    stacked = bare.stack({name: averaged["cases"].dims}, create_index=False)
-    return stacked.assign_coords({name: labels}).transpose(name, ...)
+def _panels(averaged: xarray.Dataset, along: str | None) -> tuple[dict[str, dict[str, xarray.Dataset]], str]:
+    """Return what each panel shows, by its title and the label of each line, and the title of the lines.
+
+    Few lines share one panel. Of more, each panel has those that differ in one parameter.
+    """
+    points, labels = list(combinations(averaged)), parameter_labels(averaged)
+    counts = {name: len({parameters[name] for parameters, _ in points}) for name in labels}
+    chosen = along or max(counts, key=counts.__getitem__, default=None)
+    lines = list(labels) if len(points) <= _FEW or chosen is None else [chosen]
+    found: dict[str, dict[str, xarray.Dataset]] = {}
+    for parameters, point in points:
+        panel = ", ".join(labels[name].equation(parameters[name]) for name in labels if name not in lines)
+        line = ", ".join(labels[name].value(parameters[name]) for name in lines)
+        found.setdefault(panel, {})[line] = point
+    return found, ", ".join(labels[name].title for name in lines)
 
 
-def _draw_laws(axes: Axes, averaged: xarray.Dataset) -> None:
+def _draw_means(
+    axes: Axes, lines: Mapping[str, xarray.Dataset], title: str, force: str, quantity: str
+) -> None:
+    """Draw the means of some combinations against force, a line each."""
+
+    def along_lines(name: str) -> xarray.DataArray:
+        each = [point[name].reset_coords(drop=True) for point in lines.values()]
+        if not title:
+            return each[0]
+        return xarray.concat(each, xarray.DataArray(list(lines), dims=title, name=title))
+
+    first = next(iter(lines.values()))
+    mean_curves(
+        along_lines(force).rename(force.removesuffix("_mean")),
+        along_lines(f"{quantity}_mean").rename(quantity),
+        axes,
+        error=along_lines(f"{quantity}_standard_error"),
+        resolved=along_lines("resolved_mean") >= _MOST if "resolved_mean" in first else None,
+    )
+
+
+def _draw_laws(axes: Axes, points: Iterable[xarray.Dataset]) -> None:
     """Draw the power laws over their windows."""
-    for _, point in combinations(averaged):
+    for point in points:
         window = np.array([point["window_low"].item(), point["window_high"].item()])
         law = point["prefactor"].item() * window ** point["exponent"].item()
         axes.plot(window, law, "--", color="black", linewidth=0.8, zorder=4)
@@ -146,9 +175,11 @@ def _draw_laws(axes: Axes, averaged: xarray.Dataset) -> None:
 def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) -> None:
     """Draw a number of every combination with its error against a parameter, one series for all else that varies."""
     series: dict[str, list[tuple[float, float, float, float]]] = {}
+    labels = parameter_labels(averaged)
+    others = [name for name in labels if name != along]
     for parameters, point in combinations(averaged):
-        others = ", ".join(f"{name} = {_word(value)}" for name, value in parameters.items() if name != along)
-        series.setdefault(others, []).append((float(parameters[along]), *_with_limits(point, quantity)))
+        words = ", ".join(labels[name].value(parameters[name]) for name in others)
+        series.setdefault(words, []).append((float(parameters[along]), *_with_limits(point, quantity)))
     places = np.array([row[0] for rows in series.values() for row in rows])
     wide = places.min() > 0 and places.max() >= _WIDE * places.min()
     if wide:
@@ -166,7 +197,16 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
         fontsize=TICK,
     )
     if len(series) > 1:
-        axes.legend(fontsize=TICK, frameon=False)
+        title = ", ".join(labels[name].title for name in others)
+        # Beside the axes, where it hides no mark.
+        axes.legend(
+            title=title,
+            fontsize=TICK,
+            title_fontsize=TICK,
+            frameon=False,
+            loc="upper left",
+            bbox_to_anchor=(1, 1),
+        )
 
 
 def _with_limits(point: xarray.Dataset, quantity: str) -> tuple[float, float, float]:
@@ -175,7 +215,3 @@ def _with_limits(point: xarray.Dataset, quantity: str) -> tuple[float, float, fl
         return tuple(point[name].item() for name in (quantity, f"{quantity}_low", f"{quantity}_high"))
     value, error = (point[f"{quantity}_{word}"].item() for word in ("mean", "standard_error"))
     return value, value - error, value + error
-
-
-def _word(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, int | float) else str(value)

@@ -10,6 +10,7 @@ from typing import Any
 from roughcontact.recipe.jobs import Job, is_of_profile
 from roughcontact.recipe.recipe_fields import option_of, specs, words_of
 from roughcontact.recipe.source import File, SelfAffine
+from roughcontact.recipe.specified import Specified, SpecifiedJoint
 
 __all__ = ["command_name", "command_of"]
 
@@ -26,13 +27,16 @@ def command_of(job: Job, recipe: str = "job.toml") -> str:
 
     A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
     """
+    if isinstance(job.source, SpecifiedJoint):
+        return _line(job.NAME, *_options(job))
     if isinstance(job.source, File):
         return _line(*_words(job, job.source.file), *_options(job))
-    if not isinstance(job.source, SelfAffine) or is_of_profile(job):
+    if not isinstance(job.source, SelfAffine | Specified) or is_of_profile(job):
         return _line("run", recipe)
+    verb = "make" if isinstance(job.source, SelfAffine) else "specified"
     return "\n".join(
         [
-            _line("surface", "make", _MADE, *_options_of(job.source)),
+            _line("surface", verb, _MADE, *_options_of(job.source)),
             _line(*_words(job, _MADE), *_options(job)),
         ]
     )
@@ -49,7 +53,7 @@ def _line(*parts: str) -> str:
 def _options(job: Job) -> Iterator[str]:
     for each in fields(job):
         part = getattr(job, each.name)
-        if each.name != "source" or isinstance(part, File):
+        if each.name != "source" or isinstance(part, File | SpecifiedJoint):
             yield from _options_of(part)
 
 

@@ -45,12 +45,13 @@ class PressJob:
     plastic: AfterLoad = field(default_factory=AfterLoad)
     errors: Errors = field(default_factory=Errors)
     theories: PressureTheory = field(default_factory=PressureTheory)
+    units: Units = field(default_factory=Units)
 
     def __post_init__(self) -> None:
         check(self)
         self.loads()
         yields_at(self.bodies, self.plastic)
-        _require_areas(self.contact, self.plastic.hardness, self.errors)
+        _require_areas(self)
         asked = next(
             (name for name in ("after", "flow") if getattr(self.plastic, name) not in (None, "removed")), None
         )
@@ -122,7 +123,7 @@ class CurveJob:
         with within("loads"):
             self.loads.named(self.contact.profile)
         yields_at(self.bodies, self.plastic)
-        _require_areas(self.contact, self.plastic.hardness, self.errors)
+        _require_areas(self)
         asked = "loop" if self.plastic.loop else "flow" if self.plastic.flow == "raised" else None
         if self.errors.errors and self.plastic.flow == "raised":
             raise InputError(
@@ -146,12 +147,6 @@ class CurveJob:
         if conducts and profile == "winkler" and self.conduction.of == "interface":
             raise InputError(
                 "a Winkler foundation has a total conductance only", "give `of` total", "conduction.of"
-            )
-        if profile == "winkler" and (self.units.unit_stiffness or self.units.unit_pressure):
-            raise InputError(
-                "`unit_stiffness` and `unit_pressure` are per area: on springs loads and stiffness are per length",
-                "leave them out",
-                "units.unit_stiffness, units.unit_pressure",
             )
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
@@ -180,16 +175,23 @@ class CurveJob:
             )
 
 
-def _require_areas(contact: Contact, hardness: str | None, errors: Errors) -> None:
-    if errors.errors and contact.profile is not None:
+def _require_areas(job: PressJob | CurveJob) -> None:
+    profile = job.contact.profile
+    if job.errors.errors and profile is not None:
         raise InputError(
             "`errors` are those of a map of heights, not of a profile", "leave it out", "errors.errors"
         )
-    if hardness is not None and contact.profile == "winkler":
+    if job.plastic.hardness is not None and profile == "winkler":
         raise InputError(
             "`hardness` is a pressure, and springs bear forces per length only",
             "leave it out, or take `profile` line",
             "plastic.hardness",
+        )
+    if profile == "winkler" and (job.units.unit_stiffness or job.units.unit_pressure):
+        raise InputError(
+            "`unit_stiffness` and `unit_pressure` are per area: on springs loads and stiffness are per length",
+            "leave them out",
+            "units.unit_stiffness, units.unit_pressure",
         )
 
 

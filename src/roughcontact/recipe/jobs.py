@@ -11,14 +11,17 @@ from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob,
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.source import File, SmoothBody
+from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = [
-    *("JOBS", "Job", "calls_of", "contact_calls", "is_of_profile", "known_names", "surface_calls"),
+    *("JOBS", "Job", "JobOfHeights", "calls_of", "contact_calls", "is_of_profile", "known_names"),
+    "surface_calls",
 ]
 
-Job: TypeAlias = (
+JobOfHeights: TypeAlias = (
     SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
 )
+Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
     job.NAME: job
     for job in (
@@ -29,18 +32,21 @@ JOBS: Mapping[str, type[Any]] = {
         AdhesiveCurveJob,
         AdhesiveLoopJob,
         DetachJob,
+        TheoryJob,
     )
 }
 
 
 def surface_calls(job: Job) -> list[Call]:
-    """Return the calls that read or make the surface of a job, and prepare it.
+    """Return the calls that read or make the surface of a job, and prepare it; none where theories are all of it.
 
     Raises
     ------
     InputError
         If the source has no such surface: an example has no profile, heights made in Python are not made again.
     """
+    if isinstance(job, TheoryJob):
+        return []
     with within("source"):
         source = list(job.source.calls(line=is_of_profile(job)))
     return [*source, *job.preparation.calls(_default_level(job))]
@@ -60,7 +66,9 @@ def calls_of(job: Job) -> Iterator[Call]:
 
 def contact_calls(job: Job) -> Iterator[Call]:
     """Yield the calls that press the prepared surface; none where heights are all that is asked for."""
-    if not isinstance(job, SurfaceJob):
+    if isinstance(job, TheoryJob):
+        yield from job.calls()
+    elif not isinstance(job, SurfaceJob):
         yield from job.bodies.calls()
         yield from job.contact.calls()
         yield from job.calls()
@@ -76,7 +84,7 @@ def known_names() -> dict[str, Any]:
     }
 
 
-def _default_level(job: Job) -> str:
+def _default_level(job: JobOfHeights) -> str:
     """Return how the heights of a job are levelled where nothing is said."""
     if isinstance(job, SurfaceJob) or isinstance(job.source, SmoothBody):
         return "none"

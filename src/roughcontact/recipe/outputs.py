@@ -92,8 +92,8 @@ class Errors:
 
     TITLE: ClassVar = "Errors"
     errors: bool = described(
-        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling. "
-        "As long as two or three loads more; of a curve at its first and last resolved load.",
+        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling, other "
+        "maps. As long as three or four loads more; of a curve at its first and last resolved load.",
         default=False,
         needs_whole=True,
     )
@@ -157,12 +157,12 @@ def _unit(kind: Kind) -> Callable[[str], float]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Units:
-    """Units of the numbers per area in tables, files and pictures."""
+    """Units of the numbers per area: those that are printed, and those of a curve in its picture, CSV and NetCDF."""
 
     TITLE: ClassVar = "Units"
     unit_stiffness: str | None = described(
-        "Unit of the interfacial stiffness per area K/A0 in table, picture, CSV and NetCDF (default: N/um/mm^2, "
-        "in CSV and NetCDF Pa/m).",
+        "Unit of the interfacial stiffness per area K/A0 where it is printed, and of a curve in picture, CSV and "
+        "NetCDF (default: N/um/mm^2, in CSV and NetCDF Pa/m).",
         "N/um/mm^2",
         read=_unit(STIFFNESS_PER_AREA),
     )

@@ -13,7 +13,7 @@ from roughcontact.validation import Array
 __all__ = ["Difference", "differences"]
 
 # What a record says of itself: names, history, versions, and words.
-_WORDS = {"command", "errors", "file", "notes", "provenance", "recipe", "surface", "units"}
+_WORDS = {"command", "errors", "file", "note_ranks", "notes", "provenance", "recipe", "surface", "units"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
-from roughcontact.errors import InputError, placed, within
+from roughcontact.errors import InputError, within
 from roughcontact.files.length_units import length_factor
 from roughcontact.files.quantity import LENGTH
+from roughcontact.recipe.grid_of_source import PERIODIC, POINTS, SEED, SIZE, grid_call
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
-from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, points, size, whole
+from roughcontact.recipe.specified import Specified
+from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, size
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -20,11 +22,6 @@ if TYPE_CHECKING:
 __all__ = ["SOURCES", "Combined", "Example", "File", "InPython", "SelfAffine", "SmoothBody", "Source"]
 
 _WAVE = Amount(LENGTH, "a wavelength")
-_SIZE = described(
-    "Width (cells are square), or height x width.", "1mm", read=size, default=..., everyday=True
-)
-_POINTS = described("Points a side, or rows x columns.", "512", read=points, default="512", everyday=True)
-_PERIODIC = described("For a surface that repeats itself.", default=False, everyday=True)
 
 
 def _unit(text: str) -> str | float:
@@ -133,17 +130,15 @@ class SelfAffine:
         "1mm:10um",
         read=band,
     )
-    size: str = _SIZE
-    points: str = _POINTS
-    seed: str = described(
-        "Seed of the random phases.", "1", read=whole(0, "the seed"), default="1", everyday=True
-    )
+    size: str = SIZE
+    points: str = POINTS
+    seed: str = SEED
     rolloff: str | None = described(
         "Roll-off: the spectrum of longer waves is constant.", "100um", read=_WAVE
     )
     long_cutoff: str | None = described("Longer waves are absent.", "500um", read=_WAVE)
     short_cutoff: str | None = described("Shorter waves are absent.", "5um", read=_WAVE)
-    periodic: bool = _PERIODIC
+    periodic: bool = PERIODIC
     nodal: bool = described(
         "Repeat the first row and column at the end: grids of 2^m + 1 points.", default=False
     )
@@ -174,7 +169,7 @@ class SelfAffine:
         if self.nodal:
             named["nodal"] = True
         generator = Call("np.random.default_rng", (value_of(self, "seed"),))
-        yield _grid(self, line=line)
+        yield grid_call(self, line=line)
         yield Call(
             "rc.self_affine",
             (Name("grid"), value_of(self, "hurst"), value_of(self, "rms"), generator),
@@ -210,9 +205,9 @@ class SmoothBody:
     )
     amplitude: str | None = described("Amplitude of a wave.", "1um", read=Amount(LENGTH, "the amplitude"))
     wavelength: str | None = described("Length of a wave.", "0.1mm", read=_WAVE)
-    size: str = _SIZE
-    points: str = _POINTS
-    periodic: bool = _PERIODIC
+    size: str = SIZE
+    points: str = POINTS
+    periodic: bool = PERIODIC
 
     def __post_init__(self) -> None:
         check(self)
@@ -224,7 +219,7 @@ class SmoothBody:
 
     def calls(self, *, line: bool) -> Iterator[Call]:
         """Yield the calls that make the surface."""
-        yield _grid(self, line=line)
+        yield grid_call(self, line=line)
         numbers = [value_of(self, name) for name in _SHAPES[self.shape]]
         yield Call(f"rc.shapes.{self.shape}", (Name("grid"), *numbers), result="surface", place="source")
 
@@ -320,22 +315,5 @@ class InPython:
         )
 
 
-Source: TypeAlias = File | SelfAffine | SmoothBody | Example | Combined | InPython
-SOURCES: tuple[type[Any], ...] = (File, SelfAffine, SmoothBody, Example, Combined, InPython)
-
-
-def _grid(source: SelfAffine | SmoothBody, *, line: bool) -> Call:
-    """Return the call that makes the grid of a new surface; with one length the cells are square."""
-    shape, lengths = points(source.points), size(source.size)
-    for name, is_one in (("size", len(lengths) == 1), ("points", source.points.isdecimal())):
-        if line and not is_one:
-            with placed(name):
-                raise InputError(
-                    f"a profile has one length, and points along it, unlike {getattr(source, name)!r}",
-                    "give one number",
-                )
-    width = lengths[-1] / shape[1]
-    height = lengths[0] / shape[0] if len(lengths) == 2 else width
-    named = {"periodic": True} if source.periodic else {}
-    given = (shape[1], width) if line else (shape, width if width == height else (height, width))
-    return Call("rc.Grid", given, named, result="grid", place="source")
+Source: TypeAlias = File | SelfAffine | Specified | SmoothBody | Example | Combined | InPython
+SOURCES: tuple[type[Any], ...] = (File, SelfAffine, Specified, SmoothBody, Example, Combined, InPython)

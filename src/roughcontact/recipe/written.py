@@ -10,7 +10,7 @@ import types
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Any, Union, get_args, get_origin
+from typing import Any, TypeVar, Union, get_args, get_origin
 
 import tomli_w
 
@@ -24,12 +24,14 @@ from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
+from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = [
     *("FORMAT", "carried", "contact_in", "field_at", "from_plain", "located", "pinned", "read_job"),
     *("require_same_files", "to_plain", "toml_of", "with_files"),
 ]
 
+J = TypeVar("J", bound=Job)
 FORMAT = 1  # of recipes: to be raised when what was written before means something else
 
 
@@ -281,7 +283,7 @@ def require_same_files(job: Job) -> None:
     with_files(job, require)
 
 
-def with_files(job: Job, change: Callable[[File], File]) -> Job:
+def with_files(job: J, change: Callable[[File], File]) -> J:
     """Return a job with each of its files changed by a function."""
 
     def changed(source: Source) -> Source:
@@ -289,4 +291,4 @@ def with_files(job: Job, change: Callable[[File], File]) -> Job:
             return replace(source, lower=changed(source.lower), upper=changed(source.upper))
         return change(source) if isinstance(source, File) else source
 
-    return replace(job, source=changed(job.source))
+    return job if isinstance(job, TheoryJob) else replace(job, source=changed(job.source))

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.labels.labelled import attributes_of
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.study.collect import Collector
 from roughcontact.study.nested_names import flat
 from roughcontact.study.study_errors import StudyError
@@ -62,7 +64,20 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     >>> dict(dataset["stiffness"].sizes), dataset["stiffness"].attrs["units"]
     ({'hurst': 2, 'sample': 2, 'load': 3}, 'N m-1')
     """
-    return assemble(store.study, store.rows(), seconds=seconds)
+    return _per_area(assemble(store.study, store.rows(), seconds=seconds))
+
+
+def _per_area(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Return a dataset with what follows from the area of a square; records of older cases hold forces alone."""
+    if "size" not in dataset or "force" not in dataset or "nominal_pressure" in dataset:
+        return dataset
+    area = dataset["size"] ** 2
+    pairs = {"nominal_pressure": "force", "contact_fraction": "contact_area"}
+    pairs["interfacial_stiffness_per_area"] = "interfacial_stiffness"
+    found = {name: dataset[of] / area for name, of in pairs.items() if of in dataset}
+    return dataset.assign(
+        {name: values.assign_attrs(attributes_of(VARIABLES[name])) for name, values in found.items()}
+    )
 
 
 def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xarray.Dataset:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.files.write import plain_cells, scale_remark, units_remark, write_table
+from roughcontact.files.write import in_parts, plain_cells, write_table
 
 if TYPE_CHECKING:
     import xarray
@@ -19,14 +19,18 @@ __all__ = ["write_long_csv"]
 _AT_ONCE = 10_000  # lines
 
 
-def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
+def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> list[str]:
     """Write one line for every point of every case, laid out as `roughcontact.files.write.write_csv` lays out a curve.
 
-    The first line names the columns: the number or value along each dimension, then all that varies, words last.
-    Lines that start with ``#`` follow: units, what is the same for all points, attributes. The points are those of
-    the variable with the most values of each case. One along further dimensions takes a column for each of their names
-    (``lengths_y``, ``lengths_x``), or is left out and said to be. Points without any value are no lines, such as those
-    of cases that failed. Equal datasets give equal files.
+    The first line names the columns with their units: the number or value along each dimension, then all that varies,
+    what is the same for all points, and words last. The points are those of the variable with the most values of each
+    case. One along a further dimension takes a column for each of its names (``lengths_y``, ``lengths_x``). Points
+    without any value are no lines, such as those of cases that failed. Equal datasets give equal files.
+
+    Returns
+    -------
+    list of str
+        Names of the variables that have no place in such a table.
 
     Raises
     ------
@@ -44,7 +48,8 @@ def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> Non
             chunk = np.unravel_index(kept[start : start + _AT_ONCE], tuple(sizes.values()))
             yield from zip(*(plain_cells(values[chunk]).tolist() for values in cells.values()), strict=True)
 
-    write_table(path, columns, _remarks(dataset, columns, left_out), rows())
+    write_table(path, columns, rows())
+    return left_out
 
 
 def _points(dataset: xarray.Dataset) -> tuple[Any, ...]:
@@ -56,38 +61,25 @@ def _points(dataset: xarray.Dataset) -> tuple[Any, ...]:
 
 def _columns(
     dataset: xarray.Dataset, points: tuple[Any, ...]
-) -> tuple[dict[str, xarray.DataArray], list[xarray.DataArray]]:
-    """Return what varies from point to point, and what has no place in a table of them."""
+) -> tuple[dict[str, xarray.DataArray], list[str]]:
+    """Return the columns of a table of the points, and the names of what has no place in it."""
     columns = {str(d): dataset[d] for d in points}  # where there is no coordinate, the number
     left_out = []
     for name, values in {**dataset.coords, **dataset.data_vars}.items():
         others = [d for d in values.dims if d not in points]
-        parts = dataset[others[0]].to_numpy().tolist() if len(others) == 1 else []
-        if points and not set(values.dims) & set(points):
-            continue
+        named = len(others) == 1 and others[0] in dataset.coords and dataset[others[0]].dtype.kind in "OUT"
         if not others:
-            columns[str(name)] = values
-        elif all(isinstance(part, str) for part in parts) and parts:
-            columns |= {f"{name}_{part}": values.sel({others[0]: part}) for part in parts}
-        else:
-            left_out.append(values)
-    words = [name for name, values in columns.items() if values.dtype.kind in "OUT"]
-    return {name: columns[name] for name in (*(n for n in columns if n not in words), *words)}, left_out
+            columns.setdefault(str(name), values)
+        elif named and name not in others:
+            columns |= in_parts(values, others[0])
+        elif name not in others:
+            left_out.append(str(name))
+    return dict(sorted(columns.items(), key=lambda each: _rank(each[1], points))), left_out
 
 
-def _remarks(
-    dataset: xarray.Dataset, columns: dict[str, xarray.DataArray], left_out: list[xarray.DataArray]
-) -> Iterator[str]:
-    yield units_remark(columns)
-    for name, values in {**dataset.coords, **dataset.data_vars}.items():
-        if values.dims in ((), ("axis",)) and name != "axis" and str(name) not in columns:
-            yield scale_remark(values)
-    for values in left_out:
-        yield f"not in this table: {values.name} ({', '.join(map(str, values.dims))})"
-    if "case_status" in dataset:
-        states, numbers_of = np.unique(dataset["case_status"].to_numpy(), return_counts=True)
-        yield f"cases: {', '.join(f'{n} {state}' for state, n in zip(states, numbers_of, strict=True))}"
-    yield from (f"{name} = {value}" for name, value in dataset.attrs.items())
+def _rank(values: xarray.DataArray, points: tuple[Any, ...]) -> tuple[bool, bool]:
+    """Return the order of a column: what varies, what is the same for all points, and words after numbers."""
+    return values.dtype.kind in "OUT", bool(points) and not set(values.dims) & set(points)
 
 
 def _kept(dataset: xarray.Dataset, points: tuple[Any, ...], sizes: dict[Any, int]) -> npt.NDArray[np.bool_]:

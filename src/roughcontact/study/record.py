@@ -24,6 +24,8 @@ COLUMNS = (
     *("key", "sample", "parameters", "status", "message", "seconds", "version", "residual", "record"),
     "checksum",
 )
+# Variables that stores of earlier builds hold by another name: the key of a case does not depend on it.
+_RENAMED = {"largest_pressure": "max_pressure", "largest_tension": "max_tension"}
 _ATTRIBUTES = (str, int, float, bool, np.bool_, np.integer)
 
 
@@ -66,12 +68,12 @@ def encode(record: xarray.Dataset) -> str:
 
 
 def decode(text: str) -> xarray.Dataset:
-    """Return the record of a text by `encode`."""
+    """Return the record of a text by `encode`; variables have the names of today."""
     import xarray
 
     whole = json.loads(text)
     return xarray.Dataset(
-        {name: _decoded(each) for name, each in whole["data"].items()},
+        {_RENAMED.get(name, name): _decoded(each) for name, each in whole["data"].items()},
         {name: _decoded(each) for name, each in whole["coords"].items()},
         whole["attrs"],
     )

@@ -215,7 +215,7 @@ def test_all_mistakes_come_at_once_each_with_its_place():
             {"job": "surface", "source": MADE},
             {},
             "parameters.job",
-            "a study keeps no numbers of a surface alone; take press or curve",
+            "a study keeps numbers of surfaces that are pressed; take press or curve",
         ),
         (CURVE, {"source.seed": [1, 2]}, "table.source.seed", "leave seed out"),
         (CURVE | {"source": {"file": "no.x3p"}}, {}, "parameters.source", "No such file"),

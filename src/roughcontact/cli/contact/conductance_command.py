@@ -136,5 +136,5 @@ def _write(answer: xarray.Dataset, names: list[str], folder: Path, ending: str) 
     source: dict[str, str | float] = {"conductance_command": command_line()}
     with all_or_none(folder) as aside:
         write_netcdf(answer, aside / "conductance.nc", source)
-        write_csv(answer, aside / "conductance.csv", source)
+        write_csv(answer, aside / "conductance.csv")
         save(resistance_figure(answer), aside / f"conductance.{ending}")

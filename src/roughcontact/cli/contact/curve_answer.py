@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,8 +12,10 @@ from roughcontact.cached import cached_property
 from roughcontact.cli import report
 from roughcontact.cli.contact.conductance_command import conduction_facts, shown_columns
 from roughcontact.cli.contact.curve_theories import deviations, exponents, parameters
+from roughcontact.cli.contact.load_errors import notes_on_errors
+from roughcontact.cli.contact.units_of_job import units_of_job
 from roughcontact.cli.contact_of_job import name_of
-from roughcontact.cli.messages import note
+from roughcontact.cli.messages import note_all
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.recipe_fields import value_of
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.evaluation.conduction import Conductors
+    from roughcontact.labels.note import Note
     from roughcontact.plot.drawing.engineering_units import Scale
     from roughcontact.recipe.elastic_jobs import CurveJob
     from roughcontact.solver.loads import Loads
@@ -37,8 +41,6 @@ if TYPE_CHECKING:
     from roughcontact.theory.law import LoadingLaw
 
 __all__ = ["CurveAnswer"]
-
-_UNITS = {"interfacial_stiffness_per_area": "unit_stiffness", "nominal_pressure": "unit_pressure"}
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,8 @@ class CurveAnswer:
     curve : Curve
     surface : Surface
         What was pressed.
-    notes : tuple of str
-        On the last load.
+    notes : tuple of Note
+        On the last load, and on loads that are left.
     theories : TheoriesOf
         Of the surface.
     conductors : Conductors or None
@@ -75,7 +77,7 @@ class CurveAnswer:
     job: CurveJob
     curve: Curve
     surface: Surface
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
     theories: TheoriesOf
     conductors: Conductors | None
     per_area: bool
@@ -93,27 +95,25 @@ class CurveAnswer:
     @cached_property
     def units(self) -> dict[str, Scale]:
         """Units that were asked for, by column."""
-        from roughcontact.plot.drawing.engineering_units import Scale
-
-        return {
-            column: Scale(1 / value_of(self.job.units, name), text.strip())
-            for column, name in _UNITS.items()
-            if (text := getattr(self.job.units, name)) is not None
-        }
+        return units_of_job(self.job.units)
 
     @property
     def converged(self) -> bool:
         """Whether every load met the tolerance."""
         return all(status.converged for status in self.curve.status)
 
-    @cached_property
+    @property
     def fit(self) -> PowerLaw | None:
         """The power law through the resolved points, if they allow one."""
+        return self._fitted[0]
+
+    @cached_property
+    def _fitted(self) -> tuple[PowerLaw | None, str]:
+        """The power law, or why there is none."""
         try:
-            return self.curve.fit()
-        except ValueError as error:
-            note(f"no power law: {error}")
-            return None
+            return self.curve.fit(), ""
+        except InputError as error:
+            return None, str(error)
 
     @cached_property
     def comparisons(self) -> dict[str, Comparison]:
@@ -159,12 +159,17 @@ class CurveAnswer:
         """The curve with the columns of theories and conductance, in the units that were asked for."""
         from roughcontact.contact.compare import with_theories
         from roughcontact.contact.dataset import curve_dataset
+        from roughcontact.contact.loop_dataset import unloaded
         from roughcontact.evaluation.conduction import with_conductance
 
         dataset = with_theories(curve_dataset(self.curve), self.comparisons)
         if self.conductors is not None:
             dataset = with_conductance(dataset, self.conductors, self.job.conduction.of)
-        return dataset.assign({name: _in_unit(dataset[name], unit) for name, unit in self.units.items()})
+        if self.loop is not None:
+            dataset = dataset.assign(unloaded(self.loop))
+        return dataset.assign(
+            {name: _in_unit(dataset[name], unit) for name, unit in self.units.items() if name in dataset}
+        )
 
     @cached_property
     def record(self) -> dict[str, Any]:
@@ -194,7 +199,8 @@ class CurveAnswer:
             "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
-            "notes": list(self.notes),
+            "notes": [each.text for each in self.notes],
+            "note_ranks": [each.rank.name.lower() for each in self.notes],
             "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
             "recipe": self.recipe,
         }
@@ -223,13 +229,12 @@ class CurveAnswer:
 
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
-            write_csv(self.dataset, aside / "curve.csv", source)
+            write_csv(self.dataset, aside / "curve.csv")
             save(self._figure(), aside / f"curve.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and what a reader should know on standard error."""
-        from roughcontact.halfspace.operators.geometry import Geometry
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
@@ -252,29 +257,40 @@ class CurveAnswer:
                 report.print_facts(report.loop_facts(self.loop))
             for each in self.errors:
                 each.tell(self.units, patch=not self.per_area, joint=self.per_area)
+        note_all([*self._notes(), *notes_on_errors(self.errors), *self.notes])
+
+    def _notes(self) -> Iterator[Note]:
+        """Yield what is to be said of the curve as a whole."""
+        from roughcontact.halfspace.operators.geometry import Geometry
+        from roughcontact.labels.note import Note, Rank
+
+        curve = self.curve
         missed = sum(not status.converged for status in curve.status)
         if missed:
-            note(f"{missed} of {len(curve)} loads missed the tolerance: see their status")
-        if self.fit is not None and not self.fit.straight:
-            note(report.bend_words(self.fit))
+            text = f"{missed} of {len(curve)} loads missed the tolerance: see their status"
+            yield Note(Rank.WRONG, text)
+        law, why_none = self._fitted
+        if law is None:
+            yield Note(Rank.LIMITED, f"no power law: {why_none}")
+        elif not law.straight:
+            yield Note(Rank.DOUBTFUL, report.bend_words(law))
         for name, why in self.left_out.items():
-            note(f"theory {name} is left out: {why}")
-        for line in self.notes:
-            note(line)
+            yield Note(Rank.LIMITED, f"theory {name} is left out: {why}")
         if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
-            note(
+            yield Note(
+                Rank.USUAL,
                 "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
-                "in N/m only, never per area (docs/joints.md)"
+                "in N/m only, never per area (docs/joints.md)",
             )
 
     def _figure(self) -> Figure:
         """Return the picture: of a joint against pressure, of a patch against force."""
         from roughcontact.plot.canvas import areal_figure, curve_figure
 
-        laws = self.drawn
+        laws, errors = self.drawn, {each.force: each.budget for each in self.errors}
         if self.per_area:
-            return areal_figure(self.curve, self.fit, laws, self.units)
-        return curve_figure(self.curve, self.fit, laws)
+            return areal_figure(self.curve, self.fit, laws, self.units, errors)
+        return curve_figure(self.curve, self.fit, laws, errors)
 
 
 def _in_unit(column: xarray.DataArray, unit: Scale) -> xarray.DataArray:

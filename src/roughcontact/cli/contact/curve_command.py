@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
+    from roughcontact.labels.note import Note
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
@@ -63,13 +64,15 @@ _FEWEST = 3  # resolved loads that a power law takes
 def curve(job: CurveJob, *, answer: Answer) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
-    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size.
+    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size. Of a
+    joint known by rms height and slope only, 'surface specified' makes a map, and 'theory' needs none.
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
     import numpy as np
 
     from roughcontact.cli.contact.stored_loads import can_be_continued, stored_loads
+    from roughcontact.labels.note import Note, Rank
     from roughcontact.solver.loads import Loads
 
     profile, plastic, in_slabs = job.contact.profile, job.plastic, slabs_of_job() is not None
@@ -97,11 +100,12 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         left = np.setdiff1d(loads.values, done)
         if left.size:
             resumes = answer.out is not None and not in_slabs and can_be_continued(job)
-            notes += (_rest(loads, left, answer.out, resumes=resumes),)
+            notes += (Note(Rank.LIMITED, _rest(loads, left, answer.out, resumes=resumes)),)
         if job.errors.errors and not outer:
             note("no errors: no load is resolved")
         if plastic.loop and loop is None:
-            notes += ("stopped: the loop is not closed, only what was computed of first loading is kept",)
+            text = "stopped: the loop is not closed, only what was computed of first loading is kept"
+            notes += (Note(Rank.LIMITED, text),)
         per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(given(job.units))
         errors = errors_of(job.errors, outer)
         beside = (theories, conductors, per_area, errors, pressed, Loads(loads.kind, done), answer.out, loop)
@@ -132,7 +136,7 @@ def _computed(
     limits: dict[str, Any],
     stored: StoredLoads | None,
     job: CurveJob,
-) -> tuple[Curve, Array, tuple[str, ...], list[Solution], Loop | None]:
+) -> tuple[Curve, Array, tuple[Note, ...], list[Solution], Loop | None]:
     """Return what `_load` returns of all loads that are known now, and which these are: the stored ones are kept."""
     import numpy as np
 
@@ -220,7 +224,7 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
 
 def _load(
     surface: Surface, modulus: float, loads: Loads, limits: dict[str, Any], *, loop: bool
-) -> tuple[Curve, tuple[str, ...], list[Solution], Loop | None]:
+) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
     With `loop` the loads are unloaded and loaded again. Ctrl-C ends the curve with the loads that are done.
@@ -228,10 +232,11 @@ def _load(
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
+    from roughcontact.contact.notes import notes_on
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
     path = solutions_along(surface, modulus, every, **limits)
-    notes: list[tuple[str, ...]] = []
+    notes: list[tuple[Note, ...]] = []
     ends: list[Solution] = []
     turn: list[Solution] = []
 
@@ -239,7 +244,7 @@ def _load(
         try:
             for solution in islice(path, count):
                 resolved = solution.resolved and solution.status.converged  # which takes as long as the load
-                notes[:], turn[:] = [solution.notes], [solution]
+                notes[:], turn[:] = [tuple(notes_on(solution))], [solution]
                 if resolved:
                     ends[1 if ends else 0 :] = [solution]
                 yield solution

@@ -53,7 +53,7 @@ def write_tables(
     with all_or_none(folder) as aside:
         for name in names:
             if name == "csv":
-                write_csv(table.to_dataset(), aside / _FILES[name], source)
+                write_csv(table.to_dataset(), aside / _FILES[name])
             else:
                 write_text(texts[name](), aside / _FILES[name])
     return tuple(_FILES[name] for name in names)

@@ -17,10 +17,11 @@ from roughcontact.recipe.recipe_fields import value_of
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
     from roughcontact.evaluation.error_budget import ErrorBudget
+    from roughcontact.labels.note import Note
     from roughcontact.recipe.outputs import Errors
     from roughcontact.surface.surface import Surface
 
-__all__ = ["LoadErrors", "errors_of", "require_errors"]
+__all__ = ["LoadErrors", "errors_of", "notes_on_errors", "require_errors"]
 
 _PATCH = (
     *("depth", "force", "stiffness", "interfacial_stiffness", "contact_area", "corrected_contact_area"),
@@ -50,9 +51,14 @@ class LoadErrors:
 
         typer.echo(f"\nerrors at {quantity('force', self.force)}")
         print_table(*self.budget.table(names, in_unit))
-        print_facts([(source.name, f"{source.kind}: {source.how}") for source in self.budget.sources])
-        for line in self.budget.notes:
-            note(line)
+        print_facts(self.budget.facts())
+
+
+def notes_on_errors(errors: Iterable[LoadErrors]) -> list[Note]:
+    """Return what is left out of errors, and why."""
+    from roughcontact.labels.note import Note, Rank
+
+    return [Note(Rank.LIMITED, line) for each in errors for line in each.budget.notes]
 
 
 def require_errors(asked: Errors, surface: Surface) -> None:

@@ -36,7 +36,7 @@ def write_loop(loop: Loop, folder: Path, source: Mapping[str, Any], ending: str)
     dataset = loop.to_dataset()
     with all_or_none(folder) as aside:
         write_netcdf(dataset, aside / "loop.nc", source)
-        write_csv(dataset, aside / "loop.csv", source)
+        write_csv(dataset, aside / "loop.csv")
         save(loop_figure(loop), aside / f"loop.{ending}")
         save(flattened_figure(loop.surface, loop.flow), aside / f"flattened.{ending}")
         if isinstance(loop.flattened, Surface):

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli.contact.load_errors import LoadErrors, errors_of, require_errors
+from roughcontact.cli.contact.load_errors import LoadErrors, errors_of, notes_on_errors, require_errors
 from roughcontact.cli.contact.loop_files import write_flattened
+from roughcontact.cli.contact.units_of_job import units_of_job
 from roughcontact.cli.contact_of_job import best_state, contact_of, hardness_of_job, name_of, softer_of
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import communicator_of_job
-from roughcontact.cli.messages import UsageError, note
+from roughcontact.cli.messages import UsageError, note, note_all
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
@@ -23,14 +24,18 @@ from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from roughcontact.contact.solution import Solution
+    from roughcontact.evaluation.error_budget import ErrorBudget
+    from roughcontact.plot.drawing.engineering_units import Scale
 
 __all__ = ["EXAMPLES", "press"]
 
 EXAMPLES = {
     "press": """
 roughcontact press part.x3p --force 10N --modulus 110GPa --out result
-roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3
+roughcontact press part.x3p --pressure 1MPa --young 210GPa --poisson 0.3 --unit-stiffness MPa/mm
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --theory persson --out result
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --errors --shortest-wave 5um
 roughcontact press part.x3p --pressure 1MPa --modulus 110GPa --despike filled --short-cutoff 10um
@@ -68,11 +73,13 @@ def press(job: PressJob, *, answer: Answer) -> None:
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:
                 source = _source(solution, _control(job), record["recipe"])
-                drawn = _write(solution, record, folder, source, theory, answer.ending)
+                budget = errors[0].budget if errors else None
+                drawn = _write(solution, record, folder, source, theory, answer.ending, budget)
             if folder is not None and solution.flow is not None and solution.flow.volume:
                 drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
     per_area = job.load.pressure is not None or all(surface.grid.periodic)
-    _tell(solution, record, pressed, errors, json=answer.json, per_area=per_area)
+    units = units_of_job(job.units)
+    _tell(solution, record, pressed, errors, units=units, json=answer.json, per_area=per_area)
     pictures = (*(() if theory is None else ("distribution",)), *drawn)
     answer.note_files(
         folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
@@ -90,7 +97,6 @@ def _control(job: PressJob) -> str:
 
 
 def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, Any]:
-    from roughcontact.arrays import max_abs
     from roughcontact.contact.dataset import solution_record
 
     surface = solution.problem.surface
@@ -101,7 +107,6 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, An
         "surface": history,
         **pressed.record(),
         **solution_record(solution),
-        "largest_pressure": max_abs(solution.pressure),
         "tolerance": solution.problem.tolerance,
         "converged": solution.status.converged,
     }
@@ -129,6 +134,7 @@ def _write(
     source: dict[str, Any],
     theory: str | None,
     ending: str,
+    errors: ErrorBudget | None,
 ) -> tuple[str, ...]:
     """Write a loaded state into the folder that the first process of a job has; return the names of its pictures."""
     from roughcontact.evaluation.theories import persson_pressures
@@ -145,7 +151,7 @@ def _write(
 
         def write() -> None:
             if drawn is not None:
-                save(solution_figure(drawn), aside / f"pressure.{ending}")
+                save(solution_figure(drawn, errors), aside / f"pressure.{ending}")
             if theory is not None:
                 theories = {theory: persson_pressures(solution)}
                 save(pressure_distribution_figure(solution, theories), aside / f"distribution.{ending}")
@@ -164,15 +170,17 @@ def _tell(
     pressed: Pressed,
     errors: tuple[LoadErrors, ...],
     *,
+    units: Mapping[str, Scale],
     json: bool,
     per_area: bool,
 ) -> None:
+    from roughcontact.contact.notes import notes_on
+
     if json:
         emit(record)
     else:
-        size, *others = solution_facts(solution)
+        size, *others = solution_facts(solution, units)
         print_facts([size, *pressed.facts(), *others])
         for each in errors:
-            each.tell({}, patch=True, joint=per_area)
-    for line in solution.notes:
-        note(line)
+            each.tell(units, patch=True, joint=per_area)
+    note_all([*notes_on(solution), *notes_on_errors(errors)])

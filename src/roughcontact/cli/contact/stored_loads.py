@@ -12,6 +12,7 @@ import numpy as np
 from roughcontact.cli.messages import note
 from roughcontact.contact.join_curves import part_of
 from roughcontact.files.read_curve import read_curve
+from roughcontact.labels.note import Note, Rank
 from roughcontact.recipe.written import carried, contact_in
 from roughcontact.version import __version__
 
@@ -35,13 +36,13 @@ class StoredLoads:
         With these loads alone.
     values : array, shape (n,)
         The loads.
-    notes : tuple of str
+    notes : tuple of Note
         On the last of them.
     """
 
     curve: Curve
     values: npt.NDArray[np.float64]
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
 
 def can_be_continued(job: CurveJob) -> bool:
@@ -58,7 +59,11 @@ def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads |
         curve = read_curve(out / "curve.nc")
         [(kind, stored)] = record["loads"].items()
         recipe, version = record["recipe"], record["provenance"]["source"]
-        notes = tuple(line for line in record["notes"] if not line.startswith("stopped"))
+        notes = tuple(
+            Note(Rank[rank.upper()], text)
+            for rank, text in zip(record["note_ranks"], record["notes"], strict=True)
+            if not text.startswith("stopped")
+        )
     except (OSError, ValueError, KeyError, TypeError):  # none, or a damaged one, which is replaced
         return None
     same = contact_in(recipe) == contact_in(carried(job, out)) and kind == f"{loads.kind}s"

@@ -149,7 +149,12 @@ def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
         raise UsageError(f"cannot write {out}", "give a file .nc (NetCDF) or .csv (a table)", place="--out")
     require_target(out)
     if kind == ".csv":
-        return lambda dataset: write_long_csv(dataset, out)
+
+        def write(dataset: xarray.Dataset) -> None:
+            if left_out := write_long_csv(dataset, out):
+                note(f"a table has no place for {', '.join(left_out)}: write a file .nc to keep them")
+
+        return write
     return lambda dataset: write_netcdf(dataset, out, provenance(command=command_line()))
 
 

@@ -132,7 +132,7 @@ def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
         print_facts(_facts(surface, record))
     for line in record["notes"]:
         note(line)
-    answer.note_files(folder, ("spectrum.csv", f"spectrum.{answer.ending}"))
+    answer.note_files(folder, ("spectrum.csv", "spectrum.nc", f"spectrum.{answer.ending}"))
 
 
 def _surface(source: File, fill: bool) -> Surface:
@@ -269,11 +269,11 @@ def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> Powe
 
 
 def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: Path, ending: str) -> None:
-    """Write ``spectrum.csv`` and the picture; the table repeats the numbers of the record."""
+    """Write the table as ``spectrum.csv`` and ``spectrum.nc``, and the picture."""
     from matplotlib.figure import Figure
 
     from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_csv
+    from roughcontact.files.write import write_csv, write_netcdf
     from roughcontact.plot.canvas import save
     from roughcontact.plot.spectrum_plot import spectrum_curve
 
@@ -283,9 +283,10 @@ def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: P
     spectrum_curve(spectrum, panels[0], law=law)
     if isotropic is not None:
         spectrum_curve(isotropic, panels[1], label="isotropic surface\nwith this profile")
-    source = provenance(surface, command=command_line())
+    source, table = provenance(surface, command=command_line()), _table(found, record)
     with all_or_none(folder) as aside:
-        write_csv(_table(found, record), aside / "spectrum.csv", source, dimension="bin")
+        write_csv(table, aside / "spectrum.csv", dimension="bin")
+        write_netcdf(table, aside / "spectrum.nc", source)
         save(figure, aside / f"spectrum.{ending}")
 
 

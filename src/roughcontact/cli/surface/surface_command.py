@@ -1,8 +1,9 @@
-"""The commands ``surface info`` and ``surface make``: look at a file, or make one."""
+"""The commands ``surface info``, ``make`` and ``specified``: look at a file, or make one."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -19,13 +20,14 @@ from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.source import File, SelfAffine
+from roughcontact.recipe.specified import Specified
 from roughcontact.recipe.texts import points
 
 if TYPE_CHECKING:
     from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
-__all__ = ["EXAMPLES", "info", "make"]
+__all__ = ["EXAMPLES", "info", "make", "specified"]
 
 EXAMPLES = {
     "info": """
@@ -36,6 +38,10 @@ roughcontact surface info scan.csv
     "make": """
 roughcontact surface make rough.npz --hurst 0.8 --rms 1um --size 1mm
 roughcontact surface make r.x3p --hurst 2 --rms 1um --size 1mm --points 65x257
+""",
+    "specified": """
+roughcontact surface specified joint.npz --sigma 1.2um --slope 0.12 --hurst 0.8 --rolloff 64um --size 0.5mm --periodic
+roughcontact surface specified face.npz --ra 1um --hurst 0.8 --correlation-length 20um --short-cutoff 8um --size 1mm
 """,
 }
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
@@ -90,6 +96,19 @@ def _draw(surface: Surface, spikes: Spikes, path: Path) -> None:
 
 def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
     """Make a self-affine rough surface and save its heights."""
+    _make(out, source, ("rolloff", "long_cutoff", "short_cutoff"), json=json)
+
+
+def specified(out: Path = OUTPUT, *, source: Specified, json: bool = JSON) -> None:
+    """Make a random surface that has the rms height and the slope of a specification, and save its heights.
+
+    Slope and rms height leave open how wide the band of its waves is: give the Hurst exponent and one number more.
+    """
+    _make(out, source, (), json=json)
+
+
+def _make(out: Path, source: SelfAffine | Specified, waves: Sequence[str], *, json: bool) -> None:
+    """Make a surface, save it, and tell its facts; its history names the `waves` of the source that were given."""
     import roughcontact as rc
 
     slabs, shape = slabs_of_job(), points(source.points)
@@ -97,13 +116,9 @@ def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
     share = 1 if slabs is None else slabs.communicator.size
     require_memory(_BYTES_PER_POINT * math.prod(shape) // share, shape)
     surface = prepared(SurfaceJob(source=source))["surface"]
-    waves = [
-        f"{name} {value_of(source, name):g} m"
-        for name in ("rolloff", "long_cutoff", "short_cutoff")
-        if getattr(source, name) is not None
-    ]
     seed = value_of(source, "seed")
-    made = f"made by roughcontact {rc.__version__}: {', '.join([f'seed {seed}', *waves])}"
+    lengths = [f"{name} {value_of(source, name):g} m" for name in waves if getattr(source, name) is not None]
+    made = f"made by roughcontact {rc.__version__}: {', '.join([f'seed {seed}', *lengths])}"
     surface = replace(surface, provenance=(*surface.provenance, made))
     save_surface(surface, out)
     record = {"file": plain(str(out)), "seed": seed} | surface_record(surface)

@@ -20,6 +20,7 @@ from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffnes
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.material import Solid, as_modulus
 from roughcontact.progress.events import task
@@ -161,7 +162,7 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
     else:
         forces = np.geomspace(high / 100, high, count)
     forces = _distinct(forces, count)
-    notes = tuple(_notes(search, forces, surface))
+    notes = in_order(_notes(search, forces, surface))
     return LoadRange(search.kind, search.single_feature, forces, low, high, reasons, notes)
 
 
@@ -190,15 +191,16 @@ def _distinct(forces: Array, count: int) -> Array:
     return forces
 
 
-def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
+def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
     """Yield what a reader should know of the range."""
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
     if search.single_feature:
         end = search.shared_from
         until = "over the whole range" if end is None else f"up to {end:.3g} {force_unit}"
-        yield (
+        yield Note(
+            Rank.DOUBTFUL,
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
-            "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop)."
+            "not belong to the surface, mask it (masked, surface prepare --mask) or crop it away (cropped, --crop).",
         )
     if low < high and low < search.spots_from:
         where = (
@@ -206,21 +208,25 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[str]:
             if search.spots_from <= high
             else "over the whole range"
         )
-        yield (
+        yield Note(
+            Rank.DOUBTFUL,
             f"Spots have fewer than {SPOT_CELLS} cells {where}: contact area and pressure are those of the grid there, "
-            "the stiffness hardly; for them take a finer map."
+            "the stiffness hardly; for them take a finer map.",
         )
     if low < high and high >= DECADE * low:
         return
     few = CELLS * cell_stiffness(search.problem.operator)
     if few >= FULL_CONTACT_SHARE * full_contact_stiffness(search.problem):
-        yield f"No load is resolved: the map has too few cells, {surface.grid.shape}; take a finer one."
+        few_cells = f"the map has too few cells, {surface.grid.shape}; take a finer one"
+        yield Note(Rank.WRONG, f"No load is resolved: {few_cells}.")
     elif not low < high:
-        yield f"No load is resolved before {search.reason or 'the search ends'}: {_remedy(search, surface)}."
+        until = search.reason or "the search ends"
+        yield Note(Rank.WRONG, f"No load is resolved before {until}: {_remedy(search, surface)}.")
     else:
-        yield (
+        yield Note(
+            Rank.LIMITED,
             f"The grid resolves forces over a factor of {high / low:.2g} only, less than a power law takes "
-            f"(a decade): {_remedy(search, surface)}."
+            f"(a decade): {_remedy(search, surface)}.",
         )
 
 

@@ -192,7 +192,7 @@ def _writers(
 
     recipe = {"recipe": json.loads(source["recipe"])}
     return {
-        f"{table or stem}.csv": lambda path: write_csv(dataset if numbers is None else numbers, path, source),
+        f"{table or stem}.csv": lambda path: write_csv(dataset if numbers is None else numbers, path),
         f"{stem}.nc": lambda path: write_netcdf(dataset, path, source),
         f"{stem}.png": lambda path: save(figure(), path),
         f"{stem}.svg": lambda path: save(figure(), path),

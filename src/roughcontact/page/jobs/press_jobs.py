@@ -36,7 +36,7 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
         {
             "type": "state",
             "force": solution.force,
-            "pressure": solution.force / grid.area,
+            "pressure": solution.nominal_pressure,
             "depth": solution.depth,
             "highest": [int(index) for index in highest],
             "warning": _warning(solution),

@@ -14,6 +14,7 @@ from roughcontact.page.jobs.followed import Followed, collected, follow, up_to_p
 from roughcontact.recipe.job_calls import Call, performed
 from roughcontact.recipe.jobs import Job, contact_calls, known_names, surface_calls
 from roughcontact.recipe.source import SelfAffine, SmoothBody
+from roughcontact.recipe.specified import Specified
 from roughcontact.recipe.texts import points
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ class SessionCache:
 
         def made() -> tuple[Surface, list[str]]:
             if (
-                isinstance(job.source, SelfAffine | SmoothBody)
+                isinstance(job.source, SelfAffine | Specified | SmoothBody)
                 and max(points(job.source.points)) > _MOST_POINTS
             ):
                 raise InputError(

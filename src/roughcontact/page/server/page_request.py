@@ -14,8 +14,9 @@ from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.job_calls import python_of
-from roughcontact.recipe.jobs import Job, calls_of
+from roughcontact.recipe.jobs import JobOfHeights, calls_of
 from roughcontact.recipe.source import File
+from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
@@ -46,8 +47,8 @@ class PageRequest:
         What else the worker needs to know.
     """
 
-    job: Job
-    shown: Job
+    job: JobOfHeights
+    shown: JobOfHeights
     beside: PageRequest | None
     more: Mapping[str, Any]
 
@@ -66,7 +67,12 @@ class PageRequest:
                 raise InputError("the server has no such file any more", "drop it again", "source.file")
             return files[file.file]
 
-        job = _explicit(from_plain(plain))
+        job = from_plain(plain)
+        if isinstance(job, TheoryJob):
+            raise InputError(
+                "a page shows maps", "run a job of theories by the command roughcontact run", "job"
+            )
+        job = _explicit(job)
         if not isinstance(job, SurfaceJob) and job.contact.profile is not None:
             raise InputError("a page presses maps", "press a profile by the command line", "contact.profile")
         beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
@@ -104,7 +110,7 @@ class PageRequest:
 PageJob = Callable[[PageRequest, SessionCache, Send], None]
 
 
-def _explicit(job: Job) -> Job:
+def _explicit(job: JobOfHeights) -> JobOfHeights:
     """Return a job that says how its heights are levelled: a page shows the heights that it presses."""
     if job.preparation.level is not None:
         return job

@@ -3,7 +3,9 @@
 import { element } from "./numbers.js";
 import { digits, scaleFor } from "./words.js";
 
-const COLUMNS = ["force", "nominal_pressure", "depth", "stiffness", "contact_fraction", "mean_gap", "spots", "residual"];
+const COLUMNS = [
+  "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "residual",
+];
 
 // Without `chosen` no row leads anywhere.
 export function curveTable(root, { columns, points }, current, chosen) {

@@ -11,11 +11,12 @@ const PATCHES = [
   fractal("Rugged patch", "H = 0.4, 512 × 512 cells", "0.4", "0.2um", "1mm", "512", { seed: "3" }),
   fractal("Large map", "H = 0.7, 1024 × 1024 cells", "0.7", "1um", "2mm", "1024", { seed: "2" }),
 ];
+const SPECIFIED = { name: "Specified joint", about: "rms height 1.2 µm, mean slope 0.12, 256 × 256 cells", source: { kind: "specified", sigma: "1.2um", slope: "0.12", hurst: "0.8", rolloff: "64um", size: "512um", points: "256", seed: "1", periodic: true } };
 const BALL = { name: "Ball", about: "a sphere, 256 × 256 cells", source: { kind: "shape", shape: "sphere", radius: "5mm", size: "0.2mm", points: "256" } };
 
 // What the page begins with where there is no file: with the maps that come with the package.
 export const examplesOf = ({ sources }) => [
-  ...PATCHES, BALL,
+  ...PATCHES, SPECIFIED, BALL,
   ...sources.example.fields[0].choices.map((example) => ({ name: `Example ${example}`, about: "a map that comes with the package", source: { kind: "example", example } })),
 ];
 

@@ -57,8 +57,10 @@ class JobParameters(Parameters):
         mistakes = list(_seeds(plain.get("source"), "source"))
         try:
             job = from_plain(plain)
-            if job.NAME == "surface":
-                raise InputError("a study keeps no numbers of a surface alone", "take press or curve", "job")
+            if job.NAME in ("surface", "theory"):
+                raise InputError(
+                    "a study keeps numbers of surfaces that are pressed", "take press or curve", "job"
+                )
             with placed("source"):
                 job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
         except InputError as error:

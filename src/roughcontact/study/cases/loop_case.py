@@ -9,18 +9,17 @@ from pydantic import Field, model_validator
 
 from roughcontact.contact.curve import CURVE_POINTS
 from roughcontact.contact.loop import loading_loop
+from roughcontact.contact.loop_dataset import unloaded
 from roughcontact.errors import InputError
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import FLOW
 from roughcontact.labels.labelled import variable
-from roughcontact.labels.variables import VARIABLES
 from roughcontact.study.case import Case, Record
 from roughcontact.study.cases.curve_case import CurveParameters, moments_of
 
 __all__ = ["CASE", "LoopParameters", "run"]
 
 _ARRAYS = (*CURVE_POINTS, "dimensionless_force", "dimensionless_stiffness", "resolved", "status")
-_ON_UNLOADING = ("depth", "stiffness", "interfacial_stiffness", "contact_area", "mean_gap", "elastic_energy")
 _SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
 
 
@@ -73,10 +72,7 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     record = whole[[*_ARRAYS, *names_of(FLOW), "hardness"]].drop_vars("axis", errors="ignore")
     # The rms height of the parameters, without the body under the roughness.
     record["dimensionless_force"] = "load", parameters.forces, whole["dimensionless_force"].attrs
-    for name in _ON_UNLOADING:
-        dimensions, values, words = variable(name, ("load",), getattr(loop.unloading, name)[::-1])
-        about = words | {"long_name": f"{VARIABLES[name].long_name}, on unloading"}
-        record[f"unloaded_{name}"] = dimensions, values, about
+    record = record.assign(unloaded(loop))
     worst = np.array([loop.loading.residual, loop.unloading.residual[::-1], loop.reloading.residual]).max(0)
     record["residual"] = variable("residual", ("load",), worst)
     for name in _SCALARS:

@@ -1,0 +1,215 @@
+"""The command ``study table``: a line for each combination of what varies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.option_groups import option
+from roughcontact.cli.options import JSON
+from roughcontact.cli.report import emit, print_table
+from roughcontact.cli.study.averages_command import LawWindow, averaged_in, means_of, note_laws
+from roughcontact.cli.study.study_command import FOLDER, own_cases
+from roughcontact.errors import InputError, placed
+from roughcontact.files.quantity import FORCE, PRESSURE, has_unit, parse, parse_number
+from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.plot.drawing.parameter_labels import parameter_labels
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["EXAMPLES", "table"]
+
+EXAMPLES = {
+    "table": """
+roughcontact study table results
+roughcontact study table results --at 1MPa
+roughcontact study table results --at 0.01 --quantity stiffness,contact_area
+""",
+}
+
+QUANTITIES = option(
+    "Whose mean and standard error to print (default: power laws; with --at the usual ones; otherwise all numbers "
+    "without loads).",
+    "NAME,...",
+)
+AT = option("For quantities along the loads: a pressure, a force, or a force over E* h L.", "1MPa")
+
+_LAW = ("exponent", "prefactor")
+_USUAL = ("interfacial_stiffness_per_area", "stiffness", "contact_fraction", "mean_gap")  # at one load
+_EQUAL = 1e-12  # of a mean: samples that differ by no more are equal
+_CERTIFICATES = ("residual", "stiffness_residual", "resolved")  # shown where they are asked for
+_MOST_DECIMALS = 5  # beyond these a power of ten is shorter
+
+
+def table(
+    folder: Path = FOLDER,
+    *,
+    quantity: str | None = QUANTITIES,
+    at: str | None = AT,
+    window: LawWindow,
+    json: bool = JSON,
+) -> None:
+    """Print one line for each combination of what varies: power laws, or means with their standard errors."""
+    with reported(folder, as_json=json), own_cases():
+        with placed("at"):
+            load = None if at is None else _load(at)
+        averaged = averaged_in(folder, window.value(), load)
+        laws = quantity is None and "exponent" in averaged and load is None
+        names = () if laws else _quantities(averaged, quantity, load)
+        if json:
+            emit(_record(averaged, folder, names, laws, load))
+        else:
+            print_table(*_table(averaged, names, laws))
+        if laws or (quantity is None and load is None):
+            note_laws(averaged)
+        resolved = None if load is None else _resolved(averaged)
+        if resolved is not None and bool((resolved < averaged["cases"]).any()):
+            note(
+                "some means contain loads that are not resolved (column resolved): compute more points or larger loads"
+            )
+
+
+def _load(text: str) -> tuple[str, float]:
+    """Return the variable that a load of ``--at`` is a value of, and the value in SI."""
+    name, value = _with_unit(text) if has_unit(text) else ("dimensionless_force", parse_number(text, "0.01"))
+    if not value > 0:
+        raise InputError(f"{text!r} is not above 0", "choose a load above 0")
+    return name, value
+
+
+def _with_unit(text: str) -> tuple[str, float]:
+    for name, kind in (("nominal_pressure", PRESSURE), ("force", FORCE)):
+        with suppress(InputError):
+            return name, parse(text, kind)
+    raise InputError(
+        f"{text!r} is neither a pressure nor a force",
+        "write a pressure such as 1MPa, a force such as 10N, or a force over E* h L such as 0.01",
+    )
+
+
+def _quantities(
+    averaged: xarray.Dataset, asked: str | None, load: tuple[str, float] | None
+) -> tuple[str, ...]:
+    """Return the quantities of a table: one number for each combination."""
+    single = [name for name in means_of(averaged) if averaged[f"{name}_mean"].dims == averaged["cases"].dims]
+    if asked is None:
+        if not single:
+            raise UsageError("all quantities lie along the loads", "choose a load by --at, such as --at 1MPa")
+        usual = tuple(name for name in _USUAL if name in single) if load is not None else ()
+        return usual or tuple(name for name in single if name not in _CERTIFICATES)
+    names = tuple(part.strip() for part in asked.split(",") if part.strip())
+    for name in names:
+        if name not in means_of(averaged):
+            raise UsageError(
+                f"no {name!r} differs between samples",
+                f"choose of {', '.join(means_of(averaged))}",
+                place="--quantity",
+            )
+        if name not in single:
+            raise UsageError(
+                f"{name} lies along {_rest(averaged, name)}",
+                f"choose of {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
+                place="--quantity",
+            )
+    return names
+
+
+def _rest(averaged: xarray.Dataset, name: str) -> str:
+    return ", ".join(str(d) for d in averaged[f"{name}_mean"].dims if d not in averaged["cases"].dims)
+
+
+def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the table that is printed."""
+    from roughcontact.statistics.averages import combinations
+
+    points = list(combinations(averaged))
+    header: list[str] = []
+    columns: list[list[str]] = []
+
+    def add(title: str, cells: list[str]) -> None:
+        header.append(title)
+        columns.append(cells)
+
+    for name, label in parameter_labels(averaged).items():
+        add(label.title, [label.value(parameters[name]) for parameters, _ in points])
+    add("samples", [str(int(point["cases"])) for _, point in points])
+    if not laws and (resolved := _resolved(averaged)) is not None:
+        add("resolved", list(map(str, resolved.to_numpy().ravel())))
+    if laws:
+        for name in _LAW:
+            pairs = [(point[name].item(), point[f"{name}_error"].item()) for _, point in points]
+            add(name, [_with_error(*pair) for pair in pairs])
+        add("from F/(E* h L)", [_number(point["window_low"].item()) for _, point in points])
+        add("to", [_number(point["window_high"].item()) for _, point in points])
+        add("loads", [str(int(point["law_count"])) for _, point in points])
+    for name in names:
+        mean, error = averaged[f"{name}_mean"], averaged[f"{name}_standard_error"]
+        chosen = scale(float(abs(mean).max()), mean.attrs.get("units", ""))
+        cells = [
+            _with_error(*(point[each.name].item() * chosen.factor for each in (mean, error)))
+            for _, point in points
+        ]
+        add(f"{name.replace('_', ' ')} [{chosen.unit}]" if chosen.unit else name.replace("_", " "), cells)
+    return header, [list(row) for row in zip(*columns, strict=True)]
+
+
+def _resolved(averaged: xarray.Dataset) -> xarray.DataArray | None:
+    """Return in how many samples of each combination the load is resolved; None where there is not one load each."""
+    if "resolved" in averaged:  # the same in all samples
+        found = averaged["cases"] * averaged["resolved"]
+    elif "resolved_mean" in averaged:
+        found = (averaged["resolved_mean"] * averaged["resolved_count"]).fillna(0).round()
+    else:
+        return None
+    return found.astype(int) if found.dims == averaged["cases"].dims else None
+
+
+def _number(value: float) -> str:
+    return f"{value:.3g}" if math.isfinite(value) else "-"
+
+
+def _with_error(value: float, error: float) -> str:
+    """Return a mean and its error, both to two digits of the error."""
+    if not math.isfinite(value):
+        return "-"
+    if not error > _EQUAL * abs(value) or not math.isfinite(error):
+        return f"{value:.4g}"
+    digits = max(1 - math.floor(math.log10(error)), 0)
+    if digits > _MOST_DECIMALS:
+        return f"{value:.3e} +- {error:.1e}"
+    return f"{value:.{digits}f} +- {error:.{digits}f}"
+
+
+def _record(
+    averaged: xarray.Dataset, folder: Path, names: Sequence[str], laws: bool, load: tuple[str, float] | None
+) -> dict[str, Any]:
+    """Return the table as plain values."""
+    from roughcontact.labels.labelled import plain_values
+    from roughcontact.statistics.averages import combinations
+
+    words = ("mean", "standard_deviation", "standard_error", "count")
+    rows = []
+    counted = _resolved(averaged)
+    resolved = None if counted is None else iter(counted.to_numpy().ravel().tolist())
+    for parameters, point in combinations(averaged):
+        row: dict[str, Any] = {"parameters": parameters, "samples": int(point["cases"])}
+        if laws:
+            law = [str(n) for n in point if str(n).startswith((*_LAW, "window_", "law_")) or n == "misfit"]
+            row["power_law"] = {name: plain_values(point[name].item()) for name in law}
+        elif resolved is not None:
+            row["resolved"] = next(resolved)
+        for name in names:
+            row[name] = {word: plain_values(point[f"{name}_{word}"].item()) for word in words}
+        rows.append(row)
+    record: dict[str, Any] = {"command": "study table", "folder": str(folder), "rows": rows}
+    if load is not None:
+        record |= dict([load])
+    if "window" in averaged.attrs:
+        record["window"] = averaged.attrs["window"]
+    units = {name: averaged[f"{name}_mean"].attrs.get("units", "") for name in names}
+    return record | {"units": {name: unit for name, unit in units.items() if unit}}

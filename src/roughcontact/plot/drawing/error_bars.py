@@ -1,0 +1,44 @@
+"""Errors of loads in a picture: bars, and what other maps of the surface would give in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughcontact.evaluation.error_budget import ErrorBudget
+from roughcontact.plot.drawing.engineering_units import Scale, written
+from roughcontact.plot.drawing.ticks import TICK
+
+__all__ = ["Errors", "error_bars", "sampling_lines"]
+
+Errors = Mapping[float, ErrorBudget]
+"""The errors of loads, by their force [N]."""
+
+_COLOUR = "#0072b2"  # of the points
+
+
+def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, Scale]) -> None:
+    """Draw a bar for each load whose error of a quantity is known; the axes keep their limits."""
+    x, y = scales
+    limits = axes.get_ylim()
+    style: Any = {"fmt": "none", "ecolor": _COLOUR, "capsize": 4, "elinewidth": 1.2, "label": "error"}
+    for force, budget in errors.items():
+        number = next((each for each in budget.numbers if each.name == quantity), None)
+        if number is not None and math.isfinite(number.error) and math.isfinite(number.value):
+            place, height = force * x.factor, number.value * y.factor
+            axes.errorbar([place], [height], yerr=[number.error * y.factor], **style)
+            style["label"] = None  # one line of a legend for all
+    axes.set_ylim(limits)
+
+
+def sampling_lines(figure: Figure, errors: Errors) -> None:
+    """Write below a figure, for each load, how much another map of the surface would differ."""
+    lines = [
+        f"at {written(force, 'N')}, {budget.sampling}" for force, budget in errors.items() if budget.sampling
+    ]
+    if lines:
+        figure.supxlabel("\n".join(lines), fontsize=TICK)

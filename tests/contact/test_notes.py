@@ -1,0 +1,79 @@
+"""Which notes an answer has, and in which order."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughcontact as rc
+from roughcontact.contact.notes import EDGE, notes_on
+from roughcontact.labels.note import Note, Rank, in_order
+
+
+def ball(beside, cells=96):
+    """Return a sphere of unit radius over a unit square, its axis at a distance from the edge x = 0."""
+    grid = rc.Grid((cells, cells), 1 / cells)
+    y, x = grid.coordinates
+    return rc.Surface(-((y[:, None] - 0.5) ** 2 + (x - beside) ** 2) / 2, grid)
+
+
+@pytest.mark.parametrize(("part", "told"), [(0.1, False), (0.25, True)])
+def test_the_edge_is_told_where_its_cells_carry_a_hundredth_of_the_force(part, told):
+    """The outermost cells lie over Hertz's contact from x = 1 - part to 1 radius, and carry (3 part^2 - part^3)/4."""
+    radius, cell = 8 / 96, 1 / 96
+    force = 4 / 3 * radius**3
+    solution = rc.press(ball(radius * (1 - part) + cell), 1.0, force=force)
+    share = (3 * part**2 - part**3) / 4
+    # On eight cells a radius the staircase of the border moves it by up to a quarter of a cell.
+    low, high = ((3 * p**2 - p**3) / 4 for p in (part - 0.25 * cell / radius, part + 0.25 * cell / radius))
+    assert low < solution.edge_share < high
+    assert (share > EDGE) == told
+    assert solution.touches_edge
+    edge = [note for note in solution.notes if "reaches the edge" in note]
+    assert len(edge) == told
+    assert all(f"carry {100 * solution.edge_share:.2g} % of the force" in note for note in edge)
+
+
+def test_the_share_of_the_edge_counts_each_of_its_cells_once():
+    for grid, operator, share in (
+        (rc.Grid((4, 5), 1.0), None, 14 / 20),
+        (rc.Grid((4, 5), 1.0, periodic=(True, False)), None, 8 / 20),
+        (rc.Grid((4, 5), 1.0, periodic=True), None, 0.0),
+        (rc.Grid((1, 5), 1.0), None, 1.0),
+        (rc.Grid(8, 1.0), rc.foundation(rc.Grid(8, 1.0), 1.0), 2 / 8),
+    ):
+        surface = rc.Surface(np.zeros(grid.shape), grid)
+        flat = rc.press(surface, 1.0, force=1e-3, operator=operator)
+        even = replace(flat, pressure=np.full(grid.shape, 2.0))
+        assert even.edge_share == pytest.approx(share, rel=1e-14), grid
+        assert even.touches_edge == (share > 0)
+        assert replace(flat, pressure=np.zeros(grid.shape)).edge_share == 0.0
+    rings = rc.RadialGrid.uniform(4, 1.0)
+    pressed = rc.press(rc.RadialProfile(-(rings.radii**2), rings), 1.0, force=1e-3)
+    even = replace(pressed, pressure=np.ones(4))
+    assert even.edge_share == pytest.approx(7 / 16, rel=1e-14)  # 4^2 - 3^2 of 4^2
+
+
+def test_what_makes_a_number_wrong_comes_first_and_the_edge_last():
+    """One cell in the corner, beside missing ones, under a pressure of the modulus, far above all others."""
+    heights = np.zeros((16, 16))
+    heights[0, 0], heights[5, 5:7] = 1.0, np.nan
+    solution = rc.press(rc.Surface(heights, rc.Grid((16, 16), 1.0)), 1.0, force=0.9)
+    words = (
+        "A single cell",
+        "largest pressure",
+        "highest point stands",
+        "2 cells hold no height",
+        "the edge",
+    )
+    assert len(solution.notes) == len(words)
+    assert all(word in note for word, note in zip(words, solution.notes, strict=True)), solution.notes
+    assert solution.to_record()["notes"] == list(solution.notes)
+    ranks = sorted(note.rank for note in notes_on(solution))
+    assert ranks == [Rank.WRONG, Rank.DOUBTFUL, Rank.DOUBTFUL, Rank.USUAL, Rank.USUAL]
+
+
+def test_notes_are_ordered_by_rank_then_as_they_are_made_and_stand_once():
+    made = [Note(Rank.USUAL, "d"), Note(Rank.LIMITED, "b"), Note(Rank.WRONG, "a"), Note(Rank.LIMITED, "c")]
+    assert in_order([*made, *made]) == ("a", "b", "c", "d")
+    assert in_order(()) == ()
