@@ -1,6 +1,7 @@
 """The house keeps its shape: imports point one way, and disk and screen stay at the rim."""
 
 import ast
+import importlib
 import subprocess
 import sys
 from collections import Counter
@@ -22,6 +23,7 @@ ORDER = [
     {"errors"},
     {"cached", "memory", "progress", "threads", "units", "version"},
     {"validation"},
+    {"guesses"},
     {"late"},
     {"kernels"},
     {"arrays"},
@@ -252,6 +254,44 @@ def test_help_of_a_command_waits_for_no_numerics(words):
     found = loaded("from roughcontact.cli.main import run; run()", *words, "--help")
     assert "typer" in found
     assert found & (HEAVY - {"rich", "typer"} | {"numpy", "scipy"}) == set()
+
+
+def test_what_another_file_imports_stands_in_all():
+    public = {
+        module: {
+            node.name
+            for node in tree.body
+            if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_"
+        }
+        for module, tree in modules().items()
+    }
+    taken = {
+        (node.module, alias.name)
+        for tree in modules().values()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        if alias.name in public.get(node.module, ())
+    }
+    stated = {module: getattr(importlib.import_module(module), "__all__", None) for module, _ in taken}
+    missing = {(module, name) for module, name in taken if stated[module] and name not in stated[module]}
+    assert missing == set()
+    assert ("roughcontact.contact.press", "make_problem") in taken
+
+
+def test_what_stands_in_all_is_there():
+    named = {
+        module: importlib.import_module(module)
+        for module in modules()
+        if not module.endswith(("__main__", "cli.main"))
+    }
+    stale = {
+        (module, name)
+        for module, found in named.items()
+        for name in getattr(found, "__all__", ())
+        if not hasattr(found, name)
+    }
+    assert stale == set()
 
 
 def test_each_base_name_stands_once():

@@ -58,6 +58,8 @@ MORE = [
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
     (rc.Grid, {"shape": (4, 8), "spacing": 1e-6}),
     (rc.Grid, {"shape": (4, 8), "spacing": (1e-6, 2e-6)}),
+    (rc.Grid, {"shape": (4, 8), "size": 8e-6}),
+    (rc.Surface, {"heights": np.zeros((4, 8)), "grid": 1e-6}),
     (rc.RadialGrid, {"edges": RING.edges}),
     (rc.RadialGrid.uniform, {"rings": 4, "radius": 1e-3}),
     (rc.Surface, {"heights": CUT.heights, "grid": FREE}),
@@ -143,7 +145,7 @@ MORE = [
 UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
-    " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length",
+    " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid",
     "Pa": "young_modulus modulus hardness pressure pressures initial",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",

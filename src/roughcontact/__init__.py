@@ -28,7 +28,10 @@ if TYPE_CHECKING or _LATE is None:
         study as study,
         theory as theory,
     )
-    from roughcontact.adhesion.adhesive_curve import AdhesiveCurve as AdhesiveCurve
+    from roughcontact.adhesion.adhesive_curve import (
+        AdhesiveCurve as AdhesiveCurve,
+        AdhesivePoint as AdhesivePoint,
+    )
     from roughcontact.adhesion.adhesive_loading import (
         adhesive_curve as adhesive_curve,
         adhesive_path as adhesive_path,
@@ -48,6 +51,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.contact.compare import Comparison as Comparison
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve
+    from roughcontact.contact.curve_record import CurvePoint as CurvePoint
     from roughcontact.contact.flow import Flow as Flow
     from roughcontact.contact.flow_curve import FlowCurve as FlowCurve
     from roughcontact.contact.loading import loading_curve as loading_curve, loading_path as loading_path
@@ -103,12 +107,13 @@ if TYPE_CHECKING or _LATE is None:
         shear_half_space as shear_half_space,
     )
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement, Stress as Stress
-    from roughcontact.material import (
-        Solid as Solid,
+    from roughcontact.material import Solid as Solid
+    from roughcontact.materials import (
+        Material as Material,
+        handbook as handbook,
         reduced_modulus as reduced_modulus,
         reduced_shear_modulus as reduced_shear_modulus,
     )
-    from roughcontact.materials import Material as Material, handbook as handbook
     from roughcontact.mdr.foundation import foundation as foundation
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs

@@ -11,12 +11,14 @@ from typing import Any
 import numpy as np
 
 from roughcontact.errors import InputError, about
+from roughcontact.guesses import hinted
 from roughcontact.units import in_si
-from roughcontact.validation import LARGEST, SMALLEST, Array, moderate, scalar
+from roughcontact.validation import LARGEST, SMALLEST, Array, exactly_one, moderate, scalar
 
 __all__ = ["AnyGrid", "Grid", "RadialGrid"]
 
 
+@hinted
 @dataclass(frozen=True, slots=True)
 class Grid:
     """A regular grid of cells, in one or two dimensions.
@@ -30,11 +32,15 @@ class Grid:
     periodic : bool or tuple of bool
         Whether the body repeats itself along each axis. This is the only place where the boundary
         condition is stated.
+    size : float or tuple of float
+        In place of the spacing: the width Lx of square cells, or ``(Ly, Lx)`` [m], as `read` takes it. It is the length
+        of all cells, ``n * spacing``.
 
     Raises
     ------
     ValueError
-        If a size is not a positive whole number or a spacing is not positive and finite.
+        If a number of cells is not a positive whole number, or a spacing is not positive and finite; if spacing and
+        size are both given, or neither.
 
     Notes
     -----
@@ -46,6 +52,8 @@ class Grid:
     >>> grid = rc.Grid(shape=(4, 8), spacing=0.5e-6, periodic=(False, True))
     >>> grid.lengths, grid.size
     ((2e-06, 4e-06), 32)
+    >>> rc.Grid((4, 8), size=4e-6).spacing
+    (5e-07, 5e-07)
     """
 
     shape: tuple[int, ...]
@@ -55,17 +63,25 @@ class Grid:
     def __init__(
         self,
         shape: int | Sequence[int],
-        spacing: float | Sequence[float],
+        spacing: float | Sequence[float] | None = None,
         periodic: bool | Sequence[bool] = False,
+        *,
+        size: float | Sequence[float] | None = None,
     ) -> None:
         sizes: tuple[int, ...] = tuple(np.atleast_1d(shape).tolist())
         if len(sizes) not in (1, 2):
             raise about("shape", f"must have one or two axes, not {len(sizes)}: {sizes}")
         if any(not _is_real(n) or n % 1 != 0 or n < 1 for n in sizes):
             raise about("shape", f"must hold positive whole numbers of cells, not {sizes}")
-        steps = _per_axis(in_si(spacing, "m", "spacing"), len(sizes), "spacing")
+        given, stated = exactly_one(spacing=spacing, size=size)
+        lengths = in_si(stated, "m", given)
+        steps = _per_axis(lengths, len(sizes), given)
         if any(not (_is_real(step) and 0 < step < math.inf) for step in steps):
-            raise about("spacing", f"must be positive, finite numbers [m], not {steps}")
+            remedy = "give metres, such as 1e-6" if any(isinstance(step, str) for step in steps) else None
+            raise about(given, f"must be positive, finite numbers [m], not {steps}", remedy)
+        if given == "size":
+            cells = (sizes[-1],) * len(sizes) if np.ndim(lengths) == 0 else sizes
+            steps = tuple(length / n for length, n in zip(steps, cells, strict=True))
         # Of a line the spacing may be the area of cells of which it is a list.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
@@ -170,6 +186,7 @@ class Grid:
         return grid
 
 
+@hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class RadialGrid:
     """Rings about an axis, of any widths.

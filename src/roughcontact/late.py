@@ -14,6 +14,7 @@ from importlib import import_module
 from importlib.machinery import ModuleSpec
 from typing import Any, ParamSpec, TypeVar
 
+from roughcontact.guesses import did_you_mean
 from roughcontact.threads import no_fork
 
 __all__ = ["LateMethod", "late_names", "open_name", "static"]
@@ -52,12 +53,9 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
     """
     home = package["__name__"]
     if names is None or name not in names:
-        from difflib import get_close_matches  # late: it takes as long to import as all that is imported here
-
         known = package["__all__"]
-        close = get_close_matches(name, known)
-        hint = f"similar names: {', '.join(close)}" if close else f"it has {', '.join(known)}"
-        raise AttributeError(f"module {home!r} has no attribute {name!r}; {hint}")
+        hint = did_you_mean(home, name, known) or f"; it has {', '.join(known)}"
+        raise AttributeError(f"module {home!r} has no attribute {name!r}{hint}", name=name)
     with no_fork:  # a process forked in the middle of an import could never import the same
         members = vars(import_module(names[name]))
         package[name] = members[name] if name in members else import_module(f"{names[name]}.{name}")

@@ -1,16 +1,20 @@
-"""Elastic solids and the moduli that a pair of them presents to a contact."""
+"""Elastic solids, and the modulus that a pair of them presents to a contact."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from roughcontact.errors import InputError, about
+from roughcontact.guesses import hinted
 from roughcontact.validation import moderate, require_numbers, scalar, shown
 
-__all__ = ["Bodies", "Solid", "as_modulus", "pair_of", "reduced_modulus", "reduced_shear_modulus"]
+__all__ = ["Bodies", "Solid", "as_modulus", "inverse_sum", "pair_of", "require_solid"]
 
 
+@hinted
 @dataclass(frozen=True, slots=True)
 class Solid:
     """An isotropic, linearly elastic solid.
@@ -51,70 +55,7 @@ class Solid:
 Bodies = Solid | tuple[Solid, Solid]
 
 
-def reduced_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced modulus E* of two solids (thesis, eq. 4.3).
-
-    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
-
-    Parameters
-    ----------
-    first : Solid
-    second : Solid, optional
-        The other body; by default it is rigid.
-
-    Returns
-    -------
-    float
-        E* [Pa].
-
-    Raises
-    ------
-    ValueError
-        If a body is not a `Solid`, or both are rigid.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> f"{rc.reduced_modulus(rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)) / 1e9:.2f} GPa"
-    '58.61 GPa'
-    """
-    compliance = sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _bodies(first, second))
-    return _inverse(compliance)
-
-
-def reduced_shear_modulus(first: Solid, second: Solid | None = None) -> float:
-    """Return the reduced shear modulus G* of two solids (beside thesis, eq. 4.5).
-
-    1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2), so that k/k_t = E*/G* for a circle.
-
-    Parameters
-    ----------
-    first : Solid
-    second : Solid, optional
-        The other body; by default it is rigid.
-
-    Returns
-    -------
-    float
-        G* [Pa].
-
-    Raises
-    ------
-    ValueError
-        If a body is not a `Solid`, or both are rigid.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> steel = rc.Solid(210e9, 0.3)
-    >>> f"k/k_t = {rc.reduced_modulus(steel) / rc.reduced_shear_modulus(steel):.4f} = (1 - nu/2)/(1 - nu)"
-    'k/k_t = 1.2143 = (1 - nu/2)/(1 - nu)'
-    """
-    compliance = sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _bodies(first, second))
-    return _inverse(compliance)
-
-
-def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
+def as_modulus(modulus: float | Solid | tuple[Solid, ...]) -> float:
     """Return the reduced modulus E* [Pa] of a number, a solid, or a pair of solids.
 
     Raises
@@ -122,16 +63,15 @@ def as_modulus(modulus: float | Solid | tuple[Solid, Solid]) -> float:
     ValueError
         If the modulus is not positive and finite.
     """
-    if isinstance(modulus, Solid):
-        value = reduced_modulus(modulus)
-    elif isinstance(modulus, tuple):
-        if len(modulus) != 2:
+    solids = (modulus,) if isinstance(modulus, Solid) else modulus
+    if isinstance(solids, tuple):
+        if len(solids) not in (1, 2):
             raise InputError(
-                f"two solids have a reduced modulus, not {len(modulus)}",
+                f"two solids have a reduced modulus, not {len(solids)}",
                 "give one Solid, or a pair",
                 place="modulus",
             )
-        value = reduced_modulus(*modulus)
+        value = inverse_sum((1 - s.poisson_ratio**2) / s.young_modulus for s in map(require_solid, solids))
     else:
         value = scalar(modulus, "reduced modulus")
     if not (math.isfinite(value) and value > 0):
@@ -157,15 +97,31 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     )
 
 
-def _bodies(first: Solid, second: Solid | None) -> tuple[Solid, ...]:
-    bodies = (first,) if second is None else (first, second)
-    for body in bodies:
-        if not isinstance(body, Solid):
-            raise InputError(f"a Solid is wanted (young_modulus, poisson_ratio), not {body!r}")
-    return bodies
+def require_solid(body: Any) -> Solid:
+    """Return a body, which must be a Solid.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    if not isinstance(body, Solid):
+        raise InputError(
+            f"a Solid is wanted (young_modulus, poisson_ratio), not {shown(body)}",
+            "give such as rc.Solid(210e9, 0.3), or by name rc.reduced_modulus('steel', 'aluminium')",
+        )
+    return body
 
 
-def _inverse(compliance: float) -> float:
+def inverse_sum(compliances: Iterable[float]) -> float:
+    """Return the modulus [Pa] of bodies whose compliances [1/Pa] add up.
+
+    Raises
+    ------
+    ValueError
+        If none of them yields.
+    """
+    compliance = sum(compliances)
     if compliance == 0:
         raise InputError(
             "two rigid bodies have no reduced modulus", "give one of them a finite young_modulus"

@@ -1,15 +1,21 @@
-"""Metals by name: what handbooks say of them at room temperature, and which handbook."""
+"""Metals by name: what handbooks say of them at room temperature, and the moduli of a pair of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
+from typing import Any, TypeAlias
 
-from roughcontact.material import Solid
+from roughcontact.errors import placed
+from roughcontact.guesses import hinted
+from roughcontact.material import Solid, as_modulus, inverse_sum, require_solid
 from roughcontact.validation import require, require_numbers
 
-__all__ = ["MATERIALS", "Material", "handbook"]
+__all__ = [
+    *("MATERIALS", "Elastic", "Material", "handbook", "hardness_of"),
+    *("reduced_modulus", "reduced_shear_modulus"),
+]
 
 _VICKERS = 9.80665e6  # Pa: a Vickers number is a force over the faces of the indentation, in kgf/mm^2
 _ASM = "ASM Material Data Sheets (ASM International, MatWeb)"
@@ -19,6 +25,7 @@ _SAMSONOV = "Samsonov (ed.), Handbook of the Physicochemical Properties of the E
 _ALIASES = {"aluminum": "aluminium"}
 
 
+@hinted
 @dataclass(frozen=True, slots=True)
 class Material:
     """A metal of a handbook, at room temperature.
@@ -53,10 +60,20 @@ class Material:
     hardness: float
     conductivity: float
     resistivity: float
-    sources: Mapping[str, str]
+    sources: Mapping[str, str] = field(hash=False, repr=False)
 
     def __post_init__(self) -> None:
         require_numbers(self, hardness="Pa", conductivity="W/m/K", resistivity="ohm*m")
+        object.__setattr__(self, "sources", MappingProxyType(dict(self.sources)))
+
+    def __reduce__(self) -> tuple[type[Material], tuple[Any, ...]]:
+        """Return how copies and pickles make it again: a view of a mapping can be neither copied nor pickled."""
+        values = (getattr(self, each.name) for each in fields(self))
+        return Material, tuple(dict(value) if isinstance(value, Mapping) else value for value in values)
+
+
+Elastic: TypeAlias = Solid | Material | str
+"""A solid, a material of a handbook, or its name."""
 
 
 def _alloy(
@@ -64,9 +81,7 @@ def _alloy(
 ) -> Material:
     """Return an alloy, all from one data sheet."""
     sources = dict.fromkeys(("solid", "hardness", "conductivity", "resistivity"), f"{_ASM}: {grade}")
-    return Material(
-        name, grade, solid, vickers * _VICKERS, conductivity, resistivity, MappingProxyType(sources)
-    )
+    return Material(name, grade, solid, vickers * _VICKERS, conductivity, resistivity, sources)
 
 
 def _element(name: str, solid: Solid, hardness: float, conductivity: float, resistivity: float) -> Material:
@@ -78,7 +93,7 @@ def _element(name: str, solid: Solid, hardness: float, conductivity: float, resi
         "resistivity": f"{_CRC}: electrical resistivity of pure metals, 293 K",
     }
     grade = "pure, polycrystalline"
-    return Material(name, grade, solid, hardness, conductivity, resistivity, MappingProxyType(sources))
+    return Material(name, grade, solid, hardness, conductivity, resistivity, sources)
 
 
 # Young's modulus, Poisson's ratio; Vickers number (of an element: hardness in Pa); W/(m K); ohm m.
@@ -103,7 +118,7 @@ def handbook(name: str) -> Material:
     ----------
     name : str
         One of ``"steel"``, ``"stainless-steel"``, ``"aluminium"``, ``"titanium"``, ``"copper"``, ``"silver"``,
-        ``"gold"``, ``"nickel"``, ``"tungsten"``.
+        ``"gold"``, ``"nickel"``, ``"tungsten"``, in upper or lower case.
 
     Returns
     -------
@@ -124,14 +139,100 @@ def handbook(name: str) -> Material:
     Examples
     --------
     >>> import roughcontact as rc
-    >>> steel, aluminium = rc.handbook("steel"), rc.handbook("aluminium")
-    >>> f"{rc.reduced_modulus(steel.solid, aluminium.solid) / 1e9:.2f} GPa"
-    '57.47 GPa'
+    >>> aluminium = rc.handbook("aluminium")
+    >>> aluminium.grade, f"{aluminium.hardness / 1e9:.2f} GPa"
+    ('6061-T6', '1.05 GPa')
     """
-    key = _ALIASES.get(name, name)
+    key = str(name).casefold()
+    key = _ALIASES.get(key, key)
     require(
         key in MATERIALS,
         f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
         "for another give its numbers",
     )
     return MATERIALS[key]
+
+
+def reduced_modulus(first: Elastic, second: Elastic | None = None) -> float:
+    """Return the reduced modulus E* of two bodies (thesis, eq. 4.3).
+
+    1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+
+    Parameters
+    ----------
+    first : Solid, Material or str
+        A solid, or a material of the `handbook` or its name.
+    second : Solid, Material or str, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        E* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is none of these, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> f"{rc.reduced_modulus(rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)) / 1e9:.2f} GPa"
+    '58.61 GPa'
+    >>> f"{rc.reduced_modulus('steel', 'aluminium') / 1e9:.2f} GPa"
+    '57.47 GPa'
+    """
+    return as_modulus(_solids(first, second))
+
+
+def reduced_shear_modulus(first: Elastic, second: Elastic | None = None) -> float:
+    """Return the reduced shear modulus G* of two bodies (beside thesis, eq. 4.5).
+
+    1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2), so that k/k_t = E*/G* for a circle.
+
+    Parameters
+    ----------
+    first : Solid, Material or str
+        A solid, or a material of the `handbook` or its name.
+    second : Solid, Material or str, optional
+        The other body; by default it is rigid.
+
+    Returns
+    -------
+    float
+        G* [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a body is none of these, or both are rigid.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> steel = rc.Solid(210e9, 0.3)
+    >>> f"k/k_t = {rc.reduced_modulus(steel) / rc.reduced_shear_modulus(steel):.4f} = (1 - nu/2)/(1 - nu)"
+    'k/k_t = 1.2143 = (1 - nu/2)/(1 - nu)'
+    """
+    return inverse_sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _solids(first, second))
+
+
+def hardness_of(value: Any) -> Any:
+    """Return the hardness [Pa] of a material or of the material of that name; any other value as it is.
+
+    Raises
+    ------
+    ValueError
+        If there is no material of the name.
+    """
+    with placed("hardness"):
+        material = handbook(value) if isinstance(value, str) else value
+    return material.hardness if isinstance(material, Material) else value
+
+
+def _solids(first: Elastic, second: Elastic | None) -> tuple[Solid, ...]:
+    """Return the solids of one body, or of two."""
+    bodies = (first,) if second is None else (first, second)
+    materials = (handbook(body) if isinstance(body, str) else body for body in bodies)
+    return tuple(require_solid(each.solid if isinstance(each, Material) else each) for each in materials)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         state_dataset as state_dataset,
         state_record as state_record,
     )
+    from roughcontact.contact.compare import compare as compare
     from roughcontact.contact.curve_notes import curve_notes as curve_notes
     from roughcontact.contact.dataset import (
         curve_dataframe as curve_dataframe,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.loop_dataset import loop_dataset as loop_dataset, loop_record as loop_record
     from roughcontact.contact.notes import notes_on as notes_on
     from roughcontact.evaluation.interface_dataset import interface_dataset as interface_dataset
+    from roughcontact.files.save import csv_of as csv_of
     from roughcontact.files.surface_dataset import (
         surface_dataset as surface_dataset,
         surface_of as surface_of,
@@ -95,12 +97,14 @@ else:
             "detachment_state_dataset detachment_state_record"
         ),
         "adhesion.state_dataset": "state_dataset state_record",
+        "contact.compare": "compare",
         "contact.curve_notes": "curve_notes",
         "contact.dataset": ("curve_dataframe curve_dataset curve_record solution_dataset solution_record"),
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",
         "contact.notes": "notes_on",
         "evaluation.interface_dataset": "interface_dataset",
+        "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_loop plot_solution plot_state plot_surface",

@@ -11,7 +11,7 @@ import numpy as np
 
 from roughcontact.errors import about
 
-__all__ = ["PLAIN", "as_text", "in_si", "registry"]
+__all__ = ["PLAIN", "as_text", "in_si", "registry", "word_of"]
 
 # The types of almost all arguments, which carry no unit: they pay one look into this set.
 PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float64, np.int64, slice})

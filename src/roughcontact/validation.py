@@ -48,6 +48,11 @@ RngLike: TypeAlias = (
 """What `numpy.random.default_rng` takes."""
 
 LONGEST = 60  # text of a value in a message
+# What to give in place of a material, by the name of the parameter.
+OF_MATERIALS = {
+    "modulus": "give a number, or of materials rc.reduced_modulus('steel', 'aluminium')",
+    "hardness": "give a number, or of a material rc.handbook('steel').hardness",
+}
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
 SMALLEST, LARGEST = 1e-50, 1e50
 
@@ -64,7 +69,7 @@ BODIES = {
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
-    "Body": "a Surface, such as rc.Surface(heights, grid), or a RadialProfile",
+    "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
 }
 KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one
 
@@ -385,11 +390,6 @@ def _floats(value: Any, what: str, wanted: str) -> Array:
             raise TypeError(f"numbers of kind {given.dtype}")
         plain: Array = np.asarray(given, dtype=np.float64)[()]
     except (TypeError, ValueError, OverflowError) as error:
-        parts = value if isinstance(value, tuple) else (value,)
-        remedy = (
-            "of a material give the reduced modulus as a number: rc.reduced_modulus(...)"
-            if "modulus" in what and any(hasattr(part, "young_modulus") for part in parts)
-            else None
-        )
+        remedy = OF_MATERIALS.get(what.removeprefix("the ").removeprefix("reduced ").partition(" [")[0])
         raise about(what, f"must be {wanted} in SI units, not {shown(value)}", remedy) from error
     return plain

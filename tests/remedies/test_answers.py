@@ -237,8 +237,9 @@ FRICTION = [
     ),
     row(
         lambda: rc.reduced_shear_modulus(MODULUS),
-        "a Solid is wanted (young_modulus, poisson_ratio)",
+        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0: give such as rc.Solid(210e9, 0.3)",
         lambda: rc.reduced_shear_modulus(STEEL),
+        lambda: rc.reduced_shear_modulus(rc.Solid(210e9, 0.3)),
     ),
 ]
 
@@ -260,9 +261,9 @@ ANSWERS = [
         lambda: curve(forces=RISING).fit((1e-5, 1e-3)),
     ),
     row(
-        lambda: curve(forces=RISING).compare("gw"),
-        "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own",
-        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "gw")[0]),
+        lambda: curve(forces=RISING).compare("GW"),
+        "not 'GW': give rc.loading_laws(surface, modulus, 'GW')[0], or a LoadingLaw of your own",
+        lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "GW")[0]),
         lambda: curve(forces=RISING).compare(
             LoadingLaw("own", "notes", {"depth": lambda force: force / 1e5})
         ),

@@ -58,7 +58,7 @@ LOADS = [
     ),
     row(
         lambda: press(ROUGH.heights),
-        "surface must be a Surface, such as rc.Surface(heights, grid), or a RadialProfile",
+        "surface must be a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
         lambda: press(rc.Surface(ROUGH.heights, PLANE)),
         lambda: press(rc.RadialProfile(np.zeros(4), rc.RadialGrid.uniform(4, 1e-6))),
     ),
@@ -113,8 +113,26 @@ BODIES = [
     ),
     row(
         lambda: press(modulus=(1e9, 2e9)),
-        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0",
-        lambda: press(modulus=(rc.Solid(1e9, 0.3), rc.Solid(2e9, 0.3))),
+        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0: give such as rc.Solid(210e9, 0.3), or by "
+        "name rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=(rc.Solid(1e9, 0.3), rc.Solid(210e9, 0.3))),
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(modulus=("steel", "aluminium")),
+        "or by name rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(modulus=rc.handbook("steel")),
+        "give a number, or of materials rc.reduced_modulus('steel', 'aluminium')",
+        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
+    ),
+    row(
+        lambda: press(hardness="cheese"),
+        "there is no material named 'cheese'; there are steel",
+        lambda: press(hardness="steel"),
+        lambda: press(hardness=rc.handbook("gold")),
     ),
     row(lambda: rc.Solid(0, 0.3), "young_modulus must be positive [Pa], not 0", lambda: rc.Solid(1e9, 0.3)),
     row(

@@ -290,7 +290,11 @@ CURVES = [
         "read it with read_curve",
         lambda: rc.read_curve("curve.nc"),
     ),
-    row(lambda: rc.read("curve.nc"), "give a file with a map of heights", lambda: rc.read("rough.nc")),
+    row(
+        lambda: rc.read("curve.nc"),
+        "it holds a loading curve, and no heights; read it with rc.read_curve",
+        lambda: rc.read_curve("curve.nc"),
+    ),
 ]
 
 WRITTEN = [

@@ -38,8 +38,14 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Grid((4, 4), "1um"),
-        "positive, finite numbers [m], not ('1um', '1um')",
+        "positive, finite numbers [m], not ('1um', '1um'): give metres, such as 1e-6",
         lambda: rc.Grid((4, 4), 1e-6),
+    ),
+    row(
+        lambda: rc.Grid((4, 4)),
+        "give exactly one of spacing and size, not none",
+        lambda: rc.Grid((4, 4), spacing=1e-6),
+        lambda: rc.Grid((4, 4), size=4e-6),
     ),
     row(
         lambda: rc.Grid((4, 4), (1e-6, 1e-6, 1e-6)),
@@ -68,9 +74,10 @@ HEIGHTS = [
         lambda: rc.Surface(VALUES[:3], rc.Grid(VALUES[:3].shape, 1e-6)),
     ),
     row(
-        lambda: rc.Surface(VALUES, 1e-6),
-        "grid must be a Grid, such as Grid(heights.shape, 1e-6), not 1e-06",
+        lambda: rc.Surface(VALUES, None),
+        "grid must be a Grid, or the size of a cell [m] such as 1e-6, not None",
         lambda: rc.Surface(VALUES, rc.Grid(VALUES.shape, 1e-6)),
+        lambda: rc.Surface(VALUES, 1e-6),
     ),
     row(
         lambda: rc.Surface(np.full((16, 16), np.nan), PLANE),

@@ -207,6 +207,13 @@ MEASURED = [
         lambda: rc.surface_spectrum(rc.power_spectrum(ROUGH, direction="x"), method="abel"),
     ),
     row(
+        lambda: rc.spectrum_moments(rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5)),
+        "of a spectrum by formula take its moments(), or rc.grid_moments(grid, spectrum)",
+        lambda: rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5).moments(),
+        lambda: rc.grid_moments(PLANE, rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5)),
+        lambda: rc.spectrum_moments(rc.power_spectrum(ROUGH)),
+    ),
+    row(
         lambda: rc.height_histogram(ROUGH, bins=0),
         "bins must be a positive whole number",
         lambda: rc.height_histogram(ROUGH, bins=1),

@@ -14,9 +14,7 @@ copper = rc.handbook("copper")
 grid = rc.Grid((128, 128), 4e-6, periodic=True)
 rng = np.random.default_rng(1)
 surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rolloff=128e-6, short_cutoff=32e-6, rng=rng)
-curve = rc.loading_curve(
-    surface, rc.reduced_modulus(copper.solid, copper.solid), pressures=np.geomspace(1e6, 1e8, 7)
-)
+curve = rc.loading_curve(surface, rc.reduced_modulus(copper, copper), pressures=np.geomspace(1e6, 1e8, 7))
 resistance = rc.conductance(curve, resistivities=(1.7e-8, 1.7e-8))["electrical_resistance"]
 
 axes = plt.subplots()[1]

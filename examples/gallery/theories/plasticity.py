@@ -21,7 +21,7 @@ names = ["steel", "stainless-steel", "aluminium", "titanium", "copper", "tungste
 rows = []
 for name in names:
     metal = rc.handbook(name)
-    modulus = rc.reduced_modulus(metal.solid, rc.handbook("steel").solid)
+    modulus = rc.reduced_modulus(metal, "steel")
     found = plasticity.summit_index(summits.height, summits.mean_curvature, modulus, metal.hardness)
     by_moments = plasticity.asperity_index(moments, modulus, metal.hardness)
     rows.append(

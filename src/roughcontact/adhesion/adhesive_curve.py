@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from operator import index
 from typing import Literal
 
 import numpy as np
@@ -17,15 +18,17 @@ from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
 from roughcontact.adhesion.model_limits import HighestSummit, notes_on_loads, notes_on_model, notes_on_range
 from roughcontact.adhesion.quasi_static import Jump
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
 from roughcontact.labels.column import stored_in
+from roughcontact.labels.records import records
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, Mask
 
-__all__ = ["AdhesiveCurve", "approaches", "collect_states"]
+__all__ = ["AdhesiveCurve", "AdhesivePoint", "approaches", "collect_states"]
 
 _POINTS = (
     *("depth", "force", "contact_area", "energy", "residual"),
@@ -33,6 +36,59 @@ _POINTS = (
 )
 
 
+@dataclass(frozen=True, slots=True)
+class AdhesivePoint:
+    """One point of an adhesive curve: ``curve[i]``, and what a loop over the curve yields.
+
+    Attributes
+    ----------
+    branch : {"approach", "retreat"}
+        Whether what is prescribed brought the bodies together.
+    nominal_pressure : float
+        [Pa]
+    depth, force, contact_area, mean_gap : float
+        [m], [N], [m^2], [m]; tension is negative. As in `AdhesiveCurve`, on a line per unit length.
+    contact_fraction : float
+        Contact area over the nominal area.
+    stiffness, contact_stiffness : float
+        Slope of the force along the branch, and at fixed contact and attraction [N/m].
+    elastic_energy, adhesive_energy, energy : float
+        [J]; the last is their sum.
+    lowest_force : float
+        Lowest force since the body is drawn back [N].
+    residual : float
+        The certificate of the state.
+    status : Status
+        How the solve ended.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
+    >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    >>> loop = rc.adhesive_loop(ball, 1e8, rc.Adhesion(work=10e-3, range=4e-9), depth=10e-9)
+    >>> loop[0].branch, loop[-1].branch, sum(point.force < 0 for point in loop) > 10
+    ('approach', 'retreat', True)
+    """
+
+    branch: Literal["approach", "retreat"]
+    nominal_pressure: float
+    depth: float
+    force: float
+    contact_area: float
+    contact_fraction: float
+    stiffness: float
+    contact_stiffness: float
+    mean_gap: float
+    elastic_energy: float
+    adhesive_energy: float
+    energy: float
+    lowest_force: float
+    residual: float
+    status: Status
+
+
+@hinted
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AdhesiveCurve:
     """Points of a path of surfaces that stick, and its jumps; made by `adhesive_curve` and `adhesive_loop`.
@@ -124,6 +180,14 @@ class AdhesiveCurve:
     def __len__(self) -> int:
         return len(self.force)
 
+    def __getitem__(self, place: int) -> AdhesivePoint:
+        """Return one point as a record, counted from 0, from the end if negative."""
+        return tuple(self)[index(place)]
+
+    def __iter__(self) -> Iterator[AdhesivePoint]:
+        """Yield the points in the order of the path, each as a record."""
+        return records(AdhesivePoint, self)
+
     @property
     def branch(self) -> npt.NDArray[np.str_]:
         """Of each point ``"approach"`` or ``"retreat"``."""
@@ -207,6 +271,7 @@ class AdhesiveCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
+    to_csv = methods.csv_of
     to_dataset = methods.adhesive_curve_dataset
     to_record = methods.adhesive_curve_record
     plot = methods.jump_loop

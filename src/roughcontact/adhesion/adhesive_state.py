@@ -19,6 +19,7 @@ from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
 from roughcontact.solver.control import Status
@@ -68,6 +69,7 @@ class AdhesiveProblem:
     resolved: bool
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class AdhesiveState:
     """An equilibrium of a contact that sticks; the rest is computed when asked for, once.

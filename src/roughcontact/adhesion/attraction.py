@@ -11,6 +11,7 @@ import numpy as np
 from roughcontact.adhesion.dugdale_law import DugdaleLaw
 from roughcontact.adhesion.exponential_law import ExponentialLaw
 from roughcontact.errors import InputError, about
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require_numbers, shown
@@ -31,6 +32,7 @@ else:
     Law = Literal[tuple(LAWS)]  # the parameters of studies and commands are checked against it
 
 
+@hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class Adhesion:
     """Work of adhesion, and how the attraction falls with the gap.
@@ -78,6 +80,17 @@ class Adhesion:
         if self.law not in tuple(LAWS):  # it may be anything, what has no hash too
             names = ", ".join(map(repr, LAWS))
             raise about("the law", f"of adhesion must be one of {names}, not {shown(self.law)}")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both state the same attraction, on every cell."""
+        return isinstance(other, Adhesion) and self._parts() == other._parts()
+
+    def __hash__(self) -> int:
+        return hash(self._parts())
+
+    def _parts(self) -> tuple[object, ...]:
+        work = np.asarray(self.work)
+        return work.shape, work.tobytes(), self.range, self.law, self.allow_unresolved
 
     @property
     def strength(self) -> float:

@@ -15,6 +15,7 @@ from roughcontact.adhesion.detachment_path import force_unit_of, states_drawn_ba
 from roughcontact.adhesion.detachment_state import DetachmentState
 from roughcontact.adhesion.model_limits import notes_on_loads
 from roughcontact.contact.solution import Solution
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import stored_in
@@ -31,6 +32,7 @@ _POINTS = (
 )
 
 
+@hinted
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DetachmentCurve:
     """Points of stuck surfaces that are drawn back, and the cells that let go; made by `detachment_curve`.
@@ -156,6 +158,7 @@ class DetachmentCurve:
             f"force {self.force.min():.4g} to {self.force.max():.4g} {unit})"
         )
 
+    to_csv = methods.csv_of
     to_dataset = methods.detachment_curve_dataset
     to_record = methods.detachment_curve_record
     plot = methods.detachment_force

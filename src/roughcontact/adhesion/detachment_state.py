@@ -13,6 +13,7 @@ from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, no
 from roughcontact.cached import cached_property
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.variables import unit_of
@@ -26,6 +27,7 @@ __all__ = ["DetachmentState"]
 HELD = 0.8
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class DetachmentState:
     """Stuck surfaces at one depth or force, made by `detachment_path`; the rest is computed when asked for, once.

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.contact.curve import Curve
+from roughcontact.errors import InputError
+from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.labelled import plain_values
 from roughcontact.statistics.local_exponent import LocalExponent, exponent_within, local_exponents
-from roughcontact.validation import Array
+from roughcontact.statistics.power_law import ROUNDING
+from roughcontact.validation import Array, shown
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Comparison", "Law", "with_theories"]
+    from roughcontact.theory.law import Scope
+
+__all__ = ["Comparison", "Law", "compare", "with_theories"]
 
 
 class Law(Protocol):
@@ -196,6 +203,69 @@ class Comparison:
         return f"Comparison({self.name}: rms ln ratio {self.words()})"
 
 
+def compare(
+    curve: Curve, theory: Law, quantities: Sequence[str] | None = None, *, other_surface: bool = False
+) -> Comparison:
+    """Return what a theory predicts at the loads of a curve, beside what was computed.
+
+    Parameters
+    ----------
+    curve : Curve
+    theory : Law
+        For example ``rc.theory.persson.law(...)``, or one of `loading_laws`.
+    quantities : sequence of str, optional
+        Names of quantities of the curve; by default all that the theory predicts, but of a theory of spots that
+        flow no stiffness under a hardness, where that of the curve leaves out plastic cells.
+    other_surface : bool
+        Whether a law that was made for another contact will do.
+
+    Returns
+    -------
+    Comparison
+        Computed and predicted values at every load, and their ratio.
+
+    Raises
+    ------
+    ValueError
+        If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
+        is that of a line contact, or if the theory was made for another modulus, area or rms height.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
+    >>> curve = rc.loading_curve(ball, 1e9, forces=[2e-4, 1e-3, 5e-3])
+    >>> curve.compare(rc.theory.hertz.law(radius=1e-4, modulus=1e9)).ratio("depth").round(3)
+    array([1.042, 1.015, 1.006])
+    """
+    if not hasattr(theory, "quantities"):
+        name = theory if isinstance(theory, str) else "gw"
+        raise InputError(
+            f"a theory is wanted, made for the surface that was pressed, not {shown(theory)}",
+            f"give rc.loading_laws(surface, modulus, {name!r})[0], or a LoadingLaw of your own",
+            "theory",
+        )
+    if curve.geometry is Geometry.LINE:
+        raise InputError("a line contact has forces per unit length; the laws of theory are about forces")
+    scope = getattr(theory, "made_for", None)  # laws of the user's own need not say
+    if scope is not None and not other_surface:
+        _require_alike(curve, theory.name, scope)
+    names = list(theory.quantities if quantities is None else quantities)
+    if quantities is None:
+        hidden = curve.hardness < math.inf and getattr(theory, "plastic", False)
+        names = [name for name in names if hasattr(curve, name) and not (hidden and "stiffness" in name)]
+    if lacks := [name for name in names if not hasattr(curve, name)]:
+        raise InputError(f"a curve has no {lacks[0]!r}; {theory.name} gives {sorted(theory.quantities)}")
+    return Comparison(
+        theory.name,
+        theory.source,
+        curve.force,
+        curve.resolved,
+        {name: np.asarray(getattr(curve, name), dtype=np.float64) for name in names},
+        {name: theory.predict(name, curve.force) for name in names},
+    )
+
+
 def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:
     """Return the dataset of a curve with what theories say as further columns along ``load``.
 
@@ -210,3 +280,17 @@ def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]
             attributes["references"] = comparison.source
             columns[f"{key.replace('-', '_')}_{quantity}"] = (("load",), values, attributes)
     return dataset.assign(columns)
+
+
+def _require_alike(curve: Curve, name: str, scope: Scope) -> None:
+    """Refuse a law that was made for another contact than that of the curve."""
+    pairs = {
+        "reduced modulus": (scope.modulus, curve.modulus, "Pa"),
+        "nominal area": (scope.area, curve.nominal_area, "m^2"),
+        "rms height": (scope.rms, curve.rms, "m"),
+    }
+    for what, (theirs, ours, unit) in pairs.items():
+        if not math.isclose(theirs, ours, rel_tol=ROUNDING):
+            differ = f"its {what} is {theirs:.6g} {unit}, that of the curve {ours:.6g} {unit}"
+            remedy = "make it by loading_laws from the surface that was pressed, or compare with other_surface=True"
+            raise InputError(f"the law of {name} was made for another contact: {differ}", remedy)

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from operator import index
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
 from roughcontact.arrays import on_host
-from roughcontact.contact.compare import Comparison, Law
+from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution, mean_pressure
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.errors import InputError
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.records import records
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import DECADE, fitted_loads, is_resolved
@@ -28,9 +30,6 @@ from roughcontact.statistics.local_exponent import LocalExponent, local_exponent
 from roughcontact.statistics.power_law import FORCE_LIMIT, ROUNDING, PowerLaw, fit_power_law
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, number, numeric
-
-if TYPE_CHECKING:
-    from roughcontact.theory.law import Scope
 
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
@@ -40,6 +39,7 @@ REMEDY = (
 )
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class Curve:
     """Points of a loading curve, in the order of the loads.
@@ -84,6 +84,8 @@ class Curve:
     Curve(9 of 9 points resolved, force 0.01 to 0.1 N)
     >>> [round(each.exponent, 2) for each in curve.local_exponents("contact_area")]  # of Hertz 2/3
     [0.67, 0.68]
+    >>> curve[-1].status, [point.spots for point in curve if point.force < 0.02]
+    (<Status.CONVERGED: 'converged'>, [1, 1, 1])
     """
 
     force: Array
@@ -112,6 +114,14 @@ class Curve:
 
     def __len__(self) -> int:
         return len(self.force)
+
+    def __getitem__(self, place: int) -> CurvePoint:
+        """Return one load as a record, counted from 0, from the end if negative."""
+        return tuple(self)[index(place)]
+
+    def __iter__(self) -> Iterator[CurvePoint]:
+        """Yield the loads in their order, each as a record."""
+        return records(CurvePoint, self, self.flow)
 
     @property
     def resolved(self) -> npt.NDArray[np.bool_]:
@@ -264,79 +274,6 @@ class Curve:
         shown = self.resolved & np.isfinite(values) & (values > 0)
         return local_exponents(self.force[shown], values[shown])
 
-    def compare(
-        self, theory: Law, quantities: Sequence[str] | None = None, *, other_surface: bool = False
-    ) -> Comparison:
-        """Return what a theory predicts at the loads of this curve, beside what was computed.
-
-        Parameters
-        ----------
-        theory : Law
-            For example ``rc.theory.persson.law(...)``, or one of `loading_laws`.
-        quantities : sequence of str, optional
-            Names of quantities of this curve; by default all that the theory predicts, but of a theory of spots that
-            flow no stiffness under a hardness, where that of the curve leaves out plastic cells.
-        other_surface : bool
-            Whether a law that was made for another contact will do.
-
-        Returns
-        -------
-        Comparison
-            Computed and predicted values at every load, and their ratio.
-
-        Raises
-        ------
-        ValueError
-            If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
-            is that of a line contact, or if the theory was made for another modulus, area or rms height.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
-        >>> curve = rc.loading_curve(ball, 1e9, forces=[2e-4, 1e-3, 5e-3])
-        >>> curve.compare(rc.theory.hertz.law(radius=1e-4, modulus=1e9)).ratio("depth").round(3)
-        array([1.042, 1.015, 1.006])
-        """
-        if not hasattr(theory, "quantities"):
-            raise InputError(
-                "a theory is wanted, such as loading_laws(surface, modulus, 'gw')[0] or a LoadingLaw of your own, "
-                f"not {theory!r}",
-                place="theory",
-            )
-        if self.geometry is Geometry.LINE:
-            raise InputError("a line contact has forces per unit length; the laws of theory are about forces")
-        scope = getattr(theory, "made_for", None)  # laws of the user's own need not say
-        if scope is not None and not other_surface:
-            self._require_alike(theory.name, scope)
-        names = list(theory.quantities if quantities is None else quantities)
-        if quantities is None:
-            hidden = self.hardness < math.inf and getattr(theory, "plastic", False)
-            names = [name for name in names if hasattr(self, name) and not (hidden and "stiffness" in name)]
-        if lacks := [name for name in names if not hasattr(self, name)]:
-            raise InputError(f"a curve has no {lacks[0]!r}; {theory.name} gives {sorted(theory.quantities)}")
-        return Comparison(
-            theory.name,
-            theory.source,
-            self.force,
-            self.resolved,
-            {name: np.asarray(getattr(self, name), dtype=np.float64) for name in names},
-            {name: theory.predict(name, self.force) for name in names},
-        )
-
-    def _require_alike(self, name: str, scope: Scope) -> None:
-        """Refuse a law that was made for another contact than that of this curve."""
-        pairs = {
-            "reduced modulus": (scope.modulus, self.modulus, "Pa"),
-            "nominal area": (scope.area, self.nominal_area, "m^2"),
-            "rms height": (scope.rms, self.rms, "m"),
-        }
-        for what, (theirs, ours, unit) in pairs.items():
-            if not math.isclose(theirs, ours, rel_tol=ROUNDING):
-                differ = f"its {what} is {theirs:.6g} {unit}, that of the curve {ours:.6g} {unit}"
-                remedy = "make it by loading_laws from the surface that was pressed, or compare with other_surface=True"
-                raise InputError(f"the law of {name} was made for another contact: {differ}", remedy)
-
     @property
     def notes(self) -> tuple[str, ...]:
         """What makes the curve doubtful as a whole, in sentences."""
@@ -349,6 +286,8 @@ class Curve:
         doubt = "".join(f"; {note.partition(':')[0]}" for note in self.notes[:1])
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit}{doubt})"
 
+    compare = methods.compare
+    to_csv = methods.csv_of
     to_dataset = methods.curve_dataset
     to_record = methods.curve_record
     to_dataframe = methods.curve_dataframe

@@ -59,7 +59,7 @@ def loading_path(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
-    hardness : float, array or function, optional
+    hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
         is the elastic one of the flattened surface.
     flow : {"removed", "raised"}
@@ -123,7 +123,7 @@ def loading_curve(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
-    hardness : float, array or function, optional
+    hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
         is the elastic one of the flattened surface.
     flow : {"removed", "raised"}

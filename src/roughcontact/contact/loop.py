@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 
 import numpy as np
 
 from roughcontact import methods
 from roughcontact.contact.curve import Curve, collect
+from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow import Flow, FlowModel
 from roughcontact.contact.loading import solutions_along, suitable
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.material import Solid
@@ -22,11 +24,12 @@ from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require
 
-__all__ = ["BRANCHES", "Loop", "closed_loop", "loading_loop", "loads_of_loop"]
+__all__ = ["BRANCHES", "Loop", "closed_loop", "collect_loop", "loading_loop", "loads_of_loop"]
 
 BRANCHES = ("loading", "unloading", "reloading")
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class Loop:
     """A surface that is pressed for the first time, unloaded and pressed again.
@@ -74,6 +77,10 @@ class Loop:
         """The three branches by name, in their order."""
         return {name: getattr(self, name) for name in BRANCHES}
 
+    def __iter__(self) -> Iterator[CurvePoint]:
+        """Yield the loads of first loading, of unloading and of reloading, each as a record."""
+        return chain.from_iterable(self.curves.values())
+
     @property
     def converged(self) -> bool:
         """Whether every load of every branch met its tolerance."""
@@ -100,6 +107,7 @@ class Loop:
             f"{self.residual_depth:.4g} m, {self.flow!r})"
         )
 
+    to_csv = methods.csv_of
     to_dataset = methods.loop_dataset
     to_record = methods.loop_record
     plot = methods.plot_loop
@@ -127,7 +135,7 @@ def loading_loop(
         Heights [m], see `press`.
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
-    hardness : float, array or function
+    hardness : float, array, function, Material or str
         Pressure that no cell exceeds [Pa], see `press`: of the softer body.
     forces, pressures : array, shape (n,)
         At most one: strictly increasing forces [N] or nominal pressures [Pa], of which the last is the largest load.

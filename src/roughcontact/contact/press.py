@@ -28,7 +28,7 @@ from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, exactly_one, numeric, scalar
 
-__all__ = ["lock", "press", "solve", "solve_state"]
+__all__ = ["grid_of", "lock", "make_problem", "press", "solve", "solve_state"]
 
 
 _DEFAULT = ActiveSet()
@@ -67,9 +67,9 @@ def press(
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual; see docs/conventions.md.
-    hardness : float, array or function, optional
+    hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
-        or a function of the radii of the contact spots [m], such as `NixGao`.
+        a function of the radii of the contact spots [m], such as `NixGao`, or a material of the `handbook` or its name.
 
     Returns
     -------

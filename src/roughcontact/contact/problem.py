@@ -144,6 +144,10 @@ class ContactProblem:
                 "depth",
             )
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what copies and pickles take: without what `once` keeps, which cannot all be pickled."""
+        return vars(self) | {"_memo": {}}
+
     @property
     def grid(self) -> AnyGrid:
         """The grid of the operator."""

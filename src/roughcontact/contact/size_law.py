@@ -11,6 +11,7 @@ import numpy as np
 
 from roughcontact.arrays import as_like, is_array, is_numpy, namespace
 from roughcontact.errors import about
+from roughcontact.materials import Material, hardness_of
 from roughcontact.units import in_si
 from roughcontact.validation import Array, number, positive_scalar, require_numbers, scalar
 
@@ -19,7 +20,7 @@ __all__ = ["Hardness", "NixGao", "SizeLaw", "as_hardness"]
 SizeLaw: TypeAlias = Callable[[Array], Array]
 """Hardness [Pa] from the radii of contact spots [m]."""
 
-Hardness: TypeAlias = float | Array | SizeLaw
+Hardness: TypeAlias = float | Array | SizeLaw | Material | str
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +76,7 @@ class NixGao:
 
 def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | None]:
     """Return the hardness [Pa], a number or beside a field, and the law that gives it instead."""
+    hardness = hardness_of(hardness)
     if hardness is None:
         return math.inf, None
     if callable(hardness):

@@ -22,6 +22,7 @@ from roughcontact.contact.stiffness import (
     frozen_contact,
     full_contact_stiffness,
 )
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities, exact_of
 from roughcontact.labels.note import in_order
@@ -35,9 +36,10 @@ from roughcontact.surface.surface import Surface
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array
 
-__all__ = ["Solution"]
+__all__ = ["Solution", "mean_pressure"]
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
     """A pressure, its depth and its certificate; the rest is computed when asked for, once.

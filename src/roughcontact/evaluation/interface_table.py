@@ -11,6 +11,7 @@ from roughcontact import methods
 from roughcontact.contact.curve import REMEDY, Curve
 from roughcontact.errors import InputError
 from roughcontact.evaluation.conduction import conductance
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.validation import Array, numeric, positive
 
@@ -19,6 +20,7 @@ __all__ = ["InterfaceTable", "interface_table"]
 _CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_area")
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class InterfaceTable:
     """What an interface does per nominal area: the resolved loads of a curve, by rising pressure.
@@ -92,6 +94,7 @@ class InterfaceTable:
         ratio = float((self.pressure[1:] / self.pressure[:-1]).max())
         return math.expm1(math.log((ratio - 1) / math.log(ratio)) + math.log(ratio) / (ratio - 1) - 1)
 
+    to_csv = methods.csv_of
     to_dataset = methods.interface_dataset
 
 

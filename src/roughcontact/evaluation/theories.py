@@ -46,7 +46,8 @@ def loading_laws(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
-        Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others.
+        Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others, in upper
+        or lower case.
     **given : dict
         What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
         ``radius``, ``hardness``, see `roughcontact.theory.laws.LawInputs`.
@@ -79,7 +80,7 @@ def loading_laws(
     """
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
         raise InputError("these theories are about surfaces", "give a grid of two axes")
-    wanted = [names] if isinstance(names, str) else list(names)
+    wanted = [str(name).casefold() for name in ([names] if isinstance(names, str) else names)]
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
         raise InputError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from roughcontact.errors import InputError
 
-__all__ = ["ContentError", "ReadError", "SurfaceWarning"]
+__all__ = ["ContentError", "ReadError", "SurfaceWarning", "damage"]
 
 
 class ContentError(InputError):

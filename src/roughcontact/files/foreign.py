@@ -26,7 +26,7 @@ from roughcontact.files.matlab import require_whole
 from roughcontact.files.nanoscope import height_factors
 from roughcontact.validation import Array
 
-__all__ = ["NOT_FOREIGN", "list_foreign", "read_foreign", "unlogged", "without_reader"]
+__all__ = ["NOT_FOREIGN", "brief", "list_foreign", "read_foreign", "unlogged", "without_reader"]
 
 
 # Formats with a reader of ours: under another extension the library would fall back to a lenient reader.

@@ -31,6 +31,12 @@ from roughcontact.units import word_of
 __all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
+# Curves by a variable that only they have, the special ones first.
+_CURVES = {
+    "jump_lost": ("a curve of adhesive contact", "read_adhesive_curve"),
+    "detachment_lost": ("a curve of detachment", "read_detachment_curve"),
+    "interfacial_stiffness": ("a loading curve", "read_curve"),
+}
 # Coordinates and lengths are often computed in single precision.
 _EVEN = 1e-5
 
@@ -125,6 +131,8 @@ def height_map_of(
     """Return what variables, such as those of an open file, state about a map or a profile of heights."""
     variables = {name: _of_one(variable) for name, variable in variables.items()}
     found = _channels(variables)
+    if not found:
+        _refuse_curves(variables)
     if channel is None and "heights" in variables:
         channel = "heights"
     name = found[pick(found, channel)].name
@@ -244,6 +252,13 @@ def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
         )
         for name, v in maps.items()
     )
+
+
+def _refuse_curves(variables: Mapping[str, StoredVariable]) -> None:
+    """Refuse a file that `write` made of a curve, with the function that reads it."""
+    for name, (what, reader) in _CURVES.items():
+        if name in variables:
+            raise ContentError(f"it holds {what}, and no heights", f"read it with rc.{reader}")
 
 
 def _checked(variable: StoredVariable, name: str) -> npt.NDArray[np.float64]:

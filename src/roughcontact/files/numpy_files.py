@@ -25,6 +25,7 @@ from roughcontact.surface.surface import Surface
 from roughcontact.units import word_of
 
 __all__ = [
+    "NpyHeader",
     "list_npz",
     "npy_bytes",
     "npz_bytes",

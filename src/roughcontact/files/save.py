@@ -44,7 +44,7 @@ from roughcontact.surface.surface import Surface
 if TYPE_CHECKING:
     pass
 
-__all__ = ["require_surface_file", "write", "write_solution"]
+__all__ = ["csv_of", "require_surface_file", "write", "write_solution"]
 
 Field = npt.NDArray[np.generic]
 # Components by their place, name and sign in a picture whose rows are turned up.
@@ -133,6 +133,32 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
         return
     with written_aside(path) as aside:
         aside.write_bytes(encoded(here))
+
+
+def csv_of(curve: Curves | InterfaceTable, path: str | os.PathLike[str]) -> None:
+    """Write a curve, a loop or the table of an interface as comma-separated values: one line a load, in SI units.
+
+    Parameters
+    ----------
+    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve or InterfaceTable
+    path : str or path
+        File to write, whatever its extension; one that is there is replaced.
+
+    Raises
+    ------
+    WriteError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> rc.loading_curve(ball, 1e9, forces=[1e-3, 2e-3]).to_csv("curve.csv")
+    >>> with open("curve.csv") as file:
+    ...     file.readline().startswith("force")
+    True
+    """
+    write_csv(curve.to_dataset(), path)
 
 
 def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
@@ -233,7 +259,7 @@ def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
 
 
 def _interface_csv(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
-    write_csv(table.to_dataset(), path)
+    csv_of(table, path)
 
 
 def _interface_inp(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:

@@ -11,6 +11,7 @@ from roughcontact import methods
 from roughcontact.contact.solution import Solution
 from roughcontact.friction.slide import Loads, slide_path
 from roughcontact.friction.slip_solution import TangentialSolution
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import ShearOperator
 from roughcontact.material import Bodies
 from roughcontact.solver.control import Status
@@ -22,6 +23,7 @@ __all__ = ["SlipCurve", "slide_curve"]
 _COLUMNS = ("force", "displacement", "stick_area", "slip_area", "dissipated", "elastic_energy", "residual")
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class SlipCurve:
     """Points of a tangential loading path, in the order of time.
@@ -80,6 +82,7 @@ class SlipCurve:
             f"{self.capacity:.4g} N, {self.dissipated.sum():.4g} J dissipated)"
         )
 
+    to_csv = methods.csv_of
     to_dataset = methods.slip_curve_dataset
     to_record = methods.slip_curve_record
 

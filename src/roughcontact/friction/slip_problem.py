@@ -15,7 +15,8 @@ from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.shear.shear_operator import ShearOperator, shear_half_space
-from roughcontact.material import Bodies, pair_of, reduced_modulus
+from roughcontact.material import Bodies, pair_of
+from roughcontact.materials import reduced_modulus
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import LARGEST, Array, exactly_one, number, positive_scalar, require
 

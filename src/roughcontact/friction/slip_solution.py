@@ -11,6 +11,7 @@ from roughcontact.friction.contact_cells import ContactCells
 from roughcontact.friction.coulomb import at_limit
 from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
 from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
+from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
@@ -23,6 +24,7 @@ __all__ = ["TangentialSolution"]
 UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
 
 
+@hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class TangentialSolution:
     """A traction, the displacement of the bodies, and a certificate; the rest is computed when asked for.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
     from roughcontact.adhesion.detachment_state import DetachmentState
 
-__all__ = ["DETACHMENT_COLUMNS", "detachment_facts", "detachment_force", "detachment_state_facts"]
+__all__ = ["DETACHMENT_COLUMNS", "detachment_facts", "detachment_force", "detachment_state_facts", "line_of"]
 
 DETACHMENT_COLUMNS = names_of(shown_in("path", DETACHMENT_CURVE[("load",)]))
 _COLOUR = "#d55e00"

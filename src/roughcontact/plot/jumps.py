@@ -14,7 +14,7 @@ from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 
-__all__ = ["jump_area", "jump_figure", "jump_loop"]
+__all__ = ["jump_area", "jump_figure", "jump_loop", "pieces_of"]
 
 _STYLES: dict[bool, Any] = {
     True: {"color": "#0072b2", "marker": "o", "label": "approach"},

@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-__all__ = ["AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad", "RisingLoads", "kinds_of"]
+__all__ = [
+    *("AdhesiveLoad", "AdhesiveLoads", "FallingLoads", "OneLoad"),
+    *("RisingLoads", "kinds_of", "numbers", "one_load"),
+]
 
 
 def kinds_of(profile: str | None) -> dict[str, Kind]:

@@ -28,7 +28,7 @@ from roughcontact.solver.optimality import ROUNDING_FLOOR, Iterate, Optimality
 from roughcontact.solver.refinement import defect_correction
 from roughcontact.validation import Array, Mask
 
-__all__ = ["SLIGHT", "resolve_contact", "weakly_active"]
+__all__ = ["SLIGHT", "added_stiffness", "resolve_contact", "weakly_active"]
 
 
 FINEST = 1.01e-14  # tolerance of the last digits: 45 units in the last place, reached by all operators here

@@ -56,6 +56,15 @@ class Loads:
         require(np.isfinite(values), f"the {self.kind}s must be finite", value=values)
         object.__setattr__(self, "values", values)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same loads in the same order."""
+        return (
+            isinstance(other, Loads) and self.kind == other.kind and np.array_equal(self.values, other.values)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.kind, self.values.tobytes()))
+
     @classmethod
     def of(cls, **given: Any) -> Loads:
         """Return the loads of the one argument that is given: forces, depths, pressures or mean_gaps, or one of them.

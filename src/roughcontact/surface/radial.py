@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import RadialGrid
+from roughcontact.guesses import hinted
 from roughcontact.surface.height_range import is_elsewhere, own_heights
 from roughcontact.units import in_si
 from roughcontact.validation import Array
@@ -17,6 +18,7 @@ from roughcontact.validation import Array
 __all__ = ["RadialProfile"]
 
 
+@hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class RadialProfile:
     """Heights of a body of revolution, positive toward the other body.

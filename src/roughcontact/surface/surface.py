@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from textwrap import shorten
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
-from roughcontact.arrays import is_numpy, namespace
-from roughcontact.errors import InputError
-from roughcontact.grid import Grid
+from roughcontact.arrays import is_numpy, namespace, on_host
+from roughcontact.errors import InputError, placed
+from roughcontact.grid import Grid, RadialGrid
+from roughcontact.guesses import hinted
 from roughcontact.late import static
 from roughcontact.surface.height_range import own_heights
 from roughcontact.units import in_si
@@ -20,7 +23,10 @@ from roughcontact.validation import Array, require, shown
 
 __all__ = ["Surface"]
 
+ORIGIN = 80  # characters of the provenance in a line
 
+
+@hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class Surface:
     """A topography: heights above a mean plane, positive toward the other body.
@@ -31,8 +37,9 @@ class Surface:
         Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured. Arrays of other
         libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there in double precision. Analyses copy them
         into NumPy's memory; prepare a surface there, before its heights go to the device.
-    grid : Grid
-        Where the cells are and whether the surface repeats itself.
+    grid : Grid, float or tuple of float
+        Where the cells are and whether the surface repeats itself. The size of a cell [m], one number or ``(dy, dx)``,
+        stands for ``Grid(heights.shape, spacing)``, the grid of a surface that does not repeat itself.
     provenance : tuple of str
         Where the heights come from and what was done to them, oldest first.
 
@@ -46,10 +53,9 @@ class Surface:
     --------
     >>> import numpy as np
     >>> import roughcontact as rc
-    >>> grid = rc.Grid(shape=(2, 3), spacing=1e-6)
-    >>> surface = rc.Surface(np.array([[0.0, 1e-9, np.nan], [2e-9, 3e-9, 4e-9]]), grid)
-    >>> surface.missing, f"{surface.rms:.3g} m"
-    (1, '1.41e-09 m')
+    >>> surface = rc.Surface(np.array([[0.0, 1e-9, np.nan], [2e-9, 3e-9, 4e-9]]), 1e-6)
+    >>> surface.shape, surface.missing, f"{surface.rms:.3g} m"
+    ((2, 3), 1, '1.41e-09 m')
     >>> surface.levelled("mean").provenance
     ('mean height removed',)
     """
@@ -61,15 +67,29 @@ class Surface:
     # NumPy's numbers leave a product with a surface to the surface.
     __array_ufunc__: ClassVar[None] = None
 
-    def __post_init__(self) -> None:
-        wanted = f"grid must be a Grid, such as Grid(heights.shape, 1e-6), not {shown(self.grid)}"
-        require(isinstance(self.grid, Grid), wanted, place="grid")
-        object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
-        object.__setattr__(self, "provenance", tuple(self.provenance))
+    def __init__(
+        self, heights: Array, grid: Grid | float | Sequence[float], provenance: Sequence[str] = ()
+    ) -> None:
+        if not isinstance(grid, Grid):
+            wanted = f"grid must be a Grid, or the size of a cell [m] such as 1e-6, not {shown(grid)}"
+            require(not isinstance(grid, RadialGrid | None), wanted, place="grid")
+            shape = np.shape(heights)
+            found = f"heights must be an array of one or two axes [m], not {shown(heights)}"
+            require(len(shape) in (1, 2), found, place="heights")
+            with placed("grid"):
+                grid = Grid(shape, in_si(grid, "m", "grid"))
+        object.__setattr__(self, "grid", grid)
+        object.__setattr__(self, "heights", own_heights(in_si(heights, "m", "heights"), grid.shape))
+        object.__setattr__(self, "provenance", tuple(provenance))
 
     def __repr__(self) -> str:
-        """Say where the heights lie and come from, not the heights."""
-        return f"Surface({self.grid}, {'; '.join(self.provenance) or 'heights as given'})"
+        """Say in a line where the heights lie and come from, not the heights."""
+        origin = shorten("; ".join(self.provenance) or "heights as given", ORIGIN, placeholder=" ...")
+        return f"Surface({self.grid}, {origin})"
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        """Return a copy of the heights [m], as `numpy.asarray` asks for; with ``copy=False`` those of the surface."""
+        return np.array(on_host(self.heights), dtype, copy=True if copy is None else copy)
 
     def __add__(self, other: Surface) -> Surface:
         """Return the sum of the heights of two surfaces on one grid; missing where either is missing."""
@@ -140,6 +160,11 @@ class Surface:
         ('paraboloid, radius 0.0001 m', 'valleys filled to 1 um')
         """
         return replace(self, heights=heights, grid=grid or self.grid, provenance=(*self.provenance, line))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of cells along each axis, that of the grid."""
+        return self.grid.shape
 
     @property
     def measured(self) -> npt.NDArray[np.bool_]:

@@ -29,6 +29,7 @@ if TYPE_CHECKING or _LATE is None:
         conductance as conductance,
         holm as holm,
         jaeger as jaeger,
+        joint as joint,
         mindlin as mindlin,
         thermal as thermal,
     )

@@ -100,7 +100,7 @@ def load_range(
         Number of forces.
     operator : Operator, optional
         Another body than the half-space on the surface's grid.
-    hardness : float, array or function, optional
+    hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa].
 
     Returns

@@ -36,6 +36,7 @@ __all__ = [
     "SPOT_CELLS",
     "STEPS_PER_DECADE",
     "LoadSearch",
+    "SearchedLoad",
     "SurfaceKind",
     "find_range",
     "pilot_of",

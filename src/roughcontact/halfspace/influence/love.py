@@ -12,7 +12,7 @@ from numpy.polynomial import Polynomial
 
 from roughcontact.validation import Array
 
-__all__ = ["love", "love_table", "strip", "wave_compliance"]
+__all__ = ["love", "love_table", "over_cell", "strip", "table_of_cells", "wave_compliance"]
 
 
 # Measured against 60-digit arithmetic (tests/halfspace/influence/test_love.py): beyond FAR longer sides the

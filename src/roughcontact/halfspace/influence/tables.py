@@ -14,7 +14,10 @@ from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love, love_table, strip, wave_compliance
 from roughcontact.validation import Array
 
-__all__ = ["Influence", "Love", "Periodic", "Strip", "Tables", "table_of_waves"]
+__all__ = [
+    *("Influence", "Love", "Periodic", "Strip", "Tables"),
+    *("blocks", "definite", "definite_columns", "spans", "table_of_waves", "wavenumbers"),
+]
 
 # Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
 SMALL_TABLE = 64

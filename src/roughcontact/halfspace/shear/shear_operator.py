@@ -17,7 +17,8 @@ from roughcontact.halfspace.influence.shear_influence import (
 )
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
-from roughcontact.material import Bodies, Solid, pair_of, reduced_modulus
+from roughcontact.material import Bodies, Solid, pair_of
+from roughcontact.materials import reduced_modulus
 from roughcontact.validation import Array
 
 __all__ = ["ShearOperator", "dense_shear", "dundurs_parameter", "shear_compliance", "shear_half_space"]

@@ -11,7 +11,7 @@ from scipy.special import gammaln
 
 from roughcontact.errors import InputError
 from roughcontact.surface.analysis.hurst import fit_spectrum
-from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.power import PowerSpectrum, require_measured
 from roughcontact.validation import Array, numeric, require
 
 __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
@@ -81,6 +81,7 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     >>> f"{profile.density[0] / q[0] ** -3:.4f} = {rc.cut_factor(1.0):.4f}"
     '1.5708 = 1.5708'
     """
+    require_measured(spectrum)
     require(spectrum.kind == "C2D", "the spectrum is that of profiles already: C1D", place="spectrum")
     ln_q, ln_c = _with_power(spectrum)
     q = np.exp(ln_q)

@@ -12,7 +12,7 @@ from scipy.special import chdtri
 
 from roughcontact.errors import InputError, about
 from roughcontact.surface.analysis.limits import Limit, clear_bins, find_limits, sharpened, step_at
-from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.power import PowerSpectrum, require_measured
 from roughcontact.surface.analysis.preprocess import SpectralWindow
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.analysis.whittle import likeliest, slope_error, smearing
@@ -211,6 +211,7 @@ def fit_spectrum(
     """
     if limit not in ("auto", "none", "rolloff", "long_cutoff"):
         raise about("limit", f"must be 'auto', 'none', 'rolloff' or 'long_cutoff', not {limit!r}")
+    require_measured(spectrum)
     band = spectrum.within(q_min, q_max)
     if band.wavenumber.size < 4 or not band.density.any():
         raise InputError(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from roughcontact.errors import InputError, about
-from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.power import PowerSpectrum, require_measured
 from roughcontact.validation import numeric, require
 
 __all__ = ["merge_spectra", "spectra_ratio"]
@@ -120,6 +120,8 @@ def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, floa
 def _of_one_kind(spectra: Sequence[PowerSpectrum]) -> list[PowerSpectrum]:
     """Return the reliable part of each spectrum."""
     require(len(spectra) > 0, "there is no spectrum to merge")
+    for each in spectra:
+        require_measured(each)
     kinds = {spectrum.kind for spectrum in spectra}
     if len(kinds) > 1:
         raise about(

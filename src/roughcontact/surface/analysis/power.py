@@ -9,10 +9,10 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from roughcontact.errors import InputError
-from roughcontact.validation import Array, number, numeric, require, require_numbers
+from roughcontact.errors import InputError, about
+from roughcontact.validation import Array, number, numeric, require, require_numbers, shown
 
-__all__ = ["PowerSpectrum"]
+__all__ = ["PowerSpectrum", "require_measured"]
 
 _ARRAYS = ("wavenumber", "density", "count", "freedom")
 
@@ -204,4 +204,20 @@ class PowerSpectrum:
             density=np.bincount(group, self.freedom * self.density) / freedom,
             count=np.asarray(np.bincount(group, self.count), dtype=np.float64),
             freedom=freedom,
+        )
+
+
+def require_measured(spectrum: PowerSpectrum) -> None:
+    """Refuse what is no measured spectrum, such as one by a formula.
+
+    Raises
+    ------
+    ValueError
+        With what to call instead.
+    """
+    if not isinstance(spectrum, PowerSpectrum):
+        raise about(
+            "spectrum",
+            f"must be a PowerSpectrum, as rc.power_spectrum returns it, not {shown(spectrum)}",
+            "of a spectrum by formula take its moments(), or rc.grid_moments(grid, spectrum)",
         )

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from roughcontact.surface.analysis.power import PowerSpectrum
+from roughcontact.surface.analysis.power import PowerSpectrum, require_measured
 from roughcontact.surface.moments import Moments
 from roughcontact.validation import numeric, require
 
@@ -47,6 +47,7 @@ def spectrum_moments(
     >>> f"m0 = {moments.m0:.4f} = 2 ln(10)"
     'm0 = 4.6052 = 2 ln(10)'
     """
+    require_measured(spectrum)
     band = spectrum.within(q_min, q_max)
     keep = band.density > 0
     require(keep.sum() >= 2, f"moments need two bins with power in the band, not {int(keep.sum())}")
