@@ -79,11 +79,12 @@ def _instead(context: Any, option: str) -> str:
     return f"choose one that '{context.command_path} --help-all' lists"
 
 
+_MOST = 3  # commands that are named in place of one
 _VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
 
 
 def _elsewhere(context: Any, option: str) -> list[str]:
-    """Return which commands of the same name in other groups take an option, else which of the same nested group do."""
+    """Return which commands take an option: those of the same name, else those of the same nested group, else others."""
     root = context.find_root()
     if isinstance(context.command, TyperGroup):
         return []
@@ -105,7 +106,7 @@ def _elsewhere(context: Any, option: str) -> list[str]:
     ]
     if not found and context.parent is not root:
         found = taking(context.parent.command_path, context.parent.command.commands)
-    return found
+    return found or [word for path, group in groups.items() for word in taking(path, group.commands)][:_MOST]
 
 
 def _as_in_example(context: Any) -> str:
