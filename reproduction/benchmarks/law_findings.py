@@ -1,4 +1,4 @@
-"""What the ensembles of the law say, in sentences that hold whatever the numbers are; see `law.py`."""
+"""The results of the ensembles of the law, in sentences that hold for any numbers; see `law.py`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SIDE, UP = 2, 3  # standard errors within which a difference is none, and beyond
 
 
 def findings(folder: Path = FOLDER) -> list[str]:
-    """Return what E1 and E2 say."""
+    """Return the results of E1 and E2."""
     return [*_exponents(folder), *_grids(folder), *_averages(folder)]
 
 
@@ -53,8 +53,8 @@ def _exponents(folder: Path) -> Iterator[str]:
     alpha = found["alpha_mean"]
     off = alpha * (hurst + 1) - 1
     yield (
-        f"In the window of the thesis (above {CELLS} cells of 512², up to {HIGHEST:g} E\\* h L) the exponent of "
-        f"{samples} rough squares is off 1/(H + 1) by "
+        f"Exponent: in the window of the thesis (more than {CELLS} cells of 512², forces up to {HIGHEST:g} E* h L) the "
+        f"exponent of {samples} rough squares differs from 1/(H + 1) by "
         + ", ".join(f"{at(off, samples, h, True)} at H = {h:g}" for h in (0.25, 0.7, 1.0, 1.3, 1.6, 1.9))
         + "."
     )
@@ -63,13 +63,19 @@ def _exponents(folder: Path) -> Iterator[str]:
     low, high = (law(force, mean, between(force, *decade))[0] * (hurst + 1) - 1 for decade in DECADES[1:])
     above = (1.3, 1.6, 1.9)
     yield (
-        f"Above H = 1.2 that depends on the window: over forces from {DECADES[1][0]:g} to {DECADES[1][1]:g} it is "
+        "Window: above H = 1.2 this difference depends on the range of forces. From "
+        f"{DECADES[1][0]:g} to {DECADES[1][1]:g} it is "
         + ", ".join(f"{at(low, samples, h, True)} at H = {h:g}" for h in above)
-        + f", and {', '.join(at(high, samples, h, True) for h in above)} over the decade above."
+        + f". From {DECADES[2][0]:g} to {DECADES[2][1]:g} it is "
+        + ", ".join(at(high, samples, h, True) for h in above)
+        + "."
     )
     smooth = alpha.sel(hurst=2.95)
     pair = float(value(smooth)), float(error(smooth, samples))
-    yield f"At H = 2.95 it is {told(*pair)}, {word(pair[0] - 1 / 3, pair[1], 'the 1/3 of one smooth crest')}."
+    yield (
+        f"Smooth surfaces: at H = 2.95 the exponent is {told(*pair)}, "
+        f"{word(pair[0] - 1 / 3, pair[1], 'the 1/3 of one smooth crest')}."
+    )
 
 
 def _grids(folder: Path) -> Iterator[str]:
@@ -82,15 +88,15 @@ def _grids(folder: Path) -> Iterator[str]:
     load = load_at(force, HIGHEST)
     ratio = means[512].isel(load=load) / means[finest].isel(load=load) - 1
     yield (
-        f"What cells do: on 512² the stiffness of the same {samples} surfaces at {HIGHEST:g} E\\* h L, all waves that "
-        f"each grid holds, is off that on {finest}² by "
+        f"Grid: at {HIGHEST:g} E* h L the stiffness of {samples} surfaces on 512² differs from that of the same "
+        f"surfaces on {finest}², each with all waves of its grid, by "
         + ", ".join(f"{at(ratio, samples, h, True)} at H = {h:g}" for h in (0.25, 0.4, 0.7, 1.3, 1.9))
         + "."
     )
     twenty = ", ".join(f"{line[4]} at H = {line[0]}" for line in rule(every)[1] if line[1] == "512²")
     yield (
-        f"The rule of twenty cells: there, on 512², the stiffness is off that of the same surfaces on {finest}² by "
-        f"{twenty}."
+        "Rule of twenty cells: on 512², at the force at which the mean stiffness is that of 20 cells, the stiffness "
+        f"differs from that of the same surfaces on {finest}² by {twenty}."
     )
 
 
@@ -108,7 +114,8 @@ def _averages(folder: Path) -> Iterator[str]:
         for name, table in (("zeta", ends), ("k", levels))
     }
     yield (
-        f"For H from 0.25 to 1.75 geometric means move zeta by {spans['zeta']['geometric']} and means of fits by "
-        f"{spans['zeta']['fits']}, but the stiffness at {MIDDLE:g} E\\* h L by {spans['k']['geometric']} and "
-        f"{spans['k']['fits']}: zeta is read off at a force far outside of the window."
+        f"Averages: for H from 0.25 to 1.75, geometric means change zeta by {spans['zeta']['geometric']} and means "
+        f"of fits by {spans['zeta']['fits']}. They change the stiffness at {MIDDLE:g} E* h L by only "
+        f"{spans['k']['geometric']} and {spans['k']['fits']}, because zeta is the value at F/(E* h L) = 1, far "
+        "outside the window."
     )
