@@ -21,7 +21,7 @@ from pathlib import Path
 from law_check import check
 from law_counts import counts, runs
 from law_ensembles import FOLDER, ROOT, STUDIES, collect
-from law_findings import findings
+from law_findings import findings, result_tables
 from law_formula import formula
 from law_others import e3, e4, e5, e6, e7
 from law_pictures import pictures
@@ -35,7 +35,7 @@ from roughcontact.study.task import generator
 DOCS = ROOT / "docs"
 PAGES = tuple(DOCS / f"{name}.md" for name in ("law", "law-ensembles", "law-grids"))
 DATA = DOCS / "data" / "law"
-PARTS = (formula, e1, e2, e3, e4, e5, e6, e7)
+PARTS = (result_tables, formula, e1, e2, e3, e4, e5, e6, e7)
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 

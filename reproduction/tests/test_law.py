@@ -86,8 +86,9 @@ def test_the_pages_show_the_ensembles_that_are_there(script):
             data = (script.DATA / f"{name}.csv").read_text(encoding="utf-8")
             assert data == script.comma_separated(one)
             assert f":file: data/law/{name}.csv\n" in text
-    runs = script.markdown(script.runs())
-    assert f"<!-- table runs -->\n{runs}\n<!-- end -->" in text
+    for name, one in ({"runs": script.runs()} | script.result_tables()).items():
+        table = script.markdown(one).replace("*", r"\*")
+        assert f"<!-- table {name} -->\n{table}\n<!-- end -->" in text
 
 
 def test_every_data_file_of_the_law_is_in_a_page_and_every_table_is_written(script):
