@@ -51,7 +51,9 @@ RULES = (
         "is missing, invalid, NaN, not a ...",
     ),
     ("no number", r"\bno number\b", "NaN, missing, not a number"),
-    ("what there is", r"\bwhat there (is|are|was|were)\b", "name the thing"),
+    ("what there is", r"\bwhat (there (is|are|was|were)\b|is (not|so)\b(?![.,;:]))", "name the thing"),
+    ("is to be", r"\b(is|are|was|were)( not)? to be\b", "can, must, will; say who does it"),
+    ("is meant", r"\b(is|are) meant\b(?! (to|for|as)\b)", "which is computed, used, read"),
     ("all of it", r"\ball of it\b", "name the thing"),
     (
         "of its own",

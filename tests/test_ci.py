@@ -153,6 +153,8 @@ def rules(prose, name, text):
         ("none", "if the spectrum is none", "NaN where there is none, or if x is None"),
         ("no number", "it holds no number", "it is not a number"),
         ("what there is", "the end of what there is", "what is there"),
+        ("is to be", "where a limit is to be found", "where we look for a limit"),
+        ("is meant", "which of them is meant", "which of them is meant to be used"),
         ("all of it", "keep all of it", "all of its cells"),
         ("of its own", "in a process of its own", "a curve of your own file"),
         ("lets expect", "as its slope lets expect", "as expected from its slope"),
