@@ -8,8 +8,8 @@
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
 #   make mpi                the tests on several processes, if mpi4py and an MPI can be had
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
-#   make check              in two minutes: style, types, and the tests of the whole house and of what was changed
-#   make lint               style, and types on Linux, macOS and Windows
+#   make check              in two minutes: style, prose, types, and the tests of the whole house and of what was changed
+#   make lint               style, prose, and types on Linux, macOS and Windows
 #   make docs               build the site of the documentation in build/docs
 #   make bench              compare with other programs, where they can be installed
 #   make clean              remove what the above have made
@@ -33,7 +33,7 @@ export PIP_RETRIES ?= 2
 export PIP_DEFAULT_TIMEOUT ?= 15
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
 TORCH ?= torch==2.13.0+cpu
-STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check .
+STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python .ci/prose.py
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 

@@ -3,6 +3,7 @@
 python tests/test_links.py    lists the links to elsewhere, which no test follows
 """
 
+import csv
 import re
 from pathlib import Path
 
@@ -47,6 +48,18 @@ def missing(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page):
     assert missing(page) == []
+
+
+def test_every_data_file_is_a_table_of_a_page():
+    shown = set()
+    for page in PAGES:
+        names = re.findall(r"^:file: (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+        shown |= {(page.parent / name).resolve() for name in names}
+    assert shown == set((HOME / "docs" / "data").resolve().rglob("*.csv"))
+    for path in shown:
+        head, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
+        assert rows, path.name
+        assert {len(row) for row in rows} == {len(head)}, path.name
 
 
 def test_a_link_that_leads_nowhere_is_seen(tmp_path):

@@ -29,11 +29,11 @@ from law_tables import (
     HIGHEST,
     LIMITS,
     MIDDLE,
+    Table,
     between,
     curves,
     e1_laws,
     load_at,
-    markdown,
     nested,
     on_grids,
 )
@@ -139,7 +139,7 @@ DECIDING = {
 }
 
 
-def runs(folder: Path = FOLDER) -> str:
+def runs(folder: Path = FOLDER) -> Table:
     """Return a table of the ensembles: what they are, how far they are, what error is left, and what is to come."""
     rows = []
     for path in sorted(STUDIES.glob("*.toml")):
@@ -151,7 +151,7 @@ def runs(folder: Path = FOLDER) -> str:
         name = f"[`{path.stem}`](../examples/law/{path.name})"
         rows.append([name, words, str(asked), *_far(path.stem, found, asked, folder)])
     head = ["study", "what", "samples wanted", "done", "hours", "hours to come"]
-    return markdown(([*head, "largest standard error, of", "now", "with all"], rows))
+    return [*head, "largest standard error, of", "now", "with all"], rows
 
 
 def _far(name: str, found: xarray.Dataset | None, asked: int, folder: Path) -> list[str]:
@@ -168,11 +168,11 @@ def _far(name: str, found: xarray.Dataset | None, asked: int, folder: Path) -> l
     return [*line, what, f"{largest:{form}}", f"{largest * (samples / max(asked, samples)) ** 0.5:{form}}"]
 
 
-def counts(folder: Path = FOLDER) -> str:
+def counts(folder: Path = FOLDER) -> Table | None:
     """Return a table of how single surfaces of E1 scatter, and how many of them the errors take that are wanted."""
     ensemble = read("e1-surfaces", folder)
     if ensemble is None:
-        return "Not computed yet."
+        return None
     laws = e1_laws(ensemble)
     samples = laws.attrs["samples"]
     scatter = [error(laws[f"{name}_mean"], samples) * samples**0.5 for name in WANTED]
@@ -185,4 +185,4 @@ def counts(folder: Path = FOLDER) -> str:
         for h, *pair in zip(laws["hurst"], *(each.to_numpy() for each in scatter), strict=True)
     ]
     names = [f"surfaces for {name} to {wanted:g}" for name, wanted in WANTED.items()]
-    return markdown((["H", *(f"scatter of {name}" for name in WANTED), *names], rows))
+    return ["H", *(f"scatter of {name}" for name in WANTED), *names], rows

@@ -1,4 +1,4 @@
-"""What the ensembles of the law say, in sentences that hold whatever the numbers are; see `law.py`."""
+"""The results of the ensembles of the law, in sentences that hold for any numbers; see `law.py`."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from law_ensembles import CELLS, FOLDER, Values, error, law, read, resampled, value
+from law_ensembles import FOLDER, Values, error, law, read, resampled, value
 from law_tables import (
     DECADES,
     HIGHEST,
     LIMITS,
     MIDDLE,
+    Table,
     between,
     curves,
     e1_laws,
@@ -24,11 +25,17 @@ from law_tables import (
 )
 
 SIDE, UP = 2, 3  # standard errors within which a difference is none, and beyond which it is one
+LOW = 1.2  # H up to which single decades of force are too short
 
 
 def findings(folder: Path = FOLDER) -> list[str]:
-    """Return what E1 and E2 say."""
-    return [*_exponents(folder), *_grids(folder), *_averages(folder)]
+    """Return the results of E1 in sentences."""
+    return [*_smooth(folder), *_averages(folder)]
+
+
+def result_tables(folder: Path = FOLDER) -> dict[str, Table]:
+    """Return the results of E1 and E2 in tables."""
+    return _exponents(folder) | _grids(folder)
 
 
 def word(off: float, spread: float, what: str) -> str:
@@ -38,60 +45,58 @@ def word(off: float, spread: float, what: str) -> str:
     return f"within {SIDE} standard errors of {what}" if abs(off) <= SIDE * spread else f"not {what}"
 
 
-def at(found: Values, samples: int, hurst: float, ratio: bool = False) -> str:
+def at(found: Values, samples: int, hurst: float) -> str:
+    """Return a relative difference at a Hurst exponent."""
     one = found.sel(hurst=hurst, method="nearest")
-    pair = float(value(one)), float(error(one, samples))
-    return percent(*pair) if ratio else told(*pair)
+    return percent(float(value(one)), float(error(one, samples)))
 
 
-def _exponents(folder: Path) -> Iterator[str]:
+def _exponents(folder: Path) -> dict[str, Table]:
+    """Return how far the exponent is from 1/(H + 1), in the window of the thesis and in decades of force."""
+    ensemble = read("e1-surfaces", folder)
+    if ensemble is None:
+        return {}
+    found = e1_laws(ensemble)
+    samples, hurst = found.attrs["samples"], found["hurst"]
+    force, stiffness, _ = curves(ensemble)
+    mean = resampled(stiffness)
+    off = found["alpha_mean"] * (hurst + 1) - 1
+    decades = [law(force, mean, between(force, *ends))[0] * (hurst + 1) - 1 for ends in DECADES[1:]]
+    body = [
+        [f"{h:g}", at(off, samples, h), *(at(each, samples, h) if h > LOW else "-" for each in decades)]
+        for h in (0.25, 0.7, 1.0, 1.3, 1.6, 1.9)
+    ]
+    head = ["H", "window of the thesis", *(f"from {low:g} to {high:g}" for low, high in DECADES[1:])]
+    return {"results-exponent": (head, body)}
+
+
+def _smooth(folder: Path) -> Iterator[str]:
     ensemble = read("e1-surfaces", folder)
     if ensemble is None:
         return
     found = e1_laws(ensemble)
-    samples, hurst = found.attrs["samples"], found["hurst"]
-    alpha = found["alpha_mean"]
-    off = alpha * (hurst + 1) - 1
+    smooth = found["alpha_mean"].sel(hurst=2.95)
+    pair = float(value(smooth)), float(error(smooth, found.attrs["samples"]))
     yield (
-        f"In the window of the thesis (above {CELLS} cells of 512², up to {HIGHEST:g} E\\* h L) the exponent of "
-        f"{samples} rough squares is off 1/(H + 1) by "
-        + ", ".join(f"{at(off, samples, h, True)} at H = {h:g}" for h in (0.25, 0.7, 1.0, 1.3, 1.6, 1.9))
-        + "."
+        f"Smooth surfaces: at H = 2.95 the exponent is {told(*pair)}, "
+        f"{word(pair[0] - 1 / 3, pair[1], 'the 1/3 of one smooth crest')}."
     )
-    force, stiffness, _ = curves(ensemble)
-    mean = resampled(stiffness)
-    low, high = (law(force, mean, between(force, *decade))[0] * (hurst + 1) - 1 for decade in DECADES[1:])
-    above = (1.3, 1.6, 1.9)
-    yield (
-        f"Above H = 1.2 that depends on the window: over forces from {DECADES[1][0]:g} to {DECADES[1][1]:g} it is "
-        + ", ".join(f"{at(low, samples, h, True)} at H = {h:g}" for h in above)
-        + f", and {', '.join(at(high, samples, h, True) for h in above)} over the decade above."
-    )
-    smooth = alpha.sel(hurst=2.95)
-    pair = float(value(smooth)), float(error(smooth, samples))
-    yield f"At H = 2.95 it is {told(*pair)}, {word(pair[0] - 1 / 3, pair[1], 'the 1/3 of one smooth crest')}."
 
 
-def _grids(folder: Path) -> Iterator[str]:
+def _grids(folder: Path) -> dict[str, Table]:
+    """Return how far the stiffness on 512² is from that on the finest grid, at one force and at that of 20 cells."""
     every = nested(on_grids(folder), LIMITS["e2-all"][1])
     if len(every) < 2 or 512 not in every:
-        return
+        return {}
     finest = max(every)
     force, _, samples = curves(every[finest])
     means = {n: resampled(every[n]["dimensionless_stiffness"]) for n in (512, finest)}
     load = load_at(force, HIGHEST)
     ratio = means[512].isel(load=load) / means[finest].isel(load=load) - 1
-    yield (
-        f"What cells do: on 512² the stiffness of the same {samples} surfaces at {HIGHEST:g} E\\* h L, all waves that "
-        f"each grid holds, is off that on {finest}² by "
-        + ", ".join(f"{at(ratio, samples, h, True)} at H = {h:g}" for h in (0.25, 0.4, 0.7, 1.3, 1.9))
-        + "."
-    )
-    twenty = ", ".join(f"{line[4]} at H = {line[0]}" for line in rule(every)[1] if line[1] == "512²")
-    yield (
-        f"The rule of twenty cells: there, on 512², the stiffness is off that of the same surfaces on {finest}² by "
-        f"{twenty}."
-    )
+    body = [
+        [h, at(ratio, samples, float(h)), twenty] for h, n, *_, twenty, _ in rule(every)[1] if n == "512²"
+    ]
+    return {"results-grid": (["H", f"at {HIGHEST:g} E* h L", "at the stiffness of 20 cells"], body)}
 
 
 def _averages(folder: Path) -> Iterator[str]:
@@ -108,7 +113,8 @@ def _averages(folder: Path) -> Iterator[str]:
         for name, table in (("zeta", ends), ("k", levels))
     }
     yield (
-        f"For H from 0.25 to 1.75 geometric means move zeta by {spans['zeta']['geometric']} and means of fits by "
-        f"{spans['zeta']['fits']}, but the stiffness at {MIDDLE:g} E\\* h L by {spans['k']['geometric']} and "
-        f"{spans['k']['fits']}: zeta is read off at a force far outside of the window."
+        f"Averages: for H from 0.25 to 1.75, geometric means change zeta by {spans['zeta']['geometric']} and means "
+        f"of fits by {spans['zeta']['fits']}. The stiffness at {MIDDLE:g} E* h L changes by "
+        f"{spans['k']['geometric']} and {spans['k']['fits']}. The changes differ because zeta is the stiffness at "
+        "F/(E* h L) = 1, far outside the window."
     )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray
 from law_ensembles import FOLDER, error, read, resampled, value
-from law_tables import MIDDLE, curves, e1_laws, load_at, markdown, percent, resolved, told
+from law_tables import MIDDLE, Table, curves, e1_laws, load_at, percent, resolved, told
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
@@ -83,7 +83,7 @@ def _fit(form: Any, hurst: Array, line: Array, root: Array, start: tuple[float, 
     return least_squares(lambda given: root @ (line - form(hurst, *given)), start, xtol=1e-12, ftol=1e-12).x
 
 
-def formula(folder: Path = FOLDER) -> dict[str, str]:
+def formula(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return the formulas in words, and a table of what they give."""
     ensemble = read("e1-surfaces", folder)
     if ensemble is None:
@@ -100,20 +100,20 @@ def formula(folder: Path = FOLDER) -> dict[str, str]:
         for name, one, error in zip(NAMES, found.found, errors, strict=True)
     ]
     squares = [
-        f"{each:.0f} for {words} ({100 * chance:.1f} % of such ensembles would leave more by chance)"
+        f"{each:.0f} for {words} (probability of a larger value by chance: {100 * chance:.1f} %)"
         for each, words, chance in zip(found.squares, ("alpha", "ln kappa"), found.likely(), strict=True)
     ]
     words = (
-        f"alpha = a + b/(1 + (H/c)²) and kappa = p + q (1 - exp(-(H/r)²)), with {', '.join(parts)}, lie at most "
-        f"{abs(found.off[0]).max():.1f} and {abs(found.off[1]).max():.1f} standard errors beside the table, "
-        f"{abs(misfit).max():.3f} in alpha. Mean curves lie {within(ensemble, found)} beside this formula at any "
-        "force of the window. With the covariance over H it is no more than an estimate: chi squared is "
+        f"alpha = a + b/(1 + (H/c)²) and kappa = p + q (1 - exp(-(H/r)²)), with {', '.join(parts)}, differ from "
+        f"the table by at most {abs(found.off[0]).max():.1f} and {abs(found.off[1]).max():.1f} standard errors "
+        f"({abs(misfit).max():.3f} in alpha). Mean curves differ from this formula by {within(ensemble, found)} in the "
+        "window. The formula is an estimate: with the covariance over H, chi squared is "
         f"{' and '.join(squares)}, with {hurst.size - 3} degrees of freedom."
     )
     return {
         "formula": words,
         "formula-scatter": scattered(ensemble),
-        "formula-values": markdown(values(hurst)),
+        "formula-values": values(hurst),
     }
 
 
@@ -155,7 +155,7 @@ def scattered(ensemble: xarray.Dataset) -> str:
     share = 100 * one.std("sample", ddof=1) / one.mean("sample")
     return (
         f"Single surfaces scatter by {float(share.min()):.0f} to {float(share.max()):.0f} % about the mean at "
-        f"{float(force[load]):.2g} E\\* h L, most at H = {float(share.idxmax('hurst')):g}."
+        f"{float(force[load]):.2g} E* h L, most at H = {float(share.idxmax('hurst')):g}."
     )
 
 

@@ -1,4 +1,4 @@
-"""What the smaller ensembles of the law say, E3 to E7, as tables in Markdown; see `law.py`."""
+"""The smaller ensembles of the law, E3 to E7, as tables and in sentences; see `law.py`."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from law_tables import (
     MIDDLE,
     Table,
     between,
+    counted,
     curves,
     each,
     each_percent,
     load_at,
-    markdown,
     resolved,
 )
 
@@ -41,7 +41,7 @@ def at_hurst(words: Iterable[str], hurst: Values) -> str:
 # E3
 
 
-def e3(folder: Path = FOLDER) -> dict[str, str]:
+def e3(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return exponents at low H in one window on every grid, and what the finest grid changes."""
     ensemble = read("e3-modes", folder)
     if ensemble is None:
@@ -65,15 +65,17 @@ def e3(folder: Path = FOLDER) -> dict[str, str]:
     points = [int(n) for n in ensemble["points"]]
     ends = f"{points[-1]}² less {points[0]}²", f"k at 0.07, {points[-1]}² over {points[0]}²"
     change = at_hurst(each(last - alpha.isel(points=0), samples, 3, "+"), ensemble["hurst"])
-    said = f"At low H, in one window of forces, the exponent on {points[-1]}² less that on {points[0]}² is {change} "
-    said += f"({samples} surfaces)."
-    return {"e3": markdown((["H", *(f"{n}²" for n in points), *ends], body)), "e3 said": said}
+    said = (
+        f"Number of waves: at low H, in one window of forces, the exponent on {points[-1]}² exceeds that on "
+        f"{points[0]}² by {change} ({samples} surfaces)."
+    )
+    return {"e3": (["H", *(f"{n}²" for n in points), *ends], body), "e3 said": said}
 
 
 # E4
 
 
-def e4(folder: Path = FOLDER) -> dict[str, str]:
+def e4(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return what amplitudes and the shape of the band do to exponent, prefactor and stiffness."""
     ensemble = read("e4-models", folder)
     if ensemble is None:
@@ -104,7 +106,7 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
         "H",
         "waves, amplitudes",
         "alpha",
-        f"k/(E\\* L) at {MIDDLE:g}",
+        f"k/(E* L) at {MIDDLE:g}",
         "alpha, difference",
         "k, difference",
     ]
@@ -113,19 +115,19 @@ def e4(folder: Path = FOLDER) -> dict[str, str]:
         "Gaussian amplitudes": {"row": 0, "amplitudes": 1},
         "A disc of wave vectors": {"row": 1, "amplitudes": 0},
     }
-    said = " ".join(
-        f"{words} change{'s' * (words[0] == 'A')} the mean stiffness at {MIDDLE:g} E\\* h L by "
+    said = "Random model: " + " ".join(
+        f"{words} change{'s' * (words[0] == 'A')} the mean stiffness at {MIDDLE:g} E* h L by "
         f"{at_hurst(each_percent(level.isel(place) / first - 1, samples), ensemble['hurst'])}."
         for words, place in models.items()
     )
     said += f" ({samples} surfaces.)"
-    return {"e4": markdown((head, body)), "e4 said": said}
+    return {"e4": (head, body), "e4 said": said}
 
 
 # E5
 
 
-def e5(folder: Path = FOLDER) -> dict[str, str]:
+def e5(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return stiffnesses of nominally flat surfaces, free and periodic, and of patches."""
     tables, told = {}, {}
     for name in ("e5-flat", "e5-flat-1024", "e5-flat-2048"):
@@ -133,13 +135,13 @@ def e5(folder: Path = FOLDER) -> dict[str, str]:
         if ensemble is not None:
             samples = ensemble.sizes["sample"]
             head, body = flat(ensemble)
-            tables[name] = markdown((head, body)) + f"\n\n{samples} surfaces."
+            tables[name] = counted((head, body), samples)
             told[samples] = flat_words(int(ensemble["points"]), samples, body)
     if told:
         tables["e5 said"] = told[max(told)]
     patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
     if patches is not None:
-        tables["e5-patches"] = markdown(patched(patches, whole))
+        tables["e5-patches"] = patched(patches, whole)
     return tables
 
 
@@ -148,9 +150,10 @@ def flat_words(points: int, samples: int, body: list[list[str]]) -> str:
     grows = ", ".join(f"{line[1]} for l = {line[0]}" for line in body)
     *_, last = body
     return (
-        f"Rolled off at l on {points}², K of a periodic surface grows as the pressure to the power of {grows}. From "
-        f"p l/(E\\* h) = {PRESSURES[0]:g} to {PRESSURES[-1]:g} the K of a free square of L = 32 l is off that of the "
-        f"periodic one by {last[4]} to {last[8]}, while its k/K falls from {last[5]} to {last[9]} ({samples} surfaces)."
+        f"Roll-off: on {points}², K of a periodic surface with a roll-off at l grows as the pressure to the power of "
+        f"{grows}. The K of a free square of L = 32 l exceeds that of the periodic surface by {last[4]} at "
+        f"p l/(E* h) = {PRESSURES[0]:g} and by {last[8]} at {PRESSURES[-1]:g}; its k/K falls from {last[5]} to "
+        f"{last[9]} ({samples} surfaces)."
     )
 
 
@@ -212,7 +215,7 @@ def patched(patches: xarray.Dataset, whole: xarray.Dataset | None) -> Table:
 # E6
 
 
-def e6(folder: Path = FOLDER) -> dict[str, str]:
+def e6(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return the stiffness of rough spheres over the closed form, with the thesis' law and with that of E1."""
     ensemble = read("e6-spheres", folder)
     if ensemble is None:
@@ -236,9 +239,9 @@ def e6(folder: Path = FOLDER) -> dict[str, str]:
         fine_line = "-" if grid is None else each_percent(one(grid.isel(load=load)), fine.sizes["sample"])[0]
         body.append([f"{forces[load]:.2g}", f"{cells:.0f}", f"{float(value(k)):.4f}", *line, fine_line])
     head = [
-        "F/(E\\* L²)",
+        "F/(E* L²)",
         "k over that of a cell",
-        "k/(E\\* L)",
+        "k/(E* L)",
         "over eq. 5.9",
         "with alpha, zeta of E1",
         "1024² over 512²",
@@ -247,11 +250,10 @@ def e6(folder: Path = FOLDER) -> dict[str, str]:
     off = value(mean).to_numpy()[carried] / closed[carried] - 1
     most = float((error(mean, samples) / value(mean))[carried].max())
     said = (
-        f"{samples} rough spheres are "
-        f"{100 * off.min():+.1f} to {100 * off.max():+.1f} % (± {100 * most:.1f} % or less) "
-        f"off eq. 5.9 where more than {CELLS} cells carry."
+        f"Rough spheres: the mean stiffness of {samples} spheres differs from eq. 5.9 by {100 * off.min():+.1f} to "
+        f"{100 * off.max():+.1f} % (± {100 * most:.1f} % or less) where it exceeds that of {CELLS} cells."
     )
-    return {"e6": markdown((head, body)), "e6 said": said}
+    return {"e6": (head, body), "e6 said": said}
 
 
 def fitted_roughness(folder: Path) -> tuple[float, float] | None:
@@ -276,7 +278,7 @@ def with_law(forces: np.ndarray, alpha: float, zeta: float) -> np.ndarray:
 # E7
 
 
-def e7(folder: Path = FOLDER) -> dict[str, str]:
+def e7(folder: Path = FOLDER) -> dict[str, Table | str]:
     """Return stiffnesses of three sizes of one Theta and one shortest wave, at one force F/(E* Theta)."""
     ensemble = read("e7-sizes", folder)
     if ensemble is None:
@@ -299,10 +301,10 @@ def e7(folder: Path = FOLDER) -> dict[str, str]:
         words.append(body[-len(SIZE_FORCE)][sizes.size])
     names = [f"size {float(size):g} over size 1" for size in sizes[1:]]
     said = (
-        f"At one Theta and one force a square of {float(sizes[-1]):g} times the side has k/E\\* off by "
-        f"{at_hurst(words, ensemble['hurst'])} ({samples} surfaces)."
+        f"Size: at the same Theta and the same force, k/E* of a square of {float(sizes[-1]):g} times the side differs "
+        f"by {at_hurst(words, ensemble['hurst'])} ({samples} surfaces)."
     )
     return {
-        "e7": markdown((["H", "F/(E\\* h L) of size 1", *names, "cells of stiffness"], body)),
+        "e7": (["H", "F/(E* h L) of size 1", *names, "cells of stiffness"], body),
         "e7 said": said,
     }

@@ -1,7 +1,9 @@
-"""What the ensembles of the law say, as tables in Markdown; see `law.py`."""
+"""The ensembles of the law as tables; see `law.py`."""
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -44,6 +46,19 @@ def markdown(table: Table) -> str:
     head, rows = table
     lines = [list(head), ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def comma_separated(table: Table) -> str:
+    """Return a table as a data file, in which a cell without a number is empty."""
+    text = io.StringIO()
+    lines = (["" if each == "-" else each for each in line] for line in table[1])
+    csv.writer(text, lineterminator="\n").writerows([table[0], *lines])
+    return text.getvalue()
+
+
+def counted(table: Table, samples: int) -> Table:
+    """Return a table with a last column that holds the number of surfaces."""
+    return [*table[0], "surfaces"], [[*line, str(samples)] for line in table[1]]
 
 
 def told(found: float, spread: float, digits: int = 3, sign: str = "") -> str:
@@ -120,7 +135,7 @@ def e1_laws(ensemble: xarray.Dataset) -> xarray.Dataset:
     return xarray.Dataset(found, attrs={"samples": samples})
 
 
-def e1(folder: Path = FOLDER) -> dict[str, str]:
+def e1(folder: Path = FOLDER) -> dict[str, Table]:
     """Return the exponents and prefactors of surfaces, the ways to average, and lines beside them."""
     ensemble = read("e1-surfaces", folder)
     if ensemble is None:
@@ -130,12 +145,12 @@ def e1(folder: Path = FOLDER) -> dict[str, str]:
     alpha, zeta = found["alpha_mean"], found["zeta_mean"]
     head = [
         "H",
-        "from F/(E\\* h L)",
+        "from F/(E* h L)",
         "alpha",
         "over 1/(H + 1)",
         "zeta",
         "over 1.7/(H + 1)",
-        f"k/(E\\* L) at {MIDDLE:g}",
+        f"k/(E* L) at {MIDDLE:g}",
     ]
     expected = 1 / (hurst + 1)
     law_rows = rows(
@@ -161,10 +176,10 @@ def e1(folder: Path = FOLDER) -> dict[str, str]:
             for way in ("geometric", "fits")
         ),
     )
-    parts = markdown(local({int(ensemble["points"]): ensemble}))
-    tables = {"e1": markdown((head, law_rows)), "e1-local": parts, "e1-ways": markdown((ways, way_rows))}
+    parts = local({int(ensemble["points"]): ensemble})
+    tables = {"e1": (head, law_rows), "e1-local": parts, "e1-ways": (ways, way_rows)}
     lines = read("e1-lines", folder)
-    return tables if lines is None else tables | {"e1-lines": markdown(e1_lines(lines, ensemble))}
+    return tables if lines is None else tables | {"e1-lines": e1_lines(lines, ensemble)}
 
 
 def e1_lines(lines: xarray.Dataset, surfaces: xarray.Dataset) -> Table:
@@ -250,27 +265,26 @@ def power_limits(n: Array, k: Array) -> Array:
     return np.stack([np.array(limits)[best, np.arange(len(k))], POWERS[best]], axis=1)
 
 
-def e2(folder: Path = FOLDER) -> dict[str, str]:
+def e2(folder: Path = FOLDER) -> dict[str, Table]:
     """Return what grids do to the stiffness of one set of surfaces, in both limits, to the rule and to exponents."""
     ensembles = on_grids(folder)
     tables = {}
     for name, (_, wanted) in LIMITS.items():
         same = nested(ensembles, wanted)
         if len(same) == len(wanted):
-            head, body = convergence(same)
-            tables[name] = markdown((head, body)) + f"\n\n{surfaces(same)}"
+            tables[name] = counted(convergence(same), surfaces(same))
     every, finer = (nested(ensembles, LIMITS[name][1]) for name in ("e2-all", "e2-all-4096"))
     if len(every) >= 2:
-        tables["e2-rule"] = markdown(rule(every)) + f"\n\n{surfaces(every)}"
-        tables["e2-local"] = markdown(local(every)) + f"\n\n{surfaces(every)}"
+        tables["e2-rule"] = counted(rule(every), surfaces(every))
+        tables["e2-local"] = counted(local(every), surfaces(every))
     if 4096 in finer:
-        tables["e2-local-4096"] = markdown(local(finer)) + f"\n\n{surfaces(finer)}"
+        tables["e2-local-4096"] = counted(local(finer), surfaces(finer))
     return tables
 
 
-def surfaces(same: dict[int, xarray.Dataset]) -> str:
-    """Return how many surfaces a table is of."""
-    return f"{next(iter(same.values())).sizes['sample']} surfaces."
+def surfaces(same: dict[int, xarray.Dataset]) -> int:
+    """Return the number of surfaces of a table."""
+    return next(iter(same.values())).sizes["sample"]
 
 
 def convergence(same: dict[int, xarray.Dataset]) -> Table:
@@ -302,7 +316,7 @@ def convergence(same: dict[int, xarray.Dataset]) -> Table:
             meant = spread[1] < limits[0, 1] / 3 and POWERS[0] < limits[0, 1] < POWERS[-1]
             body.append([f"{h:g}", f"{at:g}", *ratio, *(fit if meant else ["-", "-"])])
     others = [f"{p}²" for p in same if p != finest]
-    return ["H", "F/(E\\* h L)", *others, "limit", "w"], body
+    return ["H", "F/(E* h L)", *others, "limit", "w"], body
 
 
 def rule(same: dict[int, xarray.Dataset]) -> Table:
@@ -341,4 +355,4 @@ def local(same: dict[int, xarray.Dataset]) -> Table:
                 line.append(each(found.where(whole).expand_dims("one", 1), samples)[0])
             if set(line) != {"-"}:
                 body.append([f"{h:g}", f"{low:g} to {high:g}", *line, f"{1 / (h + 1):.3f}"])
-    return ["H", "F/(E\\* h L)", *(f"{n}²" for n in same), "1/(H + 1)"], body
+    return ["H", "F/(E* h L)", *(f"{n}²" for n in same), "1/(H + 1)"], body

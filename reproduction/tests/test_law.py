@@ -1,6 +1,7 @@
 """The ensembles of the law: their study files, and what the script makes of them."""
 
 import importlib.util
+import re
 import sys
 import tomllib
 from itertools import pairwise
@@ -75,19 +76,47 @@ def script():
     sys.path.remove(str(folder))
 
 
-def test_the_page_shows_the_ensembles_that_are_there(script):
-    text = (ROOT / "docs" / "law.md").read_text(encoding="utf-8")
-    found = {"runs": script.runs()} | script.e3() | script.e7()
-    for name, table in found.items():
-        assert (table if name.endswith(" said") else f"<!-- table {name} -->\n{table}\n<!-- end -->") in text
+def test_the_pages_show_the_ensembles_that_are_there(script):
+    text = "".join(page.read_text(encoding="utf-8") for page in script.PAGES)
+    found = script.e3() | script.e7()
+    for name, one in found.items():
+        if name.endswith(" said"):
+            assert one.replace("*", r"\*") in text
+        else:
+            data = (script.DATA / f"{name}.csv").read_text(encoding="utf-8")
+            assert data == script.comma_separated(one)
+            assert f":file: data/law/{name}.csv\n" in text
+    for name, one in ({"runs": script.runs()} | script.result_tables()).items():
+        table = script.markdown(one).replace("*", r"\*")
+        assert f"<!-- table {name} -->\n{table}\n<!-- end -->" in text
+
+
+def test_every_data_file_of_the_law_is_in_a_page_and_every_table_is_written(script):
+    text = "".join(page.read_text(encoding="utf-8") for page in script.PAGES)
+    shown = re.findall(r":file: data/law/(\S+)\.csv\n", text)
+    assert sorted(shown) == sorted(path.stem for path in script.DATA.glob("*.csv"))
+    assert "Not computed yet." not in text
 
 
 def test_a_page_without_ensembles_says_so(script, tmp_path):
-    assert set(script.tables(tmp_path)) == {"runs", "counts", "findings"}
+    assert set(script.tables(tmp_path)) == {"runs", "findings"}
     assert script.tables(tmp_path)["findings"] == ""
     page = "a\n<!-- table e3 -->\nold\n<!-- end -->\nb"
     assert script.filled(page, {}) == "a\n<!-- table e3 -->\nNot computed yet.\n<!-- end -->\nb"
-    assert script.filled(page, {"e3": "new"}) == "a\n<!-- table e3 -->\nnew\n<!-- end -->\nb"
+    assert script.filled(page, {"e3": "E* L"}) == "a\n<!-- table e3 -->\nE\\* L\n<!-- end -->\nb"
+    table = "| H |\n| --- |\n| 1 |"
+    assert script.filled(page, {"e3": (["H"], [["1"]])}) == f"a\n<!-- table e3 -->\n{table}\n<!-- end -->\nb"
+
+
+def test_a_table_without_a_place_in_a_page_is_a_data_file(script, tmp_path, monkeypatch):
+    page = tmp_path / "page.md"
+    page.write_text("<!-- table here -->\n<!-- end -->\n", encoding="utf-8")
+    monkeypatch.setattr(script, "PAGES", (page,))
+    monkeypatch.setattr(script, "DATA", tmp_path)
+    script.write_pages({"here": (["H"], [["1"]]), "there": (["E* L", "w"], [["1, 2", "-"]]), "words": "E*"})
+    assert page.read_text(encoding="utf-8") == "<!-- table here -->\n| H |\n| --- |\n| 1 |\n<!-- end -->\n"
+    assert [path.name for path in tmp_path.glob("*.csv")] == ["there.csv"]
+    assert (tmp_path / "there.csv").read_text(encoding="utf-8") == 'E* L,w\n"1, 2",\n'
 
 
 @pytest.mark.parametrize("name", ["e4-models", "e5-patches", "e6-spheres"])

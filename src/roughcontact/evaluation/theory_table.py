@@ -56,7 +56,7 @@ def theory_table(
     modulus : float, Solid or pair of Solids
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
-        Those laws of ``roughcontact.theory.laws.LAWS`` that need no size of the joint: ``"cmy"``, ``"mikic"``, ``"gw"``,
+        Laws of ``roughcontact.theory.laws.LAWS`` that need no size of the joint: ``"cmy"``, ``"mikic"``, ``"gw"``,
         ``"persson"`` and others. ``"cmy"`` and ``"mikic"`` take rms height and slope only.
     pressures : array_like, shape (n,)
         Nominal pressures [Pa].

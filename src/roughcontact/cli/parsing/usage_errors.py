@@ -84,7 +84,7 @@ _VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
 
 
 def _elsewhere(context: Any, option: str) -> list[str]:
-    """Return which commands take an option: those of the same name, else those of the same nested group, else others."""
+    """Return which commands take an option: those of the same name, those of the same nested group, or any."""
     root = context.find_root()
     if isinstance(context.command, TyperGroup):
         return []
