@@ -83,13 +83,13 @@ $ {FORCE} --modulus 0GPa
 > {FORCE} --modulus 1GPa
 
 $ {FORCE} --modulus 110
-! write 110GPa if gigapascals are meant, or 110Pa if it is so
+! write 110GPa if this unit is meant, or 110Pa if it is so
 > {FORCE} --modulus 110GPa
 > {FORCE} --modulus 110Pa
 
 $ {FORCE} --modulus 1N
-! '1N' is not a pressure; write a pressure such as 1MPa
-> {FORCE} --modulus 1MPa
+! '1N' is not a modulus; write a modulus such as 110GPa
+> {FORCE} --modulus 110GPa
 
 $ {FORCE} --modulus 1GPa --poisson 0.3
 ! --poisson belongs to --young, which is not given: give --young too
@@ -139,7 +139,7 @@ $ {FORCE} --materials steel,210GPa
 > {FORCE} --modulus 210GPa
 
 $ {PRESS} --force 1mN --hardness 2
-! write 2GPa if gigapascals are meant
+! write 2GPa if this unit is meant
 > {PRESS} --force 1mN --hardness 2GPa
 
 $ {PRESS} --force 1mN --hardness butter
