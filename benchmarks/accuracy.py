@@ -311,8 +311,8 @@ residual of the discrete problem, which is far smaller.
 All errors are relative. The columns are computed in two ways:
 
 * If the edge of the contact is part of the solution, each error is the root mean square over sixteen contacts of slightly
-  different sizes, because the error jumps with the place of the edge within a cell. The order is that from the first grid to
-  the last. The limit is one step of Richardson's extrapolation of the mean.
+  different sizes. A single error would jump with the place of the edge within a cell. The order is that from the first grid
+  to the last. The limit is one step of Richardson's extrapolation of the mean.
 * If the grid fits a flat region, the error has an expansion in powers of the cell. The limit then uses all terms that the
   four grids give.
 
