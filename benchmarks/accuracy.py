@@ -304,14 +304,17 @@ def toroid() -> Iterator[Case]:
 
 HEAD = """# Accuracy
 
-How far each geometry is from the closed forms, and how that falls when the grid is refined: written by
-`python benchmarks/accuracy.py > docs/accuracy.md`, E* = 1. This is the discretisation error; a certificate bounds the
-residual of the discrete problem, which is far smaller.
+How far is each geometry from the closed forms, and how does the error fall as the grid is refined? The page is
+written by `python benchmarks/accuracy.py > docs/accuracy.md`, with E* = 1. Its errors are discretisation errors. A
+certificate bounds the residual of the discrete problem, which is far smaller.
 
-Errors are relative. Where the contact finds its own edge they are root mean squares over sixteen contacts of slightly
-different sizes, since they jump with the place of the edge within a cell; the order is that from the first grid to
-the last, and the limit one step of Richardson's extrapolation of their mean. Flat regions that the grid is made to
-fit have an expansion in powers of the cell: there the limit takes all terms that the four grids give.
+All errors are relative. The columns are computed in two ways:
+
+* If the edge of the contact is part of the solution, each error is the root mean square over sixteen contacts of
+  slightly different sizes. A single error would jump with the place of the edge within a cell. The order is that from
+  the first grid to the last. The limit is one step of Richardson's extrapolation of the mean.
+* If the grid fits a flat region, the error has an expansion in powers of the cell. The limit then uses all terms that
+  the four grids give.
 
 | body | geometry | quantity | cells | errors | order | limit | exact |
 |---|---|---|---|---|---|---|---|"""
@@ -320,11 +323,13 @@ OTHER = """
 ## Other ways to sum
 
 On a free surface `half_space(..., method=...)` sums the same displacements over the cells in four ways. The table
-above is by Fourier transforms. The others have the same order, limit and error, for they solve the same equations:
-here is the largest relative difference of the quantity to that by transforms (in brackets: cells a side; "none" is
-below 1e-15), to be compared with the tolerance of the solves, 1e-8, and of the flat regions, 1e-9. A multilevel sum
-is inexact by itself: its answer is corrected until the exact sum certifies it; flat regions are solved with the
-exact sum alone.
+above uses Fourier transforms. The other ways solve the same equations and therefore have the same order, limit and
+error.
+
+The table below lists the largest relative difference of each quantity from that by transforms. The cells along a side
+are in brackets, and "none" means below 1e-15. Compare the differences with the tolerance of the solves, 1e-8, and of
+the flat regions, 1e-9. A multilevel sum is inexact: its answer is corrected until the exact sum certifies it. Flat
+regions are solved only with the exact sum.
 
 | body | quantity | multilevel | moving grid | full matrix |
 |---|---|---|---|---|"""
@@ -332,15 +337,15 @@ exact sum alone.
 TAIL = """
 ## Remarks
 
-* A smooth contact converges with the square of the cell in force and depth, a sharp one with the cell itself: half
-  a cell along its edge is missing. Of the square about 0.345/n is missing.
-* The square's limit is 1.152298(1) E* L, and with it that of every full contact. The 1.1419 E* L that the thesis
-  takes for the largest stiffness (eq. 4.14, from a shape factor of 1.012) is 0.9 % too small: 64 x 64 cells exceed it.
-* The equilateral triangle has no closed form; the value in its row is `roughcontact.theory.punch.TRIANGLE`, good to its
-  fifth digit. Its cells are as high as to fit into the triangle.
-* On a surface discs are staircases; the area of their cells is not that of the disc, and jumps.
-* What the ways to sum cost in time and memory: `benchmarks/operators.py`.
-* The toroid's last column is an asymptote for a thin ring, not an exact value: its limit is the better number.
+* In force and depth, a smooth contact converges with the square of the cell. A sharp contact converges with the cell,
+  because half a cell is missing along its edge. For the square the missing part is about 0.345/n.
+* The limit of the square is 1.152298(1) E* L, and so is that of every full contact. The thesis uses 1.1419 E* L for
+  the largest stiffness (eq. 4.14, from a shape factor of 1.012). This is 0.9 % too small: 64 x 64 cells exceed it.
+* The equilateral triangle has no closed form. The value in its row is `roughcontact.theory.punch.TRIANGLE`, accurate
+  to its fifth digit. The height of its cells is chosen so that the rows fit into the triangle.
+* On a surface discs are staircases. The area of their cells differs from that of the disc, and it jumps.
+* For the cost of the four ways in time and memory, run `benchmarks/operators.py`.
+* The last column of the toroid is an asymptote for a thin ring, not an exact value. Its limit is more accurate.
 """
 
 
