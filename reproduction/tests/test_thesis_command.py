@@ -138,7 +138,7 @@ def test_ctrl_c_says_how_to_go_on(invoke, tmp_path, few, monkeypatch):
     [
         (("fig99",), "no figure 'fig99'"),
         (("fig4", "--seed", "x"), "the seed is a whole number from 0 up"),
-        (("fig37", "--scale", "big"), "write small or thesis"),
+        (("fig37", "--scale", "big"), "choose of small, thesis"),
         (("fig37", "--as-is"), "was not run in"),
     ],
 )

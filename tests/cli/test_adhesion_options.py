@@ -9,6 +9,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.adhesion import adhesive_loading
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+from tables import read_table
 
 MODULUS = ("--modulus", "10MPa", "--level", "none")
 STICKS = ("--work", "10mJ/m^2", "--range", "0.1um")
@@ -78,9 +79,7 @@ def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     back = rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")
     np.testing.assert_array_equal(back.force, curve.force)
     assert back.jumps == curve.jumps
-    table = np.genfromtxt(
-        tmp_path / "out" / "adhesive_curve.csv", delimiter=",", names=True, usecols=("force", "depth")
-    )
+    table = read_table(tmp_path / "out" / "adhesive_curve.csv")
     np.testing.assert_array_equal(table["force"], curve.force)
     lines = (tmp_path / "out" / "adhesive_curve_jumps.csv").read_text().splitlines()
     assert len([line for line in lines if not line.startswith("#")]) == 1 + len(curve.jumps)

@@ -10,6 +10,7 @@ import roughcontact as rc
 from roughcontact.adhesion import detachment_path
 from roughcontact.plot.facts import quantity
 from roughcontact.solver.control import Status
+from tables import read_table
 
 GIVEN = ("--modulus", "10MPa", "--level", "none", "--work", "10mJ/m^2")
 FALLING = ("--depths", "100nm:-300nm:3,-1um")
@@ -35,7 +36,7 @@ def test_the_numbers_are_those_of_the_library(invoke, rough, tmp_path):
     assert (record["command"], record["converged"], record["whole"]) == ("adhesion detach", True, True)
     back = rc.read_detachment_curve(tmp_path / "out" / "detachment.nc")
     assert back.detachments == curve.detachments
-    table = np.genfromtxt(tmp_path / "out" / "detachment.csv", delimiter=",", names=True, usecols="force")
+    table = read_table(tmp_path / "out" / "detachment.csv")
     np.testing.assert_array_equal(table["force"], curve.force)
     events = (tmp_path / "out" / "detachments.csv").read_text().splitlines()
     assert len([line for line in events if not line.startswith("#")]) == 1 + len(curve.detachments)

@@ -150,7 +150,10 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
         ),
         (["export", "nowhere", "--out", "no/a.nc"], "there is no folder"),
         (["add", "nowhere", "--samples", "3"], "nowhere: No such file or directory"),
-        (["add", "nowhere", "--samples", "0"], "Invalid value for '--samples'"),
+        (
+            ["add", "nowhere", "--samples", "0"],
+            "--samples: the number of samples is a whole number from 1 up",
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused(invoke, here, arguments, complaint):

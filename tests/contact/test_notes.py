@@ -62,7 +62,7 @@ def test_what_makes_a_number_wrong_comes_first_and_the_edge_last():
     words = (
         "A single cell",
         "largest pressure",
-        "highest point stands",
+        "1 point stands more than 8 rms heights",
         "2 cells hold no height",
         "the edge",
     )

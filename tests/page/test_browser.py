@@ -252,9 +252,9 @@ def numbers_of(command):
 
 
 def table_of(text):
-    """Return the rows of a table in CSV, without the lines that say where it is from."""
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines))
+    """Return the rows of a table in CSV, by the names of its columns without their units."""
+    header, *rows = csv.reader(text.splitlines())
+    return [dict(zip([title.partition(" [")[0] for title in header], row, strict=True)) for row in rows]
 
 
 def test_what_is_exported_is_what_the_stated_command_prints(tab, part, tmp_path, monkeypatch):

@@ -209,5 +209,5 @@ def test_a_port_that_is_taken_is_named():
 
 
 def test_ports_and_files_that_there_are_not_are_named():
-    assert "not 70000" in refused("--port", "70000")
+    assert "from 1024 to 65535, not '70000'" in refused("--port", "70000")
     assert "part.x3p: there is no such file" in refused("part.x3p")

@@ -12,7 +12,7 @@ from roughcontact.recipe.written import from_plain, to_plain
 
 # Of each field: a value out of range, and what the remedy says to write instead; None to leave it out.
 OUT_OF_RANGE = {
-    "Preparation.crop": ("9:9,0:5", "0:512,100:612"),
+    "Preparation.crop": ("9:9,0:5", "0:40,5:45"),
     "Preparation.despike": ("fill", "filled", "missing"),
     "Preparation.mask": ("square=0:9,0:9", "box=0:9,10:30", "ellipse=0:9,10:30", "above=3um", "below=-3um"),
     "Preparation.align": ("lines", "rows", "columns"),

@@ -58,7 +58,10 @@ def test_a_field_is_known_by_its_dotted_name():
     plain = {"job": "curve", "source": MADE}
     assert field_at(plain, "source.hurst").read("0.8") == 0.8
     assert field_at(plain, "bodies.modulus").read("1 GPa") == 1e9
-    for name, words in (("source.hirst", "no 'hirst' here"), ("source", "no single value")):
+    for name, words in (
+        ("source.hirst", "no field 'source.hirst': did you mean source.hurst"),
+        ("source", "no single value"),
+    ):
         with pytest.raises(rc.InputError, match=words):
             field_at(plain, name)
 

@@ -387,7 +387,7 @@ def test_a_surface_of_python_has_the_name_of_its_heights():
     ],
 )
 def test_functions_operators_and_surfaces_of_python_are_refused_with_a_word(made, place):
-    with pytest.raises(InputError, match=r"is no value of a recipe|is no `\w+` of a recipe") as met:
+    with pytest.raises(InputError, match=r"is neither a text nor a number|is no `\w+` of a recipe") as met:
         made()
     assert met.value.place == place
     assert met.value.remedy
@@ -420,9 +420,13 @@ FILES = [
     ("[load]\nforce = 10 N", "it is no TOML", None),
     ("job = 'press'\njob = 'press'", "it is no TOML", None),
     (f"{PRESS}[load]\nforce = nan", "'nan' does not start", "load.force"),
-    (f"{PRESS}[load]\nforce = 1979-05-27", "datetime.date(1979, 5, 27) is no value", "load.force"),
-    (f"{PRESS}[load.force]\nvalue = 10", "{'value': 10} is no value", "load.force"),
-    (f"{PRESS}[load]\nforce = [10, 20]", "[10, 20] is no value", "load.force"),
+    (
+        f"{PRESS}[load]\nforce = 1979-05-27",
+        "datetime.date(1979, 5, 27) is neither a text nor a number",
+        "load.force",
+    ),
+    (f"{PRESS}[load.force]\nvalue = 10", "{'value': 10} is neither a text nor a number", "load.force"),
+    (f"{PRESS}[load]\nforce = [10, 20]", "[10, 20] is neither a text nor a number", "load.force"),
     (
         PRESS.replace("[bodies]", "periodic = 'true'\n[load]\nforce = 1\n[bodies]"),
         "'true' is neither",

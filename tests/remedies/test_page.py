@@ -113,12 +113,12 @@ FILES = [
 
 PREPARED = [
     row(prepared(crop="20:20,0:48"), "20:20 holds no cell; end above 20", prepared(crop="20:40,0:48")),
-    row(prepared(crop="some"), "Write rows,columns such as 0:512,100:612", prepared(crop="0:512,10:612")),
+    row(prepared(crop="some"), "Write rows,columns such as 0:40,5:45", prepared(crop="0:40,5:45")),
     row(prepared(short_cutoff="1 m"), "such as 1e-5 m", prepared(short_cutoff="1e-5 m")),
     row(prepared(long_cutoff="1nm"), "give at least 4e-06 m", prepared(long_cutoff="4e-06 m")),
     row(
         prepared(short_cutoff="20um", long_cutoff="10um"),
-        "must be below Long cutoff",
+        "must be below the long one",
         prepared(short_cutoff="10um", long_cutoff="20um"),
     ),
     row(prepared(downsample="40"), "give at most 24", prepared(downsample="24")),
@@ -141,7 +141,7 @@ BODIES = [
         "Give a number such as 0.3",
         bodies(young="1GPa", poisson="0.3"),
     ),
-    row(bodies(modulus="100"), "Write 100GPa if gigapascals are meant", bodies(modulus="100GPa")),
+    row(bodies(modulus="100"), "Write 100GPa if this unit is meant", bodies(modulus="100GPa")),
     row(bodies(modulus="-1GPa"), "must be positive", bodies(modulus="1GPa")),
     row(
         bodies(modulus="1GPa", hardness="butter"),

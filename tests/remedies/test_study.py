@@ -187,7 +187,7 @@ $ study average done --out all.nc --window 0.07:1e-3
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study plot done --out all.png --quantity weight
-! choose one of
+! choose
 > study plot done --out all.png --quantity force
 
 $ study table done --quantity weight

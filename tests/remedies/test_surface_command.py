@@ -50,7 +50,7 @@ $ {PREPARE} --crop 0:5
 > {PREPARE} --crop 0:5,0:8
 
 $ {PREPARE} --crop a:b
-! write rows,columns such as 0:512,100:612, or 0:512 of a profile
+! write rows,columns such as 0:40,5:45, or 0:40 for a profile
 > {PREPARE} --crop 0:5,0:8
 > surface prepare profile.txt new.npz --unit m --crop 0:32
 

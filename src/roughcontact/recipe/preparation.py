@@ -95,7 +95,7 @@ class Preparation:
     TITLE: ClassVar = "Preparation, in this order"
     crop: str | None = _step(
         "Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
-        "0:512,100:612",
+        "0:40,5:45",
         "cropped",
         "Cropping",
         read=ranges,

@@ -273,11 +273,11 @@ def points(text: str) -> tuple[int, int]:
 
 
 def ranges(text: str) -> tuple[slice, ...]:
-    """Return the cells of ``0:512,100:612`` (rows, columns), of a line ``0:512``; an end may be left open."""
+    """Return the cells of ``0:40,5:45`` (rows, columns), of a line ``0:40``; an end may be left open."""
     matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
     if len(matches) > 2 or not all(matches):
         raise InputError(
-            f"{text!r} is no part of a map", "write rows,columns such as 0:512,100:612, or 0:512 of a profile"
+            f"{text!r} is no part of a map", "write rows,columns such as 0:40,5:45, or 0:40 for a profile"
         )
     found = [[int(end) if end else None for end in match.groups()] for match in matches if match]
     for first, last in found:

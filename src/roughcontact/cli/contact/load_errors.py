@@ -35,6 +35,7 @@ class LoadErrors:
     """The errors of one load."""
 
     force: float
+    pressure: float
     budget: ErrorBudget
 
     def to_record(self) -> dict[str, Any]:
@@ -49,7 +50,9 @@ class LoadErrors:
             suits = units.get(name) or scale(abs(value), self.budget[name].unit)
             return suits.factor, suits.unit
 
-        typer.echo(f"\nerrors at {quantity('force', self.force)}")
+        unit = units.get("nominal_pressure") or scale(self.pressure, "Pa")
+        pressure = f"{self.pressure * unit.factor:.4g} {unit.unit}"
+        typer.echo(f"\nerrors at {quantity('force', self.force)}, nominal pressure {pressure}")
         print_table(*self.budget.table(names, in_unit))
         print_facts(self.budget.facts())
 
@@ -86,5 +89,5 @@ def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors,
         except ConvergenceError as error:
             note(f"no errors at {at}: {error}")
             continue
-        found.append(LoadErrors(solution.force, budget))
+        found.append(LoadErrors(solution.force, solution.nominal_pressure, budget))
     return tuple(found)

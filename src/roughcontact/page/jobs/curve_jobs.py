@@ -41,8 +41,8 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
         try:
             for state in path.states:
                 send({"type": "point", "load": float(loads[done]), **_point(state, job, path, done)})
-                done += 1
                 yield state
+                done += 1  # kept: a stop may come between the point that is shown and this line
         except Stopped:
             if not done or not path.parts:  # nothing to keep
                 raise
@@ -55,7 +55,18 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     import numpy as np
 
     answer = shown_curve(found)
-    send({"type": "curve", **answer.shown(), "stopped": stopped, "part": part, "again": reached is not None})
+    send(
+        {
+            **{
+                "type": "curve",
+                "count": done,
+                "stopped": stopped,
+                "part": part,
+                "again": reached is not None,
+            },
+            **answer.shown(),
+        }
+    )
     if answer.heights is not None:
         place: dict[str, Any] = {
             "lengths": answer.heights.grid.lengths,
