@@ -5,9 +5,11 @@ from __future__ import annotations
 import _thread
 import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
-__all__ = ["Stopped", "Stopping"]
+__all__ = ["Stopped", "Stopping", "uninterrupted"]
 
 
 class Stopped(BaseException):
@@ -28,6 +30,7 @@ class Stopping:
 
     def install(self) -> None:
         """Take over the signal that interrupts a program."""
+        _installed[:] = [self]
         signal.signal(signal.SIGINT, self._interrupt)
         sys.unraisablehook = self._swallowed
 
@@ -70,3 +73,16 @@ class Stopping:
             self.unwanted = self.running
         else:
             sys.__unraisablehook__(lost)
+
+
+_installed: list[Stopping] = []  # that of this process, if it is a worker
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Raise `Stopped` behind a block, and not in it."""
+    for stopping in _installed:
+        stopping.pause()
+    yield
+    for stopping in _installed:
+        stopping.go_on()

@@ -74,17 +74,21 @@ def _instead(context: Any, option: str) -> str:
         return f"use {' or '.join(found)} for it"
     known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]
     near = difflib.get_close_matches(option, known, 2)
+    slip = difflib.get_close_matches(option, known, 1, cutoff=_SLIP)
+    if not slip and (found := _elsewhere(context, option, anywhere=True)):
+        return f"use {' or '.join(found)} for it"
     if near:
         return f"did you mean {' or '.join(near)}?"
     return f"choose one that '{context.command_path} --help-all' lists"
 
 
+_SLIP = 0.8  # likeness of an option that is misspelt
 _MOST = 3  # commands that are named in place of one
 _VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
 
 
-def _elsewhere(context: Any, option: str) -> list[str]:
-    """Return which commands take an option: those of the same name, those of the same nested group, or any."""
+def _elsewhere(context: Any, option: str, *, anywhere: bool = False) -> list[str]:
+    """Return which commands of the same name or of the same nested group take an option, or which of all do."""
     root = context.find_root()
     if isinstance(context.command, TyperGroup):
         return []
@@ -106,7 +110,9 @@ def _elsewhere(context: Any, option: str) -> list[str]:
     ]
     if not found and context.parent is not root:
         found = taking(context.parent.command_path, context.parent.command.commands)
-    return found or [word for path, group in groups.items() for word in taking(path, group.commands)][:_MOST]
+    if anywhere:
+        found = [word for path, group in groups.items() for word in taking(path, group.commands)][:_MOST]
+    return found
 
 
 def _as_in_example(context: Any) -> str:

@@ -14,7 +14,7 @@ from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
-from roughcontact.page.stopping import Stopped
+from roughcontact.page.stopping import Stopped, uninterrupted
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.job_calls import performed
 from roughcontact.recipe.jobs import Job, known_names
@@ -41,8 +41,9 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
         try:
             for state in path.states:
                 send({"type": "point", "load": float(loads[done]), **_point(state, job, path, done)})
-                yield state
-                done += 1  # kept: a stop may come between the point that is shown and this line
+                done += 1
+                with uninterrupted():  # a state is collected whole, or not at all
+                    yield state
         except Stopped:
             if not done or not path.parts:  # nothing to keep
                 raise

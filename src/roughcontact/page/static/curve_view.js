@@ -96,7 +96,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
       draw();
     } else if (header.type === "curve") {
       run.end = header;
-      run.points.length = Math.min(run.points.length, header.count); // the last one may not have been kept
+      if (header.stopped) run.points.length = Math.min(run.points.length, header.count); // the last may not have been kept
       facts(by("curve_facts"), header.facts);
       list(by("curve_notes"), [...run.notes, ...header.notes]);
       draw();
