@@ -1,7 +1,8 @@
 """How far the errors of `rc.error_budget` can be trusted: python benchmarks/errors.py. The numbers of docs/errors.md.
 
-The area that counting cells adds to spheres; what is claimed against what the same surface gives on four times as many
-cells; what bandwidth does to each number; and the joint of benchmarks/joint.py with its errors.
+The area that counting cells adds to spheres; what is claimed for single spheres, against Hertz; what is claimed against
+what the same surface gives on four times as many cells; what bandwidth does to each number; and the joint of
+benchmarks/joint.py with its errors.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.evaluation.perimeter import OVERHANG, corrected_area, edge_count
 from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.validation import Array
 
 MODULUS = rc.reduced_modulus(STEEL, ALUMINIUM)
 NAMES = {
@@ -27,6 +29,7 @@ NAMES = {
     "corrected_contact_area": "A corrected",
     "depth": "depth",
 }
+OF_SPHERE = ("stiffness", "interfacial_stiffness", "contact_area", "corrected_contact_area")
 UNIT = 1e12  # N/um/mm^2 in Pa/m
 COARSE, FINE, SEEDS = 128, 512, 8
 CUTOFF = 8  # coarse cells of the shortest wave, where there is one
@@ -64,6 +67,52 @@ def spheres() -> None:
                 f"| {kind} | {radius} | {each.mean():.3f} ± {error:.3f} | {share[0]:+.1f} | {share[1]:+.1f} |"
             )
     print(f"\nthe constant of the correction: {OVERHANG:.3f}\n", flush=True)
+
+
+def single(n: int, count: int) -> tuple[Array, Array]:
+    """Return how far single spheres on n x n cells are from Hertz, and the claimed errors: relative to the numbers.
+
+    Parameters
+    ----------
+    n : int
+        Cells along each side.
+    count : int
+        Spheres. Their centre lies anywhere between the cells, and the radius of contact is 0.1 to 0.35 of a side.
+
+    Returns
+    -------
+    tuple of array
+        Shape (count, len(OF_SPHERE)): the distance from the true number, and the claimed error.
+    """
+    rng, missed, claimed = np.random.default_rng(n), [], []
+    for _ in range(count):
+        grid, curvature = rc.Grid((n, n), 1.0), 1e-3 / n
+        a, middle = n * rng.uniform(0.1, 0.35), n / 2 + rng.uniform(-0.5, 0.5, 2)
+        y, x = (c - m for c, m in zip(grid.coordinates, middle, strict=True))
+        surface = rc.Surface(-(y[:, None] ** 2 + x**2) * curvature / 2, grid)
+        budget = rc.error_budget(rc.press(surface, 1.0, force=4 / 3 * a**3 * curvature))
+        # The stiffness of the free body alone, 1/(1/k - 1/K), is that of the grid at hand for both.
+        k, whole = (budget[name].value for name in ("stiffness", "interfacial_stiffness"))
+        true = {"stiffness": 2 * a, "interfacial_stiffness": 1 / (1 / (2 * a) - 1 / k + 1 / whole)}
+        area = math.pi * a**2
+        true |= {"contact_area": area, "corrected_contact_area": area}
+        missed.append([true[name] / budget[name].value - 1 for name in OF_SPHERE])
+        claimed.append([budget[name].relative_error for name in OF_SPHERE])
+    return np.array(missed), np.array(claimed)
+
+
+def single_spheres() -> None:
+    """Print the true and the claimed errors of single spheres, and in how many the true one is within."""
+    print(f"| cells | {' | '.join(NAMES[name] for name in OF_SPHERE)} |\n|{'---|' * (1 + len(OF_SPHERE))}")
+    for n in (32, 64, 128):
+        missed, claimed = single(n, 100)
+        shares = 100 * np.mean(np.abs(missed) <= claimed, axis=0)
+        rms = [100 * np.sqrt(np.mean(each**2, axis=0)) for each in (missed, claimed)]
+        cells = [
+            f"{real:.1f} of {told:.1f}, {share:.0f} %" for real, told, share in zip(*rms, shares, strict=True)
+        ]
+        print(f"| {n} | {' | '.join(cells)} |", flush=True)
+    print()
 
 
 def pairs(
@@ -181,6 +230,7 @@ def worked() -> None:
 
 if __name__ == "__main__":
     spheres()
+    single_spheres()
     claims()
     bandwidth()
     worked()

@@ -59,6 +59,8 @@ SAY = {
     "surface.despike": "did you mean despiked?",
     "surface.level": "did you mean levelled?",
     "solution.area": "did you mean contact_area?",
+    "solution.corrected_contact_area": "did you mean rc.error_budget(solution)['corrected_contact_area']?",
+    "rc.corrected_contact_area": "did you mean rc.error_budget(solution)['corrected_contact_area']?",
     "solution.to_dataframe": "did you mean to_record() or to_dataset()?",
     "curve.pressure": "did you mean nominal_pressure?",
     "curve.area": "did you mean contact_area?",

@@ -26,10 +26,15 @@ _STATE = {
     "problem.modulus": "modulus",
     "problem.surface": "surface",
 }
+_BUDGET = {
+    f"rc.error_budget(solution)[{name!r}]": name
+    for name in ("corrected_contact_area", "corrected_contact_fraction")
+}
 _SOLID = {"young_modulus": "e young", "shear_modulus": "g", "poisson_ratio": "nu poisson"}
 _BRANCHES = ("force", "depth", "stiffness", "contact_area", "mean_gap", "nominal_pressure")
 _GUESSED = {
-    "roughcontact": {
+    "roughcontact": _BUDGET
+    | {
         "rc.read": "load open",
         "rc.write": "save to_csv",
         "rc.press": "solve",
@@ -49,7 +54,8 @@ _GUESSED = {
         "rc.write(surface, 'part.npz')": "save",
         "to_dataset()": "to_xarray",
     },
-    **dict.fromkeys(("Solution", "AdhesiveState", "DetachmentState"), _STATE),
+    "Solution": _STATE | _BUDGET,
+    **dict.fromkeys(("AdhesiveState", "DetachmentState"), _STATE),
     "Curve": _CURVE
     | {"nominal_pressure": "pressure", "fit().exponent": "exponent", "to_dataframe()": "to_pandas"},
     **dict.fromkeys(("AdhesiveCurve", "DetachmentCurve"), _CURVE | _TABLE),

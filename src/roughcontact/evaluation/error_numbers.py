@@ -6,24 +6,60 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
 from roughcontact.evaluation.error_budget import ROUNDING
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.validation import Array
 
-__all__ = ["NUMBERS", "number_table"]
+__all__ = ["NUMBERS", "border_floor", "number_table"]
 
 NUMBERS = (
     *("force", "depth", "stiffness", "interfacial_stiffness", "interfacial_stiffness_per_area"),
     *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
     *("mean_gap", "elastic_energy"),
 )
+# Of the correction of an area for its perimeter: nine in ten single spheres are no farther from Hertz (docs/errors.md).
+OF_AREA, OF_CORRECTED, OF_STIFFNESS = 1.0, 1 / 2, 1 / 8
 
 
 def number_table(solutions: Sequence[Solution | None]) -> Array:
     """Return NUMBERS of contacts, shape (numbers, contacts); NaN for None."""
     return np.array([list(_numbers(each)) for each in solutions]).T
+
+
+def border_floor(values: Array, spots: npt.ArrayLike) -> Array:
+    """Return what the cells at the border of a contact leave unknown of its numbers, whatever another grid gives.
+
+    Borders of different spots lie independently between the cells, so that it decreases as the root of their number.
+
+    Parameters
+    ----------
+    values : array
+        Of `number_table`, shape (numbers, contacts).
+    spots : array-like, shape (contacts,)
+        The numbers of spots.
+
+    Returns
+    -------
+    array
+        The smallest error of the grid, of this shape; 0 for numbers that do not depend on the border.
+    """
+    found, floor = dict(zip(NUMBERS, values, strict=True)), dict.fromkeys(NUMBERS, np.zeros(values.shape[1]))
+    for name in ("contact_area", "contact_fraction"):
+        overhang = found[name] - found[f"corrected_{name}"]
+        floor |= {name: OF_AREA * overhang, f"corrected_{name}": OF_CORRECTED * overhang}
+    with np.errstate(invalid="ignore", divide="ignore"):
+        relative = OF_STIFFNESS * (1 - found["corrected_contact_area"] / found["contact_area"])
+        stiffness, interfacial = found["stiffness"], found["interfacial_stiffness"]
+        floor["stiffness"] = relative * stiffness
+        relative *= interfacial / stiffness  # 1/k - 1/K is known: that of the body alone
+        floor["interfacial_stiffness"] = relative * interfacial
+        floor["interfacial_stiffness_per_area"] = relative * found["interfacial_stiffness_per_area"]
+    # In full contact stiffnesses are infinite, and without contact there is no border.
+    known = np.nan_to_num(list(floor.values()), nan=0.0, posinf=0.0, neginf=0.0)
+    return known / np.sqrt(np.maximum(spots, 1))
 
 
 def _numbers(solution: Solution | None) -> Iterator[float]:

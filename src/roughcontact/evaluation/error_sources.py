@@ -17,7 +17,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import notes_on_sources
-from roughcontact.evaluation.error_numbers import NUMBERS, number_table
+from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table
 from roughcontact.evaluation.other_maps import sampling_of
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
@@ -41,6 +41,7 @@ OF_FORM = (
 AT_DEPTH = (
     "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
 )
+FLOOR = "areas and stiffnesses at least by the cells along the border of the contact"
 SAME = 1e-9  # relative difference up to which two loads or spacings are one
 
 
@@ -77,7 +78,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     Notes
     -----
     *Grid*: the mean heights over half as many cells of the same sides, so that long waves stay what they are. The
-    change is what the grid at hand gained over that one; on nested surfaces it is more than what it still lacks.
+    change is what the grid at hand gained over that one; on nested surfaces it is more than what it still lacks. Two
+    grids may agree by chance: areas and stiffnesses have at least what the cells along the border leave unknown.
     *Short cut-off*: what the shortest waves of the map do. Still shorter ones do as much again to the area, and the
     depth counts from the highest point of all: their errors are those of a surface without shorter waves than its map.
     On a map that is rough down to its cells the depth has none (NaN), because it would grow with the grid.
@@ -110,7 +112,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     surfaces = [each.problem.surface for each in patches if isinstance(each.problem.surface, Surface)]
     shortest = checked_cutoff(surfaces[0], short_cutoff)
     cut = f"Gaussian low-pass at {shortest:.3g} m{'' if short_cutoff is not None else f', {CELLS} cells'}"
-    sources = [ErrorSource("grid", "bias", "half as many cells along each axis, of mean heights")]
+    sources = [ErrorSource("grid", "bias", f"half as many cells along each axis, of mean heights; {FLOOR}")]
     otherwise: list[Callable[[Surface], Surface]] = [halved]
     sources.append(ErrorSource("short cut-off", "bias", cut))
     otherwise.append(lambda surface: surface.filtered(short_cutoff=shortest))
@@ -122,11 +124,15 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     elif SurfaceKind.FORM in kinds:
         notes.append(OF_FORM)
     values, parts = number_table(patches), []
+    spots = [each.spot_count for each in patches]
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
         maps = list(zip(sources, otherwise, strict=True))
         for source, change in tracked(maps, "Errors: pressing maps made otherwise", "maps"):
             again = number_table([_again(each, change) for each in patches])
-            parts.append(np.where(again == values, 0.0, again - values).mean(axis=1))
+            part = np.where(again == values, 0.0, again - values).mean(axis=1)
+            if source.name == "grid":  # two grids agree by chance where their borders do
+                part = np.copysign(np.maximum(abs(part), border_floor(values, spots).mean(axis=1)), part)
+            parts.append(part)
             if np.isnan(again).all(axis=0).any():
                 notes.append(
                     f"The map made otherwise ({source.name}) cannot take this load: its part is unknown."
