@@ -137,7 +137,7 @@ def test_it_counts_the_samples_whose_load_is_resolved(invoke, study, tmp_path):
     """On 64 x 64 cells no load is, at the end of the power law; pressed twenty times as hard, all are."""
     answer = invoke("study", "table", study, "--at", "2MPa")
     assert [row.split()[1:3] for row in answer.stdout.splitlines()[1:]] == [["3", "0"], ["3", "0"]]
-    assert "some means contain loads that are not resolved" in answer.stderr
+    assert "all means contain loads that are not resolved" in answer.stderr
     (tmp_path / "hard.toml").write_text(TEXT.replace("loads = 8", "loads = 3, highest_force = 1.0"))
     invoke("study", "run", tmp_path / "hard.toml", "--out", tmp_path / "hard", "--executor", "serial")
     answer = invoke("study", "table", tmp_path / "hard", "--at", "1.0")
@@ -170,6 +170,45 @@ def test_pictures_are_drawn(invoke, study, tmp_path):
         assert f"quantity   {words[1] if words else 'dimensionless_stiffness'}" in answer.stdout
     told = json.loads(invoke("study", "plot", study, "--out", out, *WINDOW, "--json").stdout)
     assert told["quantity"] == "dimensionless_stiffness"
+
+
+def test_a_picture_at_one_load_is_of_the_stiffness_per_area(invoke, study, tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr("roughcontact.plot.canvas.save", lambda figure, out: drawn.append(figure))
+    words = ("study", "plot", study, "--out", tmp_path / "a.png", "--at")
+    answer = invoke(*words, "2MPa", "--json")
+    told = json.loads(answer.stdout)
+    assert (told["quantity"], told["nominal_pressure"]) == ("interfacial_stiffness_per_area", 2e6)
+    assert "all means contain loads that are not resolved" in answer.stderr
+    rows = json.loads(invoke("study", "table", study, "--at", "2MPa", "--json").stdout)["rows"]
+    [axes] = drawn.pop().axes
+    assert axes.get_title().endswith("at 2 MPa")
+    assert axes.get_ylabel().endswith("[N/µm/mm²]")
+    expected = [1e-12 * row["interfacial_stiffness_per_area"]["mean"] for row in rows]
+    np.testing.assert_allclose(axes.containers[0].lines[0].get_ydata(), expected, rtol=1e-12)
+    assert "quantity   contact_area" in invoke(*words, "0.01", "--quantity", "contact_area").stdout
+    assert drawn.pop().axes[0].get_title().endswith("at F/(E* h L) = 0.01")
+
+
+def test_a_run_says_what_it_computes_and_where_no_load_is_resolved(invoke, tmp_path):
+    (tmp_path / "tried.toml").write_text(TEXT)
+    hard = TEXT.replace("loads = 8", "loads = 3, highest_force = 1.0").replace("samples = 3", "samples = 1")
+    (tmp_path / "hard.toml").write_text(hard)
+
+    def told(name):
+        words = (tmp_path / f"{name}.toml", "--out", tmp_path / name, "--executor", "serial")
+        return invoke("study", "run", *words).stderr
+
+    unresolved = "Note: no load is resolved: compute more points or larger loads"
+    first = told("tried")
+    assert "Note: computing 6 cases: 2 combinations, 3 samples of each; 1 worker\n" in first
+    assert unresolved in first
+    again = told("tried")  # nothing is left
+    assert "computing" not in again
+    assert unresolved in again
+    resolved = told("hard")
+    assert "Note: computing 2 cases: 2 combinations, 1 sample of each; 1 worker\n" in resolved
+    assert unresolved not in resolved
 
 
 def test_where_there_is_no_law_it_says_why(invoke, study):
@@ -211,6 +250,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
             ("table", "STUDY", "--at", "5kg"),
             "--at: '5kg' is neither a pressure nor a force; write a pressure",
         ),
+        (("plot", "STUDY", "--out", "a.png", "--at", "0"), "--at: '0' is not above 0; choose a load above 0"),
         (("table", "STUDY", "--at", "0"), "--at: '0' is not above 0; choose a load above 0"),
         (
             ("table", "STUDY", "--quantity", "stifness"),

@@ -119,13 +119,42 @@ def test_axes_name_the_units_of_the_study(averaged):
             "points": "long_cutoff",
         }
     )
-    for name, unit in (("force", "N"), ("depth_mean", "m"), ("long_cutoff", "µm")):
+    renamed = renamed.assign_coords(long_cutoff=1e-7 * POINTS)
+    for name, unit in (("force", "N"), ("depth_mean", "m"), ("long_cutoff", "m")):
         renamed[name].attrs["units"] = unit
     [axes] = study_figure(renamed, "depth").axes
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [N]", "depth [m]")
-    np.testing.assert_array_equal(means_drawn(axes)[0].get_xdata(), FORCE[FORCE > 1e-3])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [mN]", "depth [mm]")
+    [line, *_] = means_drawn(axes)
+    np.testing.assert_array_equal(line.get_xdata(), 1e3 * FORCE[FORCE > 1e-3])
+    np.testing.assert_array_equal(line.get_ydata(), 1e3 * renamed["depth_mean"][0, 0][FORCE > 1e-3])
     [axes] = study_figure(renamed, "rms", "long_cutoff").axes
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("long cutoff [µm]", "rms height [m]")
+    np.testing.assert_allclose(marks(axes)[0][1], 0.1 * POINTS, rtol=1e-14)
+
+
+def test_a_stiffness_per_area_is_drawn_in_the_unit_of_the_table(averaged):
+    """1 Pa/m is 1e-12 N/µm/mm²; the title states the load."""
+    words = ("mean", "standard_error")
+    names = {f"rms_{word}": f"interfacial_stiffness_per_area_{word}" for word in words}
+    areal = averaged.drop_vars(list(names.values()), errors="ignore").rename(names)
+    for name in names.values():
+        areal[name] = (1e13 * areal[name]).assign_attrs(units="Pa m-1")
+    [axes] = study_figure(areal, "interfacial_stiffness_per_area", "hurst", at="1 MPa").axes
+    assert axes.get_ylabel().endswith("[N/µm/mm²]")
+    assert axes.get_title() == "means and their standard errors, at 1 MPa"
+    for i, (_, _, y, limits) in enumerate(marks(axes)):
+        np.testing.assert_allclose(y, 1e-12 * areal[f"{names['rms_mean']}"][:, i], rtol=1e-14)
+        error = areal[names["rms_standard_error"]][:, i]
+        np.testing.assert_allclose(np.diff(limits)[:, 0], 2e-12 * error, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("factor", "axis"), [(1.0, "hurst"), (1.05, "points")])
+def test_a_parameter_that_does_not_change_the_curves_is_not_the_default(averaged, factor, axis):
+    """Points have more values: they are the default unless all their curves coincide."""
+    mean = averaged["dimensionless_stiffness_mean"]
+    same = mean.isel(points=0, drop=True) * xarray.DataArray([1.0, factor, 1.0], dims="points")
+    scaled = averaged.assign(dimensionless_stiffness_mean=same.transpose(*mean.dims))
+    assert study_figure(scaled, "dimensionless_stiffness").axes[-1].get_xlabel().startswith(axis[:4])
 
 
 def test_a_study_is_drawn_against_force_without_dimension_where_it_has_both(averaged):
@@ -157,6 +186,7 @@ def test_more_lines_than_a_legend_holds_stand_in_panels(averaged):
             expected = more["dimensionless_stiffness_mean"][i, j].to_numpy()
             np.testing.assert_array_equal(line.get_ydata(), expected[FORCE > 1e-3])
         assert len([line for line in axes.lines if line.get_linestyle() == "--"]) == 3
+    assert len({axes.get_ylim() for axes in panels}) == 1
     assert [axes.get_legend() is None for axes in panels] == [False, True, True]
     assert [text.get_text() for text in panels[0].get_legend().get_texts()] == ["0.2", "0.8", "1.2"]
     assert last.get_legend().get_title().get_text() == "height [µm]"

@@ -11,11 +11,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.errors import InputError
+from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
 from roughcontact.recipe.texts import choose
 from roughcontact.statistics.averages import combinations
+from roughcontact.validation import Array
 
 __all__ = ["study_figure"]
 
@@ -25,10 +27,13 @@ _WIDE = 16.0  # from this ratio on, values of a parameter stand on a logarithmic
 _APART = 0.006  # of the axis, between the marks of series
 _FEW = 7  # lines that one panel holds with a legend
 _COLUMNS = 3  # of panels
+_VISIBLE = 0.01  # relative; closer curves coincide in a picture
 _MOST = 0.5  # of the samples: a mean counts as resolved where more are
 
 
-def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = None) -> Figure:
+def study_figure(
+    averaged: xarray.Dataset, quantity: str, along: str | None = None, *, at: str = ""
+) -> Figure:
     """Return the picture of one quantity of a study: against force with its laws, or against what varies.
 
     Parameters
@@ -38,7 +43,10 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     quantity : str
         Along the loads, or without a dimension of its own.
     along : str, optional
-        The parameter on the axis; by default the number of which there are most values.
+        The parameter on the axis; with curves, the one that differs within a panel. By default the number with most
+        values; with curves, of the numbers that change them.
+    at : str, optional
+        The load of the averages in words, such as ``"1 MPa"``, for the title.
 
     Returns
     -------
@@ -75,9 +83,10 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
             choose(along, tuple(numbers)) if numbers else "leave it out: no number varies",
             "along",
         )
-    chosen = along or max(numbers, key=lambda each: len(numbers[each]), default=None)
+    averaged = _in_engineering_units(averaged, quantity)
     if points == ["load"]:
-        return _curves(averaged, quantity, chosen)
+        return _curves(averaged, quantity, along, numbers)
+    chosen = along or _most_values(numbers)
     if points:
         raise InputError(
             f"{quantity!r} lies along {', '.join(map(str, points))}", "choose one along the loads, or none"
@@ -85,8 +94,28 @@ def study_figure(averaged: xarray.Dataset, quantity: str, along: str | None = No
     if chosen is None:
         raise InputError(f"{quantity!r} is one number, and nothing varies", "take the command study table")
     figure = Figure(figsize=(5.6, 4.2), layout="constrained")
-    _against(figure.subplots(), averaged, quantity, chosen)
+    axes = figure.subplots()
+    _against(axes, averaged, quantity, chosen)
+    if at:
+        axes.set_title(f"{axes.get_title()}, at {at}", fontsize=TICK)
     return figure
+
+
+def _in_engineering_units(averaged: xarray.Dataset, quantity: str) -> xarray.Dataset:
+    """Return the averages with the drawn quantity and the forces in units that leave short numbers."""
+
+    def scaled(name: str, largest: str) -> xarray.DataArray:
+        values = averaged[name]
+        chosen = scale(float(abs(averaged[largest]).max()), values.attrs.get("units", ""))
+        return (chosen.factor * values).assign_attrs(values.attrs | {"units": chosen.unit})
+
+    mean, error = f"{quantity}_mean", f"{quantity}_standard_error"
+    names = {name: name for name in _FORCES if name in averaged} | {error: mean, mean: mean}
+    return averaged.assign({name: scaled(name, largest) for name, largest in names.items()})
+
+
+def _most_values(numbers: Mapping[str, set[float]]) -> str | None:
+    return max(numbers, key=lambda each: len(numbers[each]), default=None)
 
 
 def _numbers(averaged: xarray.Dataset) -> dict[str, set[float]]:
@@ -99,11 +128,16 @@ def _numbers(averaged: xarray.Dataset) -> dict[str, set[float]]:
     return {name: values for name, values in found.items() if len(values) > 1}
 
 
-def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figure:
+def _curves(
+    averaged: xarray.Dataset, quantity: str, along: str | None, numbers: Mapping[str, set[float]]
+) -> Figure:
     """Return means against force, and beside them the exponents of their laws where there are some."""
     force = next((name for name in _FORCES if name in averaged and "load" in averaged[name].dims), None)
     if force is None:
         raise InputError("the study has no forces along its loads", "choose a quantity without loads")
+    if along is None:
+        changing = {name: each for name, each in numbers.items() if _change(averaged, quantity, force, name)}
+        along = _most_values(changing or numbers)
     there = quantity == _LAW and "exponent" in averaged and bool(averaged["exponent"].notnull().any())
     panels, title = _panels(averaged, along)
     count = len(panels) + (there and along is not None)
@@ -118,6 +152,9 @@ def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figur
         axes.set_title(words, fontsize=TICK)
         if axes is not places[0] and (legend := axes.get_legend()) is not None:
             legend.remove()  # that of the first panel is the legend of all
+    low, high = zip(*(axes.get_ylim() for axes in places[: len(panels)]), strict=True)
+    for axes in places[: len(panels)]:
+        axes.set_ylim(min(low), max(high))
     if there and along is not None:
         _against(places[len(panels)], averaged, "exponent", along)
     for axes in places[count:]:
@@ -126,6 +163,28 @@ def _curves(averaged: xarray.Dataset, quantity: str, along: str | None) -> Figur
     laws = ", power laws (dashed)" if there else ""
     figure.suptitle(f"means and their standard errors{laws}{dotted}", fontsize=TICK)
     return figure
+
+
+def _change(averaged: xarray.Dataset, quantity: str, force: str, name: str) -> bool:
+    """Return whether curves that differ in one parameter alone lie apart."""
+    groups: dict[tuple[object, ...], list[tuple[Array, Array]]] = {}
+    for parameters, point in combinations(averaged):
+        others = tuple(value for each, value in parameters.items() if each != name)
+        x, y = (point[each].to_numpy() for each in (force, f"{quantity}_mean"))
+        shown = (x > 0) & (y > 0)
+        order = np.argsort(x[shown])
+        groups.setdefault(others, []).append((np.log(x[shown][order]), np.log(y[shown][order])))
+    return any(_are_apart(group[0], curve) for group in groups.values() for curve in group[1:])
+
+
+def _are_apart(one: tuple[Array, Array], other: tuple[Array, Array]) -> bool:
+    """Return whether two curves, by their logarithms, differ visibly at a force that both reach."""
+    (x, y), (places, values) = one, other
+    if not x.size or not places.size:
+        return bool(x.size or places.size)
+    # Rounding must not part the ends of curves with equal forces.
+    common = (x >= places[0] - _VISIBLE) & (x <= places[-1] + _VISIBLE)
+    return not common.any() or bool(np.abs(np.interp(x, places, values) - y)[common].max() > _VISIBLE)
 
 
 def _panels(averaged: xarray.Dataset, along: str | None) -> tuple[dict[str, dict[str, xarray.Dataset]], str]:
@@ -182,7 +241,8 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
     for parameters, point in combinations(averaged):
         words = ", ".join(labels[name].value(parameters[name]) for name in others)
         series.setdefault(words, []).append((float(parameters[along]), *_with_limits(point, quantity)))
-    places = np.array([row[0] for rows in series.values() for row in rows])
+    chosen = labels[along].scale
+    places = chosen.factor * np.array([row[0] for rows in series.values() for row in rows])
     wide = places.min() > 0 and places.max() >= _WIDE * places.min()
     if wide:
         axes.set_xscale("log")
@@ -191,8 +251,8 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
     for k, ((label, rows), colour) in enumerate(zip(series.items(), shades(len(series)), strict=True)):
         x, y, low, high = np.array(sorted(rows)).T
         values = {quantity: y, f"{quantity}_low": low, f"{quantity}_high": high}
-        fits = xarray.Dataset({n: (along, v, attributes) for n, v in values.items()}, {along: x})
-        fits[along].attrs.update(averaged[along].attrs)
+        data = {n: (along, v, attributes) for n, v in values.items()}
+        fits = xarray.Dataset(data, {along: (along, chosen.factor * x, {"units": chosen.unit})})
         fitted_values(fits, quantity, axes, along=along, label=label, colour=colour, shift=step * k)
     axes.set_title(
         "95 % intervals" if f"{quantity}_low" in averaged else "means and their standard errors",

@@ -12,8 +12,8 @@ from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.study.study_command import FOLDER, dataset_writer, own_cases, require_results
-from roughcontact.errors import InputError
-from roughcontact.files.quantity import FORCE, PRESSURE, parse, parse_number
+from roughcontact.errors import InputError, placed
+from roughcontact.files.quantity import FORCE, PRESSURE, has_unit, parse, parse_number
 from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.recipe.recipe_fields import check, described, value_of
@@ -23,7 +23,20 @@ if TYPE_CHECKING:
 
     from roughcontact.statistics.fit_window import Window
 
-__all__ = ["EXAMPLES", "LawWindow", "average", "averaged_in", "means_of", "note_laws", "plot"]
+__all__ = [
+    "AT",
+    "EXAMPLES",
+    "USUAL",
+    "LawWindow",
+    "average",
+    "averaged_in",
+    "load_of",
+    "means_of",
+    "note_laws",
+    "note_unresolved",
+    "plot",
+    "resolved_in",
+]
 
 EXAMPLES = {
     "average": """
@@ -34,15 +47,25 @@ roughcontact study average results --out averages.nc --window 1e-3:0.07
 roughcontact study plot results --out hurst.png
 roughcontact study plot results --out area.pdf --quantity contact_area
 roughcontact study plot results --out slope.svg --quantity rms_slope --along hurst
+roughcontact study plot results --out pressed.png --at 1MPa --along rms
 """,
 }
 
 FILE = option("File to write: .nc or .csv.", "FILE", default=...)
 PICTURE = option("Picture to write: .png, .pdf or .svg.", "FILE", default=...)
 QUANTITY = option(
-    "What to draw (default: stiffness over E* L, with its power laws; else the first that differs).", "NAME"
+    "What to draw (default: stiffness over E* L, with its power laws; with --at the interfacial stiffness per area; "
+    "otherwise the first that differs).",
+    "NAME",
 )
-ALONG = option("The parameter on the axis (default: the number with most values).", "NAME")
+ALONG = option(
+    "At one load, the parameter on the axis; with curves, the parameter that differs within a panel (default: the "
+    "number with most values; with curves, of those that change them).",
+    "NAME",
+)
+AT = option("For quantities along the loads: a pressure, a force, or a force over E* h L.", "1MPa")
+
+USUAL = ("interfacial_stiffness_per_area", "stiffness", "contact_fraction", "mean_gap")  # at one load
 
 _STIFFNESS = "dimensionless_stiffness"
 _LEAST = 3  # forces that make a law, as in statistics.fit
@@ -104,6 +127,7 @@ def plot(
     out: Path = PICTURE,
     quantity: str | None = QUANTITY,
     along: str | None = ALONG,
+    at: str | None = AT,
     window: LawWindow,
     json: bool = JSON,
 ) -> None:
@@ -115,15 +139,38 @@ def plot(
 
         require_picture(out)
         require_target(out)
-        averaged = averaged_in(folder, window.value())
-        chosen = quantity or _first(averaged)
-        save(study_figure(averaged, chosen, along), out)
-        if chosen == _STIFFNESS:
+        load = load_of(at)
+        averaged = averaged_in(folder, window.value(), load)
+        chosen = quantity or _first(averaged, () if load else (_STIFFNESS,))
+        save(study_figure(averaged, chosen, along, at=_written_load(*load) if load else ""), out)
+        if load is not None:
+            note_unresolved(averaged)
+        elif chosen == _STIFFNESS:
             note_laws(averaged)
         if json:
-            emit({"command": "study plot", "folder": str(folder), "file": str(out), "quantity": chosen})
+            record = {"command": "study plot", "folder": str(folder), "file": str(out), "quantity": chosen}
+            emit(record | (dict([load]) if load else {}))
         else:
             print_facts([("file", str(out)), ("quantity", chosen)])
+
+
+def load_of(at: str | None) -> tuple[str, float] | None:
+    """Return the variable that a load of ``--at`` is a value of, and the value in SI; None where it was left out."""
+    if at is None:
+        return None
+    with placed("at"):
+        name, value = _with_unit(at) if has_unit(at) else ("dimensionless_force", parse_number(at, "0.01"))
+        if not value > 0:
+            raise InputError(f"{at!r} is not above 0", "choose a load above 0")
+    return name, value
+
+
+def _written_load(name: str, value: float) -> str:
+    """Return a load in words, such as 1 MPa."""
+    from roughcontact.labels.variables import VARIABLES
+
+    words = written(value, VARIABLES[name].unit, 4)
+    return f"F/(E* h L) = {words}" if name == "dimensionless_force" else words
 
 
 def _with_unit(text: str) -> tuple[str, float]:
@@ -184,11 +231,11 @@ def _require_between(dataset: xarray.Dataset, name: str, value: float) -> None:
         )
 
 
-def _first(averaged: xarray.Dataset) -> str:
-    """Return what is drawn unasked: the stiffness over E* L, else what differs first along the loads, else at all."""
+def _first(averaged: xarray.Dataset, preferred: tuple[str, ...]) -> str:
+    """Return the default quantity: a preferred or usual one, else the first along the loads, else the first."""
     names = means_of(averaged)
     along = [name for name in names if "load" in averaged[f"{name}_mean"].dims and "force" not in name]
-    found = [name for name in (_STIFFNESS, *along, *names) if name in names]
+    found = [name for name in (*(preferred or USUAL), *along, *names) if name in names]
     if not found:
         raise UsageError(
             "nothing in the study differs from sample to sample", "see roughcontact study export"
@@ -203,6 +250,27 @@ def means_of(averaged: xarray.Dataset) -> list[str]:
 
 def _is_mean(name: str) -> bool:
     return name.endswith("_mean") and not name.endswith("_geometric_mean")
+
+
+def resolved_in(averaged: xarray.Dataset) -> xarray.DataArray | None:
+    """Return in how many samples of each combination the load is resolved; None where there is not one load each."""
+    if "resolved" in averaged:  # the same in all samples
+        found = averaged["cases"] * averaged["resolved"]
+    elif "resolved_mean" in averaged:
+        found = (averaged["resolved_mean"] * averaged["resolved_count"]).fillna(0).round()
+    else:
+        return None
+    return found.astype(int) if found.dims == averaged["cases"].dims else None
+
+
+def note_unresolved(averaged: xarray.Dataset) -> None:
+    """Print a note where means at one load contain samples in which it is not resolved."""
+    resolved = resolved_in(averaged)
+    if resolved is not None and bool((short := resolved < averaged["cases"]).any()):
+        note(
+            f"{'all' if bool(short.all()) else 'some'} means contain loads that are not resolved (column resolved of "
+            "study table): compute more points or larger loads"
+        )
 
 
 def note_laws(averaged: xarray.Dataset) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
     from roughcontact.study.record import Row
     from roughcontact.study.study import Study
-    from roughcontact.study.task import Summary
+    from roughcontact.study.task import Executor, Result, RunTask, Summary, Task
 
 __all__ = [
     "EXAMPLES",
@@ -87,8 +88,10 @@ def run(
         engine = workplace.open()
         again = [*workplace.typed(), *(["--retry"] if retry else [])]
         with resumable(_command("run", folder, *again), as_json=json):
-            summary = run_study(study, folder, engine, retry=retry)
+            summary = run_study(study, folder, _Announced(engine, study), retry=retry)
         _tell(study, folder, summary, as_json=json)
+        if _is_unresolved(folder):
+            remark("no load is resolved: compute more points or larger loads")
         if summary.failed:
             note(f"{summary.failed} cases failed; why says: {_command('status', folder, '--failed')}")
             raise typer.Exit(MISSED)
@@ -165,6 +168,47 @@ def require_results(folder: Path, summary: Summary) -> None:
     """Refuse a folder in which no case is done."""
     if not summary.done:
         raise UsageError(f"{folder} holds no results yet", _command("run", folder))
+
+
+@dataclass(frozen=True, slots=True)
+class _Announced:
+    """An executor that prints how many cases it computes."""
+
+    engine: Executor
+    study: Study
+
+    @property
+    def workers(self) -> int:
+        return self.engine.workers
+
+    def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
+        left = list(tasks)
+        if left:
+            combinations = len(self.study.combinations())
+            remark(
+                f"computing {_counted(len(left), 'case')}: {_counted(combinations, 'combination')}, "
+                f"{_counted(self.study.samples, 'sample')} of each; {_counted(self.workers, 'worker')}"
+            )
+        return self.engine.results(run_task, left)
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _is_unresolved(folder: Path) -> bool:
+    """Return whether cases say which loads are resolved, and none is."""
+    from roughcontact.study.store import Store
+
+    found = False
+    with Store.open(folder) as store:
+        for row in store.rows():
+            record = row.record
+            if record is not None and "resolved" in record:
+                if bool(record["resolved"].any()):
+                    return False
+                found = True
+    return found
 
 
 def _found(source: Path, out: Path | None) -> tuple[Study, Path]:

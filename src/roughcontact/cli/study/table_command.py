@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.cli.messages import UsageError, note, reported
+from roughcontact.cli.messages import UsageError, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
 from roughcontact.cli.report import emit, print_table
-from roughcontact.cli.study.averages_command import LawWindow, averaged_in, means_of, note_laws
+from roughcontact.cli.study.averages_command import (
+    AT,
+    USUAL,
+    LawWindow,
+    averaged_in,
+    load_of,
+    means_of,
+    note_laws,
+    note_unresolved,
+    resolved_in,
+)
 from roughcontact.cli.study.study_command import FOLDER, own_cases
-from roughcontact.errors import InputError, placed
-from roughcontact.files.quantity import FORCE, PRESSURE, has_unit, parse, parse_number
 from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.recipe.texts import choose
@@ -38,10 +45,8 @@ QUANTITIES = option(
     "without loads).",
     "NAME,...",
 )
-AT = option("For quantities along the loads: a pressure, a force, or a force over E* h L.", "1MPa")
 
 _LAW = ("exponent", "prefactor")
-_USUAL = ("interfacial_stiffness_per_area", "stiffness", "contact_fraction", "mean_gap")  # at one load
 _EQUAL = 1e-12  # of a mean: samples that differ by no more are equal
 _CERTIFICATES = ("residual", "stiffness_residual", "resolved")  # shown where they are asked for
 _MOST_DECIMALS = 5  # beyond these a power of ten is shorter
@@ -57,8 +62,7 @@ def table(
 ) -> None:
     """Print one line for each combination of what varies: power laws, or means with their standard errors."""
     with reported(folder, as_json=json), own_cases():
-        with placed("at"):
-            load = None if at is None else _load(at)
+        load = load_of(at)
         averaged = averaged_in(folder, window.value(), load)
         laws = quantity is None and "exponent" in averaged and load is None
         names = () if laws else _quantities(averaged, quantity, load)
@@ -68,29 +72,8 @@ def table(
             print_table(*_table(averaged, names, laws))
         if laws or (quantity is None and load is None):
             note_laws(averaged)
-        resolved = None if load is None else _resolved(averaged)
-        if resolved is not None and bool((resolved < averaged["cases"]).any()):
-            note(
-                "some means contain loads that are not resolved (column resolved): compute more points or larger loads"
-            )
-
-
-def _load(text: str) -> tuple[str, float]:
-    """Return the variable that a load of ``--at`` is a value of, and the value in SI."""
-    name, value = _with_unit(text) if has_unit(text) else ("dimensionless_force", parse_number(text, "0.01"))
-    if not value > 0:
-        raise InputError(f"{text!r} is not above 0", "choose a load above 0")
-    return name, value
-
-
-def _with_unit(text: str) -> tuple[str, float]:
-    for name, kind in (("nominal_pressure", PRESSURE), ("force", FORCE)):
-        with suppress(InputError):
-            return name, parse(text, kind)
-    raise InputError(
-        f"{text!r} is neither a pressure nor a force",
-        "write a pressure such as 1MPa, a force such as 10N, or a force over E* h L such as 0.01",
-    )
+        if load is not None:
+            note_unresolved(averaged)
 
 
 def _quantities(
@@ -101,7 +84,7 @@ def _quantities(
     if asked is None:
         if not single:
             raise UsageError("all quantities lie along the loads", "choose a load by --at, such as --at 1MPa")
-        usual = tuple(name for name in _USUAL if name in single) if load is not None else ()
+        usual = tuple(name for name in USUAL if name in single) if load is not None else ()
         return usual or tuple(name for name in single if name not in _CERTIFICATES)
     names = tuple(part.strip() for part in asked.split(",") if part.strip())
     for name in names:
@@ -139,7 +122,7 @@ def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[
     for name, label in parameter_labels(averaged).items():
         add(label.title, [label.value(parameters[name]) for parameters, _ in points])
     add("samples", [str(int(point["cases"])) for _, point in points])
-    if not laws and (resolved := _resolved(averaged)) is not None:
+    if not laws and (resolved := resolved_in(averaged)) is not None:
         add("resolved", list(map(str, resolved.to_numpy().ravel())))
     if laws:
         for name in _LAW:
@@ -157,17 +140,6 @@ def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[
         ]
         add(f"{name.replace('_', ' ')} [{chosen.unit}]" if chosen.unit else name.replace("_", " "), cells)
     return header, [list(row) for row in zip(*columns, strict=True)]
-
-
-def _resolved(averaged: xarray.Dataset) -> xarray.DataArray | None:
-    """Return in how many samples of each combination the load is resolved; None where there is not one load each."""
-    if "resolved" in averaged:  # the same in all samples
-        found = averaged["cases"] * averaged["resolved"]
-    elif "resolved_mean" in averaged:
-        found = (averaged["resolved_mean"] * averaged["resolved_count"]).fillna(0).round()
-    else:
-        return None
-    return found.astype(int) if found.dims == averaged["cases"].dims else None
 
 
 def _number(value: float) -> str:
@@ -195,7 +167,7 @@ def _record(
 
     words = ("mean", "standard_deviation", "standard_error", "count")
     rows = []
-    counted = _resolved(averaged)
+    counted = resolved_in(averaged)
     resolved = None if counted is None else iter(counted.to_numpy().ravel().tolist())
     for parameters, point in combinations(averaged):
         row: dict[str, Any] = {"parameters": parameters, "samples": int(point["cases"])}
