@@ -20,7 +20,7 @@ NUMBERS = (
     *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
     *("mean_gap", "elastic_energy"),
 )
-# Of the correction of an area for its perimeter: nine in ten single spheres are no farther from Hertz (docs/errors.md).
+# Factors on the correction of an area for its perimeter. They cover nine in ten single spheres (docs/errors.md).
 OF_AREA, OF_CORRECTED, OF_STIFFNESS = 1.0, 1 / 2, 1 / 8
 
 
@@ -54,7 +54,7 @@ def border_floor(values: Array, spots: npt.ArrayLike) -> Array:
         relative = OF_STIFFNESS * (1 - found["corrected_contact_area"] / found["contact_area"])
         stiffness, interfacial = found["stiffness"], found["interfacial_stiffness"]
         floor["stiffness"] = relative * stiffness
-        relative *= interfacial / stiffness  # 1/k - 1/K is known: that of the body alone
+        relative *= interfacial / stiffness  # 1/k - 1/K has no error: it is the compliance of the body
         floor["interfacial_stiffness"] = relative * interfacial
         floor["interfacial_stiffness_per_area"] = relative * found["interfacial_stiffness_per_area"]
     # In full contact stiffnesses are infinite, and without contact there is no border.

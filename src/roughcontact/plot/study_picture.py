@@ -166,7 +166,7 @@ def _curves(
 
 
 def _change(averaged: xarray.Dataset, quantity: str, force: str, name: str) -> bool:
-    """Return whether curves that differ in one parameter alone lie apart."""
+    """Return whether curves that differ in only one parameter lie apart."""
     groups: dict[tuple[object, ...], list[tuple[Array, Array]]] = {}
     for parameters, point in combinations(averaged):
         others = tuple(value for each, value in parameters.items() if each != name)
