@@ -1,6 +1,7 @@
 """What a study says on the average, by command."""
 
 import json
+import sys
 import tomllib
 from pathlib import Path
 
@@ -145,6 +146,19 @@ def test_it_counts_the_samples_whose_load_is_resolved(invoke, study, tmp_path):
     assert "not resolved" not in answer.stderr
     rows = json.loads(invoke("study", "table", tmp_path / "hard", "--at", "1.0", "--json").stdout)["rows"]
     assert [row["resolved"] for row in rows] == [3, 3]
+
+
+def test_a_table_counts_the_samples_behind_each_mean(invoke, study, monkeypatch):
+    """The loads of one of three samples end below 2 N: its mean is that of the two others, and the table says so."""
+
+    def shortened(store):
+        dataset = export(store)
+        force = (0 * dataset["stiffness"] + dataset["force"]).assign_attrs(dataset["force"].attrs)
+        return dataset.assign(force=force.where(dataset["sample"] != 2, 0.01 * force))
+
+    monkeypatch.setattr(sys.modules["roughcontact.study.export"], "export", shortened)
+    rows = invoke("study", "table", study, "--at", "2N").stdout.splitlines()[1:]
+    assert [row.split()[1] for row in rows] == ["2", "2"]
 
 
 def test_json_holds_the_laws(invoke, study, averaged):

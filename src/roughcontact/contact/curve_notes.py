@@ -43,8 +43,8 @@ def curve_notes(curve: Curve) -> tuple[str, ...]:
         return tuple(notes)
     if law.scatter > _SCATTER:
         notes.append(
-            f"The power law scatters by {law.scatter:.2g}: the loads follow no power law, and its exponent tells "
-            "nothing of the surface."
+            f"The power law scatters by {law.scatter:.2g}: the loads follow no power law, and its exponent does "
+            "not describe the surface."
         )
     return tuple(notes)
 

@@ -12,6 +12,8 @@ import numpy as np
 
 from roughcontact.labels.labelled import attributes_of
 from roughcontact.labels.variables import VARIABLES
+from roughcontact.study.cases import find_case
+from roughcontact.study.cases.shared_parameters import RoughSquare
 from roughcontact.study.collect import Collector
 from roughcontact.study.nested_names import flat
 from roughcontact.study.study_errors import StudyError
@@ -64,13 +66,13 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
     >>> dict(dataset["stiffness"].sizes), dataset["stiffness"].attrs["units"]
     ({'hurst': 2, 'sample': 2, 'load': 3}, 'N m-1')
     """
-    return _per_area(assemble(store.study, store.rows(), seconds=seconds))
+    dataset = assemble(store.study, store.rows(), seconds=seconds)
+    is_square = issubclass(find_case(store.study.case).parameters, RoughSquare)
+    return _per_area(dataset) if is_square else dataset
 
 
 def _per_area(dataset: xarray.Dataset) -> xarray.Dataset:
-    """Return a dataset with what follows from the area of a square; records of older cases hold forces alone."""
-    if "size" not in dataset or "force" not in dataset or "nominal_pressure" in dataset:
-        return dataset
+    """Return a dataset of rough squares with what follows from their area; records hold forces and areas only."""
     area = dataset["size"] ** 2
     pairs = {"nominal_pressure": "force", "contact_fraction": "contact_area"}
     pairs["interfacial_stiffness_per_area"] = "interfacial_stiffness"

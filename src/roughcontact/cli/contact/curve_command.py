@@ -79,8 +79,8 @@ _FEWEST = 3  # resolved loads that a power law takes
 def curve(job: CurveJob, *, answer: Answer) -> None:
     """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
 
-    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size. Of a
-    joint known by rms height and slope only, 'surface specified' makes a map, and 'theory' needs none.
+    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size. For a
+    joint of which only rms height and slope are known, use 'surface specified' to make a map, or 'theory'.
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
@@ -259,25 +259,24 @@ def _load(
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
     path = solutions_along(surface, modulus, every, **limits)
-    notes: list[tuple[Note, ...]] = []
     ends: list[Solution] = []
-    turn: list[Solution] = []
+    last: list[Solution] = []
 
     def watched(path: Iterator[Solution]) -> Iterator[Solution]:
         try:
             for solution in islice(path, count):
                 resolved = solution.resolved and solution.status.converged  # which takes as long as the load
-                notes[:], turn[:] = [tuple(notes_on(solution))], [solution]
+                last[:] = [solution]
                 if resolved:
                     ends[1 if ends else 0 :] = [solution]
                 yield solution
         except KeyboardInterrupt:
-            if not notes:  # nothing to keep
+            if not last:  # nothing to keep
                 raise
 
     curve = collect(watched(path))
     closed = None
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):
-            closed = closed_loop(curve, turn[0], path)
-    return curve, notes[0], ends, closed
+            closed = closed_loop(curve, last[0], path)
+    return curve, tuple(notes_on(last[0])), ends, closed

@@ -197,17 +197,18 @@ def _counted(number: int, noun: str) -> str:
 
 
 def _is_unresolved(folder: Path) -> bool:
-    """Return whether cases say which loads are resolved, and none is."""
+    """Return whether records state which loads are resolved, and none is."""
     from roughcontact.study.store import Store
 
     found = False
     with Store.open(folder) as store:
         for row in store.rows():
             record = row.record
-            if record is not None and "resolved" in record:
-                if bool(record["resolved"].any()):
-                    return False
-                found = True
+            if record is None:
+                continue
+            if "resolved" not in record or bool(record["resolved"].any()):  # one case has one kind of record
+                return False
+            found = True
     return found
 
 

@@ -121,7 +121,11 @@ def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[
 
     for name, label in parameter_labels(averaged).items():
         add(label.title, [label.value(parameters[name]) for parameters, _ in points])
-    add("samples", [str(int(point["cases"])) for _, point in points])
+    # A mean has the samples whose loads reach the load of --at.
+    behind = [
+        [point["cases"].item(), *(point[f"{name}_count"].item() for name in names)] for _, point in points
+    ]
+    add("samples", [str(int(min(counts))) for counts in behind])
     if not laws and (resolved := resolved_in(averaged)) is not None:
         add("resolved", list(map(str, resolved.to_numpy().ravel())))
     if laws:

@@ -19,6 +19,8 @@ from roughcontact.recipe.texts import points
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
+    from roughcontact.plot.preparation_warnings import PreparationWarning
+    from roughcontact.surface.preparation.spikes import Spikes
     from roughcontact.surface.surface import Surface
 
 __all__ = ["SessionCache", "UploadedFile"]
@@ -84,10 +86,18 @@ class SessionCache:
         found = self._once(
             "warnings", _key(_calls_of_source(job)), lambda: preparation_warnings(self.read(job)[0])[1]
         )
-        calls = _key(list(surface_calls(job)))
-        after = self._once("warnings after", calls, lambda: preparation_warnings(self.surface(job))[1])
-        left = {warning.kind for warning in after}
+        left = {warning.kind for warning in self._looked_at(job)[1]}
         return [asdict(warning) | {"left": warning.kind in left} for warning in found]
+
+    def spikes(self, job: Job) -> Spikes:
+        """Return the spikes of the prepared heights."""
+        return self._looked_at(job)[0]
+
+    def _looked_at(self, job: Job) -> tuple[Spikes, list[PreparationWarning]]:
+        from roughcontact.plot.preparation_warnings import preparation_warnings
+
+        calls = _key(list(surface_calls(job)))
+        return self._once("looked at", calls, lambda: preparation_warnings(self.surface(job)))
 
     def solution(self, job: Job) -> Solution:
         """Return the loaded state; where the tolerance was missed, the best that was reached."""

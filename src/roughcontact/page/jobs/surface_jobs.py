@@ -80,7 +80,7 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
         )
     warned = [each | {"remedy": on_the_page(each["remedy"])} for each in cache.warnings(request.job)]
     send({"type": "warnings", "warnings": warned})
-    send({"type": "spikes", "places": rc.find_spikes(surface).places[:_MOST_SPIKES].tolist()})
+    send({"type": "spikes", "places": cache.spikes(request.job).places[:_MOST_SPIKES].tolist()})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0

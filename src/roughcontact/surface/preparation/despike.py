@@ -54,9 +54,8 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
     require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}", place="to")
     taken = np.zeros(surface.grid.shape, dtype=np.bool_)
     given_up = taken.copy()  # of the cells that are taken, those that stand out when they are filled
-    clean = surface
+    clean, spikes = surface, find_spikes(surface)
     for _ in range(_PASSES):
-        spikes = find_spikes(clean)
         if spikes.count == 0:
             break
         given_up |= spikes.mask & taken
@@ -66,6 +65,7 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
             whole = filled(surface.with_heights(heights, "")).heights
             heights = np.where(taken & ~given_up, whole, heights)
         clean = surface.with_heights(heights, "")
+        spikes = find_spikes(clean)
     if clean is surface:
         return surface
     words, count = f"despiked: {described(surface.heights, taken)}", int(given_up.sum())
@@ -76,6 +76,8 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
     else:
         words += f": {int(taken.sum()) - count} filled in, harmonic, and {count} set to missing, because the heights "
         words += "around them are missing or faulty too"
-    if left := find_spikes(clean).count:
-        words += f"; {left} more are left after {_PASSES} passes: the map is rough all over, filter it"
+    if spikes.count:
+        words += (
+            f"; {spikes.count} more are left after {_PASSES} passes: the map is rough all over, filter it"
+        )
     return surface.with_heights(clean.heights, words)
