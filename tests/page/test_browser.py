@@ -316,7 +316,8 @@ def test_the_files_of_a_tab_go_with_it(desk, tab, part):
     other = desk.tab()
     assert tab.drop("part.npz", part)
     assert other.drop("other.npz", part)
-    assert {path.name for path in desk.served.left()} == {"part.npz", "other.npz"}
+    # Files of tabs that were closed before go after some seconds.
+    tab.until(lambda: {path.name for path in desk.served.left()} == {"part.npz", "other.npz"})
     other.page.close(run_before_unload=True)
     tab.until(lambda: {path.name for path in desk.served.left()} == {"part.npz"})
 
@@ -351,7 +352,7 @@ def test_a_gigabyte_is_refused_before_it_is_sent(desk, tab, tmp_path):
         file.truncate(2**30)  # of which the disk holds nothing
     tab.page.set_input_files("#file", large)
     tab.wait("() => document.getElementById('said').textContent.includes('512 MB')")
-    assert [path.name for path in desk.served.left()] == []
+    tab.until(lambda: [path.name for path in desk.served.left()] == [])
 
 
 @pytest.fixture
@@ -385,7 +386,7 @@ def test_another_site_in_the_same_browser_is_refused(desk, tab, elsewhere):
         )
     tab.until(lambda: failed == [f"{desk.origin}/session"] * 2, failed)
     page.close()
-    assert desk.served.sessions() == sessions
+    assert desk.served.sessions() <= sessions  # that of a tab that was closed before may have ended meanwhile
 
 
 def test_an_address_without_its_key_opens_nothing(chromium, desk):
