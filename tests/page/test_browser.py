@@ -41,6 +41,12 @@ PICTURE = """() => {
   for (const word of words) sum = (Math.imul(sum, 31) + word) | 0;
   return [new Set(words).size, sum];
 }"""
+# Names and values at once: the page may be about to change them.
+FACTS = """() => {
+  const texts = (kind) => [...document.querySelectorAll(`#facts ${kind}`)].map((each) => each.innerText);
+  const values = texts("dd");
+  return texts("dt").map((name, k) => [name, values[k]]);
+}"""
 POINTS = """() => {
   const words = document.getElementById("curve").getAttribute("aria-label") || "0 points";
   return Number(/(\\d+) points/.exec(words)[1]);
@@ -97,8 +103,7 @@ class Tab:
 
     @property
     def facts(self):
-        names, values = (self.page.locator(f"#facts {kind}").all_inner_texts() for kind in ("dt", "dd"))
-        return dict(zip(names, values, strict=True))
+        return dict(self.page.evaluate(FACTS))
 
     @property
     def picture(self):
