@@ -64,7 +64,16 @@ html_theme_options = {"navigation_with_keys": False, "header_links_before_dropdo
 html_context = {"default_mode": "auto"}  # light or dark, as the reader has it
 
 # Pages whose list of links is the list of pages below them.
-PARTS = {"index", "tutorials/index", "how-to", "concepts", "reference", "evidence", "project"}
+PARTS = {
+    "index",
+    "tutorials/index",
+    "coming-from/index",
+    "how-to",
+    "concepts",
+    "reference",
+    "evidence",
+    "project",
+}
 # What a browser fetches when it opens a page, from elsewhere.
 FETCHED = re.compile(r"""<(?!a\b)[^>]*\b(?:src|href)=["'](?:https?:)?//[^>]*>""")
 
