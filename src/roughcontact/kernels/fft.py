@@ -123,8 +123,7 @@ class Scratch(NamedTuple):
 class RowTransform(NamedTuple):
     """The spectrum; the transform of rows; how many of these are a part of the work.
 
-    It covers half of the padded columns, whose neighbours are taken for complex numbers; twiddle factors separate
-    these.
+    It covers half of the padded columns; neighbours are taken for complex numbers, and twiddle factors separate them.
     """
 
     spectrum: BlockedSpectrum
