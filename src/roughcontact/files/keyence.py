@@ -20,9 +20,9 @@ _HEIGHT = re.compile(r"height|höhe|hauteur|altura|高", re.IGNORECASE)
 
 
 def read_keyence(text: str) -> HeightMap:
-    """Return the heights of an export; the one value with a unit behind it is the side of a cell."""
+    """Return the heights of an export; the one value followed by a unit is the side of a cell."""
     separator = re.search(r"[;,\t]", text)
-    # A label may be broken over two lines within its quotes.
+    # A quoted label may extend over two lines.
     rows = list(csv.reader(text.splitlines(keepends=True), delimiter=separator[0] if separator else ","))
     fields = [[field.strip() for field in row] for row in rows]
     first = next(
@@ -46,7 +46,7 @@ def read_keyence(text: str) -> HeightMap:
     titles = [row[0] for row in header if len(row) == 1 and row[0]]
     units = [row[1] for row in header if len(row) == 2 and is_length(row[1])]
     if not units and titles and not _HEIGHT.search(titles[-1]):
-        raise ContentError(f"it holds {titles[-1]!r}, no heights", "export the data of its height image")
+        raise ContentError(f"it holds {titles[-1]!r}, not heights", "export the data of its height image")
     return HeightMap(
         as_heights(values),
         "Keyence text",

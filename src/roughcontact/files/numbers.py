@@ -1,4 +1,4 @@
-"""A table of numbers in a text: every row whole, every hole named."""
+"""A table of numbers in a text: all rows complete, all gaps reported."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ _ROWS = re.compile(
 )
 _PLAIN = "give rows of numbers only; lines of explanation before them start with #, or read name = value"
 _COMMENT = re.compile(r"(?:#(?!n/?a\b|num\b)|%|//|!)\s*", re.IGNORECASE)  # spreadsheets write #N/A and #NUM!
-# Above a table: a name that no number begins with, and what it is; or the words that end a header.
+# Above a table: a name that does not begin like a number, with a value; or the words that end a header.
 _STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)
 _WORDS = re.compile(r"(?:(?!(?:nan|inf)\b)[^\W\d_]+\s+){2}.*", re.IGNORECASE)  # among such lines
-# Line ends of other systems; what typesetting and Japanese texts have for a minus, a dash and a colon.
+# Line ends of other systems; signs for a minus, a dash and a colon in typeset and in Japanese texts.
 _SIGNS = {"\r\n": "\n", "\r": "\n", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{FULLWIDTH COLON}": ":"}
 _CORNER = re.compile(
     r"(?!nan|inf)[^\W\d_]|[\[(/\\]", re.IGNORECASE
 )  # what a word above a first column begins with
-_TELLING = 32  # bytes, every other one zero, from which a text has two bytes a letter
+_TELLING = 32  # bytes, every other one zero, that show a text of two bytes a letter
 _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 
 
@@ -48,7 +48,7 @@ _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 class Table:
     """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, notes and warnings.
 
-    `statements` says whether some of these lines had no ``#``.
+    `statements` is true if some of these lines had no ``#``.
     """
 
     values: Array
@@ -61,9 +61,9 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """What stands above the first column and beside the first row, and what is wrong if those are no places.
+    """The corner of a table with coordinates in its first row and column, and the error if they are not coordinates.
 
-    Where it is empty, a point of the map may be missing there: nothing is wrong.
+    An empty corner may be a missing point of the map, which is not an error.
     """
 
     text: str
@@ -72,7 +72,7 @@ class Corner:
 
 @dataclass(slots=True)
 class Marks:
-    """The marks of missing points that a reader has met, counted by what they say."""
+    """The marks of missing points that a reader has found, with the number of each."""
 
     counts: Counter[str] = field(default_factory=Counter)
 
@@ -95,7 +95,7 @@ class Marks:
         return number
 
     def notes_and_warnings(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return notes, and warnings about marks so short that damage may have left them."""
+        """Return notes, and warnings about marks so short that they may come from damage."""
         notes: list[str] = []
         warnings: list[str] = []
         for text, count in self.counts.items():
@@ -107,9 +107,9 @@ class Marks:
 def parse_table(text: str, *, points: bool = False) -> Table:
     """Return the table in a text separated by blanks, tabs, semicolons or commas.
 
-    Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood beside any
-    separator but the comma itself, and in quotes. A list of `points` may stand under any words, with empty lines
-    between its points, which have places of their own.
+    Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood with any
+    separator except the comma, and in quotes. A list of `points` may stand under any words and contain empty lines,
+    because each point has its coordinates.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def parse_table(text: str, *, points: bool = False) -> Table:
             rows.append((number, line))
     if not rows:
         raise ContentError("it holds no numbers", _PLAIN)
-    # The rows come first: one that holds no numbers says more about the file than the hole after it.
+    # Errors in the rows come first: a row without numbers is a better message than the gap after it.
     table = _numbers(rows)
     if interrupted:
         raise ContentError(

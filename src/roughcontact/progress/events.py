@@ -1,7 +1,7 @@
 """Progress of long tasks as events, sent to a listener. Nothing is printed here.
 
 A task reports in the thread that computes, and only to a listener of that thread's context: threads that a caller
-starts and worker processes report nothing, so that of a study in several processes the parent reports finished cases.
+starts and worker processes report nothing. For a study in several processes, the parent reports finished cases.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """How far a task is.
+    """The progress of a task.
 
     Parameters
     ----------
     task : str
-        What is done, in words.
+        Description of the task.
     state : {"started", "running", "finished", "stopped"}
         The first event of a task is "started", its last one "finished", or "stopped" if an error, an interrupt or the
         caller ended it early.
     done : float
-        How much is done, in `unit`; it never falls.
+        Amount done, in `unit`; it never decreases.
     total : float or None
-        How much there is to do; None if that is not known before the end.
+        Total amount; None if it is not known before the end.
     unit : str
         What is counted, such as "loads" or "cases"; empty for a task that counts nothing.
     note : str
@@ -81,7 +81,7 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
     ----------
     callback : function
         Takes an `Event`. It is called by the thread that computes, which waits for it; an exception that it raises ends
-        the computation. Inside another such block the inner function alone is called.
+        the computation. Inside another such block only the inner function is called.
     interval : float
         Least time in seconds between two events of a task that runs. A task inside another one is reported once it has
         lasted so long. First and last events of outer tasks are always reported.
