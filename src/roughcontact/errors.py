@@ -81,7 +81,7 @@ def together(found: Sequence[InputError]) -> InputError:
 
 
 def _restate(whole: InputError) -> None:
-    """Join the lines of the single errors, separated by semicolons."""
+    """Set the message and the place of an error about several values from its parts."""
     whole.message = "; ".join(map(in_place, whole.parts))
     whole.place = ", ".join(each.place for each in whole.parts if each.place) or None
 

@@ -133,8 +133,8 @@ def _long_runs(heights: Array) -> list[str]:
             ]
             place = ", ".join(str(k) for k in np.unravel_index(first, heights.shape))
             return [
-                f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as in a damaged file; "
-                "write nan there if they were not measured"
+                f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as in a "
+            "damaged file; write nan there if they were not measured"
             ]
     return []
 
@@ -146,7 +146,7 @@ def _far_points(heights: Array) -> int:
 
 
 def _apart(heights: Array) -> list[str]:
-    """Return a warning if the lowest or highest number is repeated, and its distance from the others exceeds their range."""
+    """Return a warning if the lowest or highest number is repeated, and further away than the range of the others."""
     known = heights[~np.isnan(heights)]
     for extreme in (known.min(), known.max()):
         others = known[known != extreme]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["slip_curve_dataset", "slip_curve_record", "tangential_dataset", "tangential_record"]
 
-# Names in a file, where normal and tangential answers may stand side by side, and those of the attributes.
+# Names in a file, which may hold normal and tangential answers side by side, and the names of the attributes.
 _NAMES = {f"tangential_{name}": name for name in ("force", "displacement", "elastic_energy", "stiffness")}
 _OF_A_STATE = _NAMES | {
     **{name: f"problem.{name}" for name in ("friction", "capacity")},
