@@ -89,7 +89,7 @@ def _shape(root: _Node) -> tuple[int, int]:
 def _values(
     data: bytes, folder: str, main: bytes, root: _Node, shape: tuple[int, int]
 ) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return the numbers of the data list or the linked file as float64, NaN where invalid, with remarks and warnings."""
+    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks, warnings."""
     kind = root.child("Record1/Axes").text("CZ/DataType")
     if kind not in _TYPES:
         raise ContentError(f"its heights are of the type {kind!r}, not one of I, L, F, D", _AGAIN)

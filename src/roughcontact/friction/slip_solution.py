@@ -172,8 +172,8 @@ class TangentialSolution:
             notes.append("Every cell slips: the bodies slide.")
             if self.status.converged and self.step_residual > self.problem.tolerance:
                 notes[-1] += (
-                    " This is the steady slide, whose slip rate is opposed to the traction; the slip until then deviates "
-                    f"by up to {self.step_residual:.1e} of the largest displacement."
+                    " This is the steady slide, whose slip rate is opposed to the traction; the slip until "
+                    f"then deviates by up to {self.step_residual:.1e} of the largest displacement."
                 )
         return tuple(notes)
 

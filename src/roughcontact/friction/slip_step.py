@@ -53,7 +53,7 @@ class SlipStep:
     tolerance: float
 
     def state(self, traction: Array, displacement: Array | None = None) -> SlipState:
-        """Return the state of a traction that friction can hold; its exact displacement is computed if none is given."""
+        """Return the state of a traction that friction can hold; by default with its exact displacement."""
         moved = self.interface.apply(traction) if displacement is None else displacement
         normal = directions(traction, at_limit(traction, self.limit))
         shift = self.shift_of(moved, normal)
@@ -120,7 +120,7 @@ class SlipState:
     shift : NumPy array, shape (k,)
         Displacement of the bodies [m].
     slipped : array, shape (k, n)
-        Slip of the step [m], the negative gradient of the energy.
+        Slip of the step [m], the gradient of the energy.
     residual : float
     """
 
