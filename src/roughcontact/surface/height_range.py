@@ -1,4 +1,4 @@
-"""Checks of heights on entry: real, of the shape of the grid, finite, and in a range in which products keep their digits."""
+"""Checks of heights: real, of the shape of the grid, finite, and in a range in which products keep their digits."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ def _heights(grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitu
 def _waves(
     keys: Keys, amplitude: Array, shape: tuple[int, ...], amplitudes: Amplitudes, nodal: bool
 ) -> npt.NDArray[np.complex128]:
-    """Return the waves relative to the first point, row by row: it lies at the origin (nodal) or half a cell from it."""
+    """Return the waves about the first point, row by row; it lies at the origin (nodal) or half a cell from it."""
     *rows, columns = wave_integers(shape)
     ky = rows[0] if rows else np.zeros(1, dtype=np.int64)
     along, *across = reversed(cell_centres(shape))

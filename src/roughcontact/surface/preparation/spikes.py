@@ -209,7 +209,7 @@ def _widest(window: Array, middle: Array) -> Array:
 
 
 def _screened(heights: Array, periodic: tuple[bool, ...], gap: float) -> Mask:
-    """Return the cells whose gap may exceed `gap`: enough cells of their window are at least that far below or above."""
+    """Return the cells whose gap may exceed `gap`: enough of their window is at least that far below or above."""
     padded, reach = _padded(heights, periodic), _REACH[heights.ndim]
     keep = np.zeros(heights.shape, dtype=np.bool_)
     rows = max(1, _SLAB * len(heights) // heights.size)

@@ -59,7 +59,7 @@ def _along_rows(heights: Array) -> Mask:
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
     for width in range(1, min(_WIDE, len(steps) - 1) + 1):
         for rise in (steps, -steps):
-            out = np.minimum(rise[:-width], -rise[width:])  # smaller of the steps to the lines on both sides, NaN if either is NaN
+            out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
             runs = _long_runs(out > _EXTENT * limit, out > limit, most[1 : 1 + len(out)])
             for line in range(1, 1 + width):
                 found[line : line + len(out)] |= runs

@@ -1,4 +1,4 @@
-"""Windows: factors that reduce the heights to zero toward the edges, which allows a periodic continuation of a free map."""
+"""Windows: factors that reduce the heights to zero toward the edges, for periodic continuation of a free map."""
 
 from __future__ import annotations
 
