@@ -83,7 +83,7 @@ class Asperity:
 
     @property
     def area_coefficient(self) -> float:
-        """Factor c_A of the contact area ``c_A depth**(2 exponent - 2)``, because the stiffness is 2 E* times the radius."""
+        """Factor c_A of the contact area ``c_A depth**(2 exponent - 2)``, from the stiffness 2 E* times the radius."""
         return math.pi * (self.coefficient * self.exponent / (2 * self.modulus)) ** 2
 
 

@@ -211,7 +211,7 @@ def law(spectrum: Spectrum, hardness: float, modulus: float, area: float) -> Loa
     """
     waves, nominal = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     given: dict[str, Any] = {"hardness": hardness, "modulus": modulus, "surface": waves}
-    contact_fraction(0.0, **given)  # bad numbers show themselves here
+    contact_fraction(0.0, **given)  # invalid numbers raise here
     return LoadingLaw(
         "Persson, plastic",
         SOURCE,
@@ -226,7 +226,7 @@ def _reduced(
     """Return p/H and E* g/(2 H)."""
     most = positive_scalar(hardness, "the hardness [Pa]")
     x = positive(pressure, "a pressure [Pa]", zero=True) / most
-    # The rounding of a force over its area is let pass.
+    # Tolerance for the rounding of a force over its area.
     require(
         x <= 1 + 1e-12,
         f"no pressure above the hardness of {most:.4g} Pa can be carried",
@@ -240,7 +240,7 @@ def _sines(x: Array, spread: float, sign: float) -> Array:
     """Return ``(2/pi) sum_n sign^(n+1) sin(n pi x) exp(-n^2 pi^2 v/2)/n``."""
     n = np.arange(1, TERMS + 1)
     weights = 2 / math.pi * sign ** (n + 1) * np.exp(-((n * math.pi * spread) ** 2) / 2) / n
-    # sin(n pi x) of x near 1 by its distance from 1, where the sine of a rounded angle has no digits.
+    # sin(n pi x) for x near 1 from the distance to 1: the sine of a rounded angle would lose its digits.
     rest = 1 - np.asarray(x)[..., None]
     near = np.where(n % 2 == 1, 1.0, -1.0) * np.sin(n * math.pi * rest)
     sines = np.where(rest < 0.5, near, np.sin(n * math.pi * np.asarray(x)[..., None]))
