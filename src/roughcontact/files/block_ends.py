@@ -13,8 +13,7 @@ _STATED = re.compile(rb"^(Points|Lines|SaveBits)=(\d{1,9})\s*$", re.MULTILINE)
 
 
 def left_behind_blocks(format_name: str, data: bytes) -> int:
-    """Return the number of bytes between the end of the last block and the end of the file; negative if the block ends
-    beyond it.
+    """Return the number of bytes after the last block; negative if it ends beyond the end of the file.
 
     For FRT (``frt``), Wyko (``opd``) and Nanosurf (``ezd``); 0 for every other format.
     """

@@ -60,7 +60,7 @@ def named(path: str | os.PathLike[str]) -> Iterator[str]:
 
 @contextmanager
 def ordinary_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Yield a file opened for reading; refuse what is not an ordinary file, and report errors of reading."""
+    """Yield a file opened for reading; refuse any but an ordinary file, and report errors of reading."""
     try:
         # Opening a device may start it.
         _require_ordinary(os.stat(path))

@@ -44,7 +44,9 @@ def read_esri(text: str) -> HeightMap:
 def _count(stated: dict[str, list[float]], name: str) -> int:
     number = stated.get(name, [np.nan])[0]
     if not (1 <= number <= 1e9 and number == int(number)):
-        raise ContentError(f"it does not state the number of {name}", "write ncols and nrows above the heights")
+        raise ContentError(
+            f"it does not state the number of {name}", "write ncols and nrows above the heights"
+        )
     return int(number)
 
 

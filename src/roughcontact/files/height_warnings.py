@@ -134,7 +134,7 @@ def _long_runs(heights: Array) -> list[str]:
             place = ", ".join(str(k) for k in np.unravel_index(first, heights.shape))
             return [
                 f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as in a "
-            "damaged file; write nan there if they were not measured"
+                "damaged file; write nan there if they were not measured"
             ]
     return []
 

@@ -183,7 +183,10 @@ def opened(data: bytes) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str
                 yield _modern(modern), dict(modern.attrs)
         else:
             raise ContentError("it is not a NetCDF file", "check its extension; copy it again")
-    except (ContentError, ImportError):  # a library that cannot be imported does not mean that the file is damaged
+    except (
+        ContentError,
+        ImportError,
+    ):  # a library that cannot be imported does not mean that the file is damaged
         raise
     except Exception as error:  # damaged files raise a dozen kinds of errors, even OverflowError
         reason = (str(error).strip().splitlines() or [""])[0][:120] or type(error).__name__

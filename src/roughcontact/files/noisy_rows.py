@@ -14,8 +14,7 @@ _ROUGHER = 4.0  # times the mean step of a typical row
 
 
 def noisy_rows(heights: Array) -> int:
-    """Count the rows, or the columns, with unrelated heights and steps far above the typical; 0 if no two are
-    adjacent.
+    """Count the rows, or the columns, with unrelated heights and large steps; 0 if no two are adjacent.
 
     Columns are counted too, because some formats store a map by columns.
     """

@@ -83,9 +83,7 @@ def parse(text: str, kind: Kind) -> float:
     if not math.isfinite(value):
         raise InputError(f"{text!r} is not a finite number", remedy)
     if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
-        raise InputError(
-            f"{text!r} is out of range", f"check its exponent and unit; {remedy}"
-        )
+        raise InputError(f"{text!r} is out of range", f"check its exponent and unit; {remedy}")
     return value
 
 
@@ -95,7 +93,7 @@ def has_unit(text: str) -> bool:
 
 
 def unit_in(text: str) -> str:
-    """Return the text after the number; the whole text if it has no number."""
+    """Return the text after the number; the whole text if it does not begin with a number."""
     match = _NUMBER.fullmatch(text)
     return text if match is None else match[2]
 
@@ -119,7 +117,9 @@ def parse_number(text: str, example: str) -> float:
 
 def _factor(unit: str, kind: Kind, text: str) -> float:
     """Return how many SI units of `kind` one `unit` is."""
-    prefix = unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit  # not for m^2: mm^2 is not 1e-3 m^2
+    prefix = (
+        unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit
+    )  # not for m^2: mm^2 is not 1e-3 m^2
     if prefix != unit and prefix in _PREFIXES:
         return _PREFIXES[prefix]
     from roughcontact.units import registry  # late: it brings NumPy, and pint when it is called

@@ -238,7 +238,9 @@ def _npy_rows(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, st
     def look() -> tuple[NpyHeader, str]:
         with named(path), ordinary_file(path) as stream:
             header = whole_npy_header(stream, os.fstat(stream.fileno()).st_size)
-            as_heights(np.zeros((1,) * len(header.shape), header.dtype))  # refuses arrays that are not heights
+            as_heights(
+                np.zeros((1,) * len(header.shape), header.dtype)
+            )  # refuses arrays that are not heights
             require_map(HeightMap(np.broadcast_to(0.0, header.shape), "npy"))
             _require_heights_alone(_mapped(stream, header))
             stream.seek(0)

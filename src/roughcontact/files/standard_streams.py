@@ -39,9 +39,7 @@ def standard_input(path: str | os.PathLike[str]) -> bytes:
     """
     data = _read(sys.stdin)
     if not data:
-        raise ContentError(
-            "standard input is empty", "check whether the command before the pipe failed"
-        )
+        raise ContentError("standard input is empty", "check whether the command before the pipe failed")
     if os.fsdecode(path) == "-" and not _is_npz(data):
         raise ContentError("it is not .npz", "name its format, such as x3p:- or txt:-")
     return data

@@ -111,8 +111,7 @@ class TextHeader:
 
 
 def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
-    """Return the statements about a map (ny, nx) in lines such as ``Width: 10 µm``, ``x-length = 10`` or ``nodata =
-    -9999``.
+    """Return the statements about a map (ny, nx) in lines such as ``Width: 10 µm`` or ``nodata = -9999``.
 
     A side of the map in pixels states nothing; any other bare number is in the lateral unit, in SPIP's files in
     nanometres.

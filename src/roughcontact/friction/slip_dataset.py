@@ -69,7 +69,7 @@ def tangential_dataset(solution: TangentialSolution) -> xarray.Dataset:
 def tangential_record(solution: TangentialSolution) -> dict[str, Any]:
     """Return the numbers of one state as plain values that JSON can hold; vectors are pairs (x, y).
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Units stand once, under ``"units"``. JSON has neither NaN nor infinity: both become None.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def slip_curve_dataset(curve: SlipCurve) -> xarray.Dataset:
 def slip_curve_record(curve: SlipCurve) -> dict[str, Any]:
     """Return a path of tangential loads as plain numbers, words and lists that JSON can hold.
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Units stand once, under ``"units"``. JSON has neither NaN nor infinity: both become None.
 
     Parameters
     ----------

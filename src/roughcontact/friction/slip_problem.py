@@ -147,7 +147,8 @@ def make_problem(
     kind = pressed.problem.geometry
     if kind is not Geometry.SURFACE:
         raise InputError(
-            f"partial slip is computed for a surface of two axes, not for a {kind.value}", "press a map of heights"
+            f"partial slip is computed for a surface of two axes, not for a {kind.value}",
+            "press a map of heights",
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
         raise InputError("the bodies do not touch: there is no contact to load", "press them first")

@@ -217,7 +217,7 @@ def task(
     Returns
     -------
     context manager
-        Its value is a `RunningTask`, or None if nobody listens. A task that returns is "finished", with what was
+        Its value is a `RunningTask`, or None if there is no listener. A task that returns is "finished", with what was
         reported as done; one that raises is "stopped".
 
     Examples

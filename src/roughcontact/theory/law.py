@@ -122,9 +122,7 @@ class LoadingLaw:
         array([ 5587., 22349.])
         """
         if quantity not in self.quantities:
-            raise InputError(
-                f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}"
-            )
+            raise InputError(f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}")
         given = np.atleast_1d(number(force, "force [N]"))
         inside = (given >= self.domain[0]) & (given <= self.domain[1])
         values = np.full(given.shape, np.nan)

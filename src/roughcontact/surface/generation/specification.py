@@ -24,9 +24,7 @@ WIDEST = math.log(1e6)  # largest ratio of roll-off and short cut-off in the sea
 # Each fixes one of the two lengths of a spectrum with known rms height and Hurst exponent.
 LENGTHS = ("slope", "rolloff", "correlation_length", "short_cutoff", "nayak")
 NODES = 8193  # of the autocorrelation, even in the logarithm
-FIRST_ZERO = (
-    3.8317  # zero of J1: there the autocorrelation of a flat disc is 0, and that of any other spectrum is lower
-)
+FIRST_ZERO = 3.8317  # zero of J1: there the autocorrelation of a flat disc is 0, and that of any other spectrum is lower
 _UNITS = {"sigma": " m", "rolloff": " m", "correlation_length": " m", "short_cutoff": " m"}
 
 

@@ -61,8 +61,7 @@ def wave_integers(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.int64], ...]:
 
 
 def cell_centres(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.complex128], ...]:
-    """Return the factors that move the origin of waves from the outer corner of the first cell to its centre, an open
-    mesh.
+    """Return the factors that move the origin of waves from the corner of the first cell to its centre, an open mesh.
 
     Half a cell is ``exp(i pi k/n)`` along each axis: the height at a point does not depend on the number of cells.
     """

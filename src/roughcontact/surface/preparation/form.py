@@ -59,7 +59,7 @@ def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[A
     def derivatives(values: Array) -> Array:
         # All parameters are of order one, and some are zero: the step is the same for each. Older versions of SciPy
         # use a
-    # step relative to the value, which gives only rounding for values near zero.
+        # step relative to the value, which gives only rounding for values near zero.
         columns = [misfit(values + step) - misfit(values - step) for step in _STEP * np.eye(values.size)]
         return np.stack(columns, axis=1) / (2 * _STEP)
 

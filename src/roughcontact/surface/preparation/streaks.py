@@ -23,8 +23,7 @@ _ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: diffe
 
 
 def tail_of(values: Array, count: int) -> tuple[float, float]:
-    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in one of a thousand
-    maps.
+    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in one map of 1000.
 
     A map has `count` sizes.
     """

@@ -75,9 +75,7 @@ class Asperities:
         positive(self.radius, "a radius [m]")
         positive(self.modulus, "the reduced modulus [Pa]")
         places = np.unique(np.stack([self.x, self.y]), axis=1)
-        require(
-            places.shape[1] == self.x.size, "two summits are in the same place", "remove the lower one"
-        )
+        require(places.shape[1] == self.x.size, "two summits are in the same place", "remove the lower one")
 
     @property
     def fall(self) -> Array:

@@ -202,7 +202,7 @@ class Summits:
         if target.size > FEW:
             # The inverse is smooth: from a spline through a few of its points Newton's method needs almost no
             # iterations. A margin
-    # keeps these points apart if all targets are equal.
+            # keeps these points apart if all targets are equal.
             known = np.linspace(target.min() - 0.01, target.max() + 0.01, FEW)
             start = make_interp_spline(known, self._invert(known, self._first_guess(known)))(target)
         else:

@@ -53,7 +53,7 @@ class ElasticSolid(Protocol):
 
 
 def ratio(poisson_ratio: float) -> float:
-    """Return k/k_t of two bodies with the same Poisson's ratio, or of one against a rigid body, ``(2 - nu)/(2(1 -
+    """Return k/k_t of two bodies of equal Poisson's ratio, or of one against a rigid body, ``(2 - nu)/(2(1 -
     nu))``.
 
     Thesis, eqs 4.5 and 7.4: 1 at nu = 0, 1.5 at nu = 1/2.
@@ -260,9 +260,7 @@ def slip_constant(
     """
     size, alpha = float(positive(theta, "theta [m^(1-H)]")), _exponent(hurst)
     if constants == "printed":
-        require(
-            prefactor is None, "the printed constants include a prefactor", "omit prefactor"
-        )
+        require(prefactor is None, "the printed constants include a prefactor", "omit prefactor")
         return math.pow(0.086 * size, alpha) / (0.2055 * (1 - alpha))
     require(
         constants == "consistent",

@@ -305,7 +305,7 @@ def _small(fraction: Array, limit: str) -> Array:
     if (fraction > FIT_LIMIT * (1 + 1e-9)).any():
         raise InputError(
             f"the correlation holds for pressures up to {FIT_LIMIT} of {limit}, not {float(fraction.max()):.3g} of it, "
-        "where spots merge",
+            "where spots merge",
             "use conductance.thermal on a computed stiffness",
         )
     return fraction

@@ -98,8 +98,7 @@ def rise(pressure: float | Array, hardness: float | Array, rms: float | Array) -
 
 @numeric
 def mean_gap(pressure: float | Array, hardness: float | Array, rms: float | Array) -> Array:
-    """Return the mean gap of a Gaussian surface [m]: the distance of the flat from the mean plane, which does not
-    move.
+    """Return the mean gap of a Gaussian surface [m]: the distance of the flat from the fixed mean plane.
 
     Parameters
     ----------

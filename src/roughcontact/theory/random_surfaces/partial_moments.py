@@ -100,7 +100,7 @@ def log_exponential(order: float, plane: float | Array) -> Array:
     if (t < 0).any():
         raise InputError(
             f"a plane {-t.min():.3g} standard deviations below the lowest of all exponential heights touches "
-        "every asperity: the exponential law holds only above it",
+            "every asperity: the exponential law holds only above it",
             place="plane",
         )
     return np.asarray(special.gammaln(n + 1) - t)

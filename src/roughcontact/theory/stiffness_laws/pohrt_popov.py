@@ -231,8 +231,7 @@ def force_at_depth(
 
 @numeric
 def theta(hurst: ArrayLike, rms: ArrayLike, length: ArrayLike) -> Array:
-    """Return Theta = h L^-H, which does not depend on the size to which a self-affine surface is cut [m^(1-H)] (eq.
-    7.1).
+    """Return Theta = h L^-H, the same for each size to which a surface is cut [m^(1-H)] (thesis, eq. 7.1).
 
     Parameters
     ----------
