@@ -146,7 +146,7 @@ def test_a_text_that_ends_within_its_last_number_is_warned_of(put):
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (sdf_binary(counts_for(5), 5)[:-1], "2303 of 2304 bytes of heights are there"),
+        (sdf_binary(counts_for(5), 5)[:-1], "it holds 2303 of 2304 bytes of heights"),
         (sdf_binary(counts_for(5), 5)[:60], "ends within its header"),
         (sdf_binary(counts_for(5), 5, mark="bISO-3.0"), "does not begin with aISO-1.0"),
         (sdf_binary(counts_for(5), 5, flags=(1, 0)), "1 for Compression"),

@@ -59,11 +59,11 @@ def test_a_negative_cell_is_told(put):
             (ESRI + "cellsize 0.5\n" + table(separator=" "))[:-300],
             "where it states 32 rows of 36: it is cut short",
         ),
-        (ESRI + "cellsize 0.5\n" + table(separator=" ") + "1 2\n", "1154 numbers are there where it states"),
+        (ESRI + "cellsize 0.5\n" + table(separator=" ") + "1 2\n", "it holds 1154 numbers and states"),
         (ESRI + "cellsize 0.5\n" + table(separator=" ").replace("0.", "O.", 1), "is not a number; write nan"),
         (
             f"ncols {NX}\ncellsize 0.5\n" + table(separator=" "),
-            "it states no number of nrows; write ncols and nrows",
+            "it does not state the number of nrows; write ncols and nrows",
         ),
         (ESRI + table(separator=" "), "it states no size; pass size="),
         ("DSAA\n1 2\n", "its header is damaged"),
@@ -161,7 +161,7 @@ def test_keyence_holes_are_told(put):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (("Vertical", str(NY)), ("Vertical", "40"), "32 rows are there where it states 40"),
+        (("Vertical", str(NY)), ("Vertical", "40"), "it holds 32 rows and states 40"),
         (("Horizontal", str(NX)), ("Horizontal", "40"), "36 columns are there where it states 40"),
         (
             ("XY Calibration", "500.000", "nm"),

@@ -114,7 +114,7 @@ def test_a_long_run_of_one_number_is_told(put, columns):
     ]
     with (
         pytest.warns(
-            SurfaceWarning, match="25 neighbouring points from cell 10, 5 hold 0 m, as damage leaves them"
+            SurfaceWarning, match="25 neighbouring points from cell 10, 5 hold 0 m, as in a damaged file"
         ),
         pytest.warns(SurfaceWarning, match="spike"),
     ):

@@ -144,7 +144,7 @@ class TestRefusals:
             jkr(indenter.power_law(0.3, 1.0), E, W).pull_off()
 
     def test_the_end_of_what_is_known(self):
-        with pytest.raises(ValueError, match="take more of the body"):
+        with pytest.raises(ValueError, match="define the body to a larger radius"):
             jkr(indenter.of(lambda r: r**2, 0.05), E, W).pull_off()
 
     def test_nonsense(self):

@@ -249,7 +249,7 @@ class TestSprings:
             slip_history(BODY, E, G, MU, normal_force=F, force=[0.0], springs=2.5)
         with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
             slip_history(0.01, E, G, MU, normal_force=F, force=[0.0])
-        with pytest.raises(ValueError, match="pressed body is wanted"):
+        with pytest.raises(ValueError, match="pressed body is needed"):
             partial_slip(BODY, G, MU, force=0.1)
         with pytest.raises(ValueError, match="shear_modulus must be one number"):
             partial_slip(indent(BODY, E, force=F), "a", MU, force=0.1)

@@ -181,7 +181,7 @@ PREPARED = [
     ),
     row(
         lambda: ROUGH.masked(),
-        "masked() takes out one region: give box, ellipse, or below and above",
+        "masked() needs exactly one region: give box, ellipse, or below and above",
         lambda: ROUGH.masked(box=(ROWS, ROWS)),
         lambda: ROUGH.masked(ellipse=(ROWS, ROWS)),
         lambda: ROUGH.masked(below=-1e-7, above=1e-7),

@@ -181,7 +181,7 @@ def test_what_goes_wrong_on_one_process_is_raised_on_all(tmp_path):
         ("none.npy", read, "none.npy: it cannot be opened (No such file"),
         ("none.npz", read, "none.npz: it cannot be opened (No such file"),
         ("map.npy", read, "not a whole NumPy array"),
-        ("cut.npy", read, "248 of 256 bytes are there"),
+        ("cut.npy", read, "it holds 248 of 256 bytes"),
         ("line.npy", read, "a profile of 4 heights"),
         ("words.npy", read, "values are of type <U1"),
         ("no/map.npy", write, "there is no folder"),

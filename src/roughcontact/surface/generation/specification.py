@@ -17,14 +17,12 @@ from roughcontact.validation import RngLike, exactly_one, numeric, positive, req
 
 __all__ = ["SurfaceSpecification", "specified"]
 
-SLOPE_ERROR = (
-    0.02  # of a surface: the waves of a grid are no integral, and those at the short cut-off come in steps
-)
+SLOPE_ERROR = 0.02  # of a surface: waves of a grid are a sum, with steps at the short cut-off
 WIDEST = math.log(1e6)  # largest ratio of roll-off and short cut-off in the search
 # Each fixes one of the two lengths of a spectrum with known rms height and Hurst exponent.
 LENGTHS = ("slope", "rolloff", "correlation_length", "short_cutoff", "nayak")
 NODES = 8193  # of the autocorrelation, even in the logarithm
-FIRST_ZERO = 3.8317  # zero of J1: there the autocorrelation of a flat disc is 0, and that of any other spectrum is lower
+FIRST_ZERO = 3.8317  # zero of J1: there the autocorrelation of a flat disc is 0, that of other spectra lower
 _UNITS = {"sigma": " m", "rolloff": " m", "correlation_length": " m", "short_cutoff": " m"}
 
 

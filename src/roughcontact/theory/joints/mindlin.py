@@ -53,8 +53,7 @@ class ElasticSolid(Protocol):
 
 
 def ratio(poisson_ratio: float) -> float:
-    """Return k/k_t of two bodies of equal Poisson's ratio, or of one against a rigid body, ``(2 - nu)/(2(1 -
-    nu))``.
+    """Return k/k_t of two bodies of equal Poisson's ratio, or one against a rigid body, ``(2 - nu)/(2(1 - nu))``.
 
     Thesis, eqs 4.5 and 7.4: 1 at nu = 0, 1.5 at nu = 1/2.
 
