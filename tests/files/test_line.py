@@ -133,7 +133,7 @@ def test_a_profile_in_x3p(put, make_x3p):
 
 
 def test_a_map_is_no_line_and_a_line_no_map(put, npy):
-    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, no profile; use read"):
+    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, not a profile; use read"):
         read_line(put("a.npy", npy(HEIGHTS.reshape(5, 8))), unit="um", size=1e-3)
     with pytest.raises(
         rc.ReadError, match=r"it is a profile of 40 heights, not a map .*read it by read_line"

@@ -96,8 +96,8 @@ def test_what_changes_no_height_is_not_talked_about(put, line):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("nx = 5\n" + ROWS, "its rows hold 4 numbers where it states 5"),
-        ("# x-pixels = 3\n" + ROWS, "its rows hold 4 numbers where it states 3"),
+        ("nx = 5\n" + ROWS, "its rows hold 4 numbers and it states 5"),
+        ("# x-pixels = 3\n" + ROWS, "its rows hold 4 numbers and it states 3"),
         ("ny = 4\n" + ROWS, "it holds 3 rows and states 4: it is cut short"),
         # No name begins with a number, and nan is one: such a line is a damaged row.
         ("1=2 3 4 5\n" + ROWS, r"'1=2 3 4 5' is not a number"),

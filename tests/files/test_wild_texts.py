@@ -85,7 +85,7 @@ def framed(columns, rows, corner="", values=HILLS, separator=","):
 )
 def test_numbers_of_rows_and_columns_and_axes_are_no_heights(put, text):
     with pytest.warns(
-        SurfaceWarning, match=r"first (row|column) \(.*places, no heights, and (is|are) left out; to keep"
+        SurfaceWarning, match=r"first (row|column) \(.*places, not heights, and (is|are) left out; to keep"
     ):
         surface = rc.read(put("a.csv", text), **GIVEN)
     is_right(surface)
@@ -263,7 +263,9 @@ def test_a_mark_printed_with_fewer_digits_is_told_and_the_remedy_works(put):
 
 
 def test_a_mark_that_nothing_states_is_told_and_the_remedy_works(put):
-    message = r"256 points hold -5e-06 m, like a mark .* and the others -1.532e-06 to .* m; mark them as missing by masked"
+    message = (
+        r"256 points hold -5e-06 m, like a mark .* and the others -1.532e-06 to .* m; mark them as missing"
+    )
     with pytest.warns(SurfaceWarning, match=message):
         surface = rc.read(put("a.txt", HEADER + table(HOLED, " ", hole="-5")))
     is_right(surface.masked(below=-3e-6), HOLED)

@@ -331,7 +331,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.below(line(), [1e-6], STEEL),
-        "not for a line: press a map of heights",
+        "not of a line: press a map of heights",
         lambda: rc.below(pressed(), [1e-6], STEEL),
     ),
     row(

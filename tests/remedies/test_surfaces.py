@@ -171,7 +171,7 @@ PREPARED = [
     ),
     row(
         lambda: ROUGH.cropped(slice(4, 4), ROWS),
-        "nothing is left of (16, 16) cells in 4:4, 0:4",
+        "no cell is left of (16, 16) cells in 4:4, 0:4",
         lambda: ROUGH.cropped(ROWS, ROWS),
     ),
     row(

@@ -45,7 +45,7 @@ def test_what_is_beside_heights_is_left_to_one_process(beside, tmp_path):
 
     together(2, work)
     if beside != "list":
-        with pytest.warns(rc.SurfaceWarning, match="places, no heights|points x, y, z"):
+        with pytest.warns(rc.SurfaceWarning, match="places, not heights|points x, y, z"):
             whole = rc.read(tmp_path / "map.npy", unit="um", size="6 um")
         np.testing.assert_array_equal(whole.heights, heights * 1e-6)
 

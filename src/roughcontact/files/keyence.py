@@ -37,9 +37,7 @@ def read_keyence(text: str) -> HeightMap:
     for words, name, found in ((_ROWS, "rows", shape[0]), (_COLUMNS, "columns", shape[1])):
         stated = next((row[1] for row in header if len(row) == 2 and words.fullmatch(row[0])), str(found))
         if stated != str(found):
-            raise ContentError(
-                f"{found} {name} are there where it states {stated}", "copy or export it again"
-            )
+            raise ContentError(f"it holds {found} {name} and states {stated}", "copy or export it again")
     values, notes, warnings = grid_of([field for row in heights for field in row], shape)
     cell = next((row for row in header if len(row) == 3 and is_length(row[2]) and _is_number(row[1])), None)
     side = None if cell is None else number_of(cell[1].replace(",", ".")) * length_factor(cell[2])

@@ -42,7 +42,7 @@ def read_text(data: bytes) -> HeightMap:
     header = header_of(table.comments, (ny, nx))
     if header.columns is not None and header.columns != nx:
         raise ContentError(
-            f"its rows hold {nx} numbers where it states {header.columns}",
+            f"its rows hold {nx} numbers and it states {header.columns}",
             "copy or export it again, or remove that line if it has another meaning",
         )
     notes, warnings = table.notes, (*warnings, *header.warnings)

@@ -85,7 +85,7 @@ def filtered(
                 require_cells(cutoff, surface)
     if short_cutoff is not None and short_cutoff >= max(grid.lengths):
         raise InputError(
-            f"a cut-off of {short_cutoff:g} m removes everything from a map of {max(grid.lengths):g} m",
+            f"a cut-off of {short_cutoff:g} m leaves nothing of a map of {max(grid.lengths):g} m",
             "give a shorter one, such as 1e-5 m",
             "short_cutoff",
         )

@@ -223,7 +223,7 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
             )
     ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]
     if any(stop <= start for start, stop in ranges):
-        raise InputError(f"no measured point is left of {grid.shape} cells in {range_words(ranges)}")
+        raise InputError(f"no cell is left of {grid.shape} cells in {range_words(ranges)}")
     return ranges
 
 
