@@ -263,7 +263,7 @@ def test_a_pressure_beyond_half_the_modulus_is_warned_of(part, told):
 def test_a_number_is_a_number():
     with pytest.raises(ValueError, match="SI units, not '10N'"):
         rc.press(wave(False), 1.0, force="10N")
-    with pytest.raises(ValueError, match="a Solid .* is needed"):
+    with pytest.raises(ValueError, match=r"a Solid .* is needed"):
         rc.reduced_modulus(210e9)
 
 

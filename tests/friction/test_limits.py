@@ -41,7 +41,7 @@ def solution():
         ({"bodies": rc.Solid(2.0, 0.3)}, "use the same bodies for both"),
         ({"along": (0, 0)}, "a direction"),
         ({"along": (1, 2, 3)}, "a direction"),
-        ({"along": (1, 0), "force": (0.1, 0.01)}, "leave out `along`"),
+        ({"along": (1, 0), "force": (0.1, 0.01)}, "omit `along`"),
         ({"operator": shear_half_space(rc.Grid((4, 4), 1.0), BODY)}, "is not the contact's"),
         ({"solution": wave()}, "solution must be a Solution, as rc.press returns it, not a Surface"),
     ],
@@ -57,11 +57,11 @@ def test_contacts_of_other_kinds_are_refused():
     heights = rc.Surface(-0.01 * (np.arange(32) - 15.5) ** 2, line)
     for operator, kind in ((rc.line(line, 1.0), "line"), (rc.foundation(line, 1.0), "foundation")):
         pressed = rc.press(heights, 1.0, force=0.1, operator=operator)
-        with pytest.raises(ValueError, match=f"not of a {kind}"):
+        with pytest.raises(ValueError, match=f"not for a {kind}"):
             slide(pressed, rc.Solid(1.0, 0.0), friction=0.3, force=0.01)
     rings = rc.RadialGrid.uniform(20, 0.1)
     ball = rc.RadialProfile(-(rings.radii**2) / 2, rings)
-    with pytest.raises(ValueError, match="not of a ring"):
+    with pytest.raises(ValueError, match="not for a ring"):
         slide(rc.press(ball, 1.0, force=1e-5), rc.Solid(1.0, 0.0), friction=0.3, force=1e-6)
 
 

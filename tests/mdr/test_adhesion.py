@@ -169,7 +169,7 @@ def test_ripples_toughen():
 
 
 def test_what_is_no_body_and_no_work():
-    with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+    with pytest.raises(ValueError, match=r"body of revolution is needed.*not 0.01"):
         jkr(0.01, E, W)
     with pytest.raises(ValueError, match="work of adhesion must be one number"):
         jkr(indenter.paraboloid(R), E, "a")

@@ -133,7 +133,7 @@ class TestRefusals:
             transfer(CURVE, self.solid, T)
         with pytest.raises(ValueError, match="one time for each load"):
             transfer(CURVE, self.solid, T, forces=[0.1])
-        with pytest.raises(ValueError, match="run backwards"):
+        with pytest.raises(ValueError, match="times must not decrease"):
             transfer(CURVE, self.solid, [1.0, 0.0], forces=0.1)
         with pytest.raises(ValueError, match="not be negative"):
             transfer(CURVE, self.solid, T, forces=-0.1)

@@ -93,7 +93,7 @@ class TestClosedForms:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Viscoelastic(), "resists nothing"),
+        (lambda: Viscoelastic(), "needs a modulus or a viscosity"),
         (lambda: Viscoelastic(-1.0), "negative"),
         (lambda: Viscoelastic(1.0, (1.0,), ()), "each modulus"),
         (lambda: prony(1.0, [1.0, 2.0], [1.0, 1.0]), "the relaxation times of the elements must differ"),

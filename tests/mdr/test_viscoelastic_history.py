@@ -242,7 +242,7 @@ class TestRefusals:
             run(BODY, SOLID, [0.0, 1.0], loads)
 
     def test_times_and_bodies(self):
-        with pytest.raises(ValueError, match="run backwards"):
+        with pytest.raises(ValueError, match="times must not decrease"):
             depth_history(BODY, SOLID, [1.0, 0.0], [0.0, 0.1])
         with pytest.raises(ValueError, match="springs must be a whole number"):
             depth_history(BODY, SOLID, [0.0, 1.0], [0.0, 0.1], springs=0)

@@ -143,7 +143,7 @@ def test_what_the_numbers_leave_open_is_an_error_that_names_the_remedy(numbers, 
     ("numbers", "words", "right"),
     [
         ({"rz": 6e-6}, "give `rz_over_ra`", [{"rz": 6e-6, "rz_over_ra": 5}, {"ra": 1e-6}]),
-        ({"sigma": 1e-6, "rz_over_ra": 5}, "leave it out", [{"sigma": 1e-6}]),
+        ({"sigma": 1e-6, "rz_over_ra": 5}, "omit it", [{"sigma": 1e-6}]),
         (
             {"sigma": (1e-6, 1e-6), "slope": 0.1},
             "give both as pairs",
@@ -166,7 +166,7 @@ def test_what_the_numbers_leave_open_is_an_error_that_names_the_remedy(numbers, 
         ),
         (
             {"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "rolloff": 6e-5, "nayak": 9},
-            "leave out one",
+            "omit one",
             [{"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "nayak": 9}],
         ),
     ],

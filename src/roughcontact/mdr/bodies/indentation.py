@@ -229,7 +229,7 @@ def indent(
     """
     name, load = exactly_one(force=force, depth=depth, contact_radius=contact_radius)
     d, a = _solve(profile, as_modulus(modulus), name, np.atleast_1d(number(load, name)))
-    require(len(d) == 1, f"one load is needed, not {len(d)}: use indentation_curve for several")
+    require(len(d) == 1, f"one load is needed, not {len(d)}", "for several loads use indentation_curve")
     return Indentation(profile, as_modulus(modulus), float(d[0]), float(a[0]))
 
 

@@ -95,7 +95,7 @@ def _flat(given: Panels) -> float:
     """Return the radius up to which the function vanishes."""
     size = np.abs(given.coefficients).sum(axis=1)
     above = np.nonzero(size > NOISE * size.max())[0]
-    require(len(above) > 0, "the profile is flat: use flat_punch for such a body")
+    require(len(above) > 0, "the profile is flat", "for a flat face use flat_punch")
     # Panels that shrink towards zero have a smallest one, and a power of r is not a flat face.
     first = float(given.edges[above[0]])
     return first if size[: above[0]].max(initial=0.0) == 0 else 0.0
