@@ -14,6 +14,7 @@ from sphinx.util.logging import getLogger
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
 
+from course_notebooks import offer, sheets, write_notebooks  # noqa: E402
 from reference_pages import write_reference  # noqa: E402
 
 from public_names import public_names  # noqa: E402
@@ -64,7 +65,7 @@ html_theme_options = {"navigation_with_keys": False, "header_links_before_dropdo
 html_context = {"default_mode": "auto"}  # light or dark, as the reader has it
 
 # Pages whose list of links is the list of pages below them.
-PARTS = {"index", "tutorials/index", "how-to", "concepts", "reference", "evidence", "project"}
+PARTS = {"index", "tutorials/index", "course/index", "how-to", "concepts", "reference", "evidence", "project"}
 # What a browser fetches when it opens a page, from elsewhere.
 FETCHED = re.compile(r"""<(?!a\b)[^>]*\b(?:src|href)=["'](?:https?:)?//[^>]*>""")
 
@@ -74,7 +75,9 @@ def setup(app):
     app.connect("config-inited", lambda app, config: write_reference(HERE / "reference"))
     app.connect("config-inited", lambda app, config: copy_project(HERE / "project"))
     app.connect("source-read", list_to_tree)
+    app.connect("source-read", offer_notebook)
     app.connect("missing-reference", link_to_name)
+    app.connect("build-finished", write_course)
     app.connect("build-finished", require_local)
     app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
@@ -95,6 +98,18 @@ def list_to_tree(app, name, text):
     if name in PARTS:
         pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.(?:md|rst)\)", text[0], re.MULTILINE)
         text[0] += "\n".join(["\n\n```{toctree}\n:hidden:", *pages, "```\n"])
+
+
+def offer_notebook(app, name, text):
+    """Link the notebooks of a sheet of the course below its title."""
+    if HERE / f"{name}.md" in sheets(HERE / "course"):
+        text[0] = text[0].replace("\n\n", offer(Path(name).name), 1)
+
+
+def write_course(app, error):
+    """Write the notebooks of the course, each beside its page."""
+    if not error:
+        write_notebooks(HERE / "course", Path(app.outdir) / "course")
 
 
 def link_to_name(app, env, node, text):

@@ -14,6 +14,7 @@ PAGES = [
     *sorted(HOME.glob("*.md")),
     *sorted((HOME / "docs").glob("*.md")),
     *sorted(HOME.glob("docs/tutorials/*.md")),
+    *sorted(HOME.glob("docs/course/*.md")),
     *sorted(HOME.glob("reproduction/*.md")),
 ]
 LINK = re.compile(r"\]\(<?([^)\s>]+)>?\)|(?:src|href)=\"([^\"]+)\"")
