@@ -32,6 +32,7 @@ QUESTIONS = {
     "prepare a surface": "preparing",
     "how spikes are recognised": "spikes",
     "json output": "json-output",
+    "papers to cite": "citing",
     "joint known by two numbers": "specified",
     "how many threads": "threads",
     "tab key": "completion",
