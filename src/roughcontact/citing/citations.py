@@ -23,7 +23,7 @@ _HISTORY = {
 _UNKNOWN = "free or periodic"  # a job whose file states which
 
 
-def citations(*answers: Any) -> Citations:
+def citations(*answers: object) -> Citations:
     """Return the references behind answers: method, bodies, hardness, adhesion, theories, surface, errors.
 
     The program itself always comes first. A curve does not contain its surface or its solver: pass these too, or pass
