@@ -52,6 +52,7 @@ QUESTIONS = {
     "progress in a notebook": "how-to/progress",
     "how far is a long job": "how-to/progress",
     "press": "api/roughcontact.press",
+    "papers to cite": "how-to/citing",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 

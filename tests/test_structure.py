@@ -43,6 +43,7 @@ ORDER = [
     {"mdr"},
     {"files"},
     {"recipe"},
+    {"citing"},
     {"study"},
     {"plot"},
     {"page"},

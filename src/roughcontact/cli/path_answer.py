@@ -146,7 +146,8 @@ class PathAnswer:
     def end(self, folder: Path | None, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
         names = (f"{self.stem}.csv", f"{self.events}.csv", f"{self.stem}.json", f"{self.stem}.nc")
-        self.answer.note_files(folder, (*names, f"{self.stem}.{self.answer.ending}"))
+        files = (*names, f"{self.stem}.{self.answer.ending}")
+        self.answer.finish(folder, files, self.job, self.found, self.surface)
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
             note(

@@ -70,7 +70,7 @@ def conductance(file: Path = _CURVE, *, conduction: Conduction, answer: Answer) 
     else:
         print_table(*load_table(found, names))
         print_facts(conduction_facts(found, conduction.of))
-    answer.note_files(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"))
+    answer.finish(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"), conductors)
 
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:

@@ -137,7 +137,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json)
-    answer.note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
+    files = ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more)
+    answer.finish(folder, files, job, computed, surface)
     if left.size or (plastic.loop and loop is None):
         raise typer.Exit(INTERRUPTED)
     if not found.converged:

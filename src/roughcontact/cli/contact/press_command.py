@@ -81,9 +81,8 @@ def press(job: PressJob, *, answer: Answer) -> None:
     units = units_of_job(job.units)
     _tell(solution, record, pressed, errors, units=units, json=answer.json, per_area=per_area)
     pictures = (*(() if theory is None else ("distribution",)), *drawn)
-    answer.note_files(
-        folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
-    )
+    files = ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
+    answer.finish(folder, files, job, solution)
     if not solution.status.converged:
         raise typer.Exit(MISSED)
 
