@@ -368,7 +368,7 @@ def test_errors_are_told_in_units_that_suit(invoke, rough):
     assert unit == "MN/m"
     assert float(error) == pytest.approx(known["error"] * 1e-6, rel=0.05)
     assert float(value) == pytest.approx(known["value"] * 1e-6, abs=float(error) / 10)
-    assert "short cut-off   bias: Gaussian low-pass at" in told
+    assert "short cut-off     bias: Gaussian low-pass at" in told
     # A periodic map has no levelling, and stands for a joint: numbers per area.
     joint = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--periodic").stdout.partition("errors at")[
         2
@@ -444,7 +444,9 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
     assert lines["load"].strip() == "force 200 mN, unloaded from 1 N"
     elastic = rc.press(surface, 110e9, force=0.2)
     assert record["without_plastic_flow"]["stiffness"] == pytest.approx(elastic.stiffness, rel=1e-6)
-    assert float(lines["stiffness without plastic flow"].split()[0]) == pytest.approx(elastic.stiffness / 1e6, rel=1e-3)
+    assert float(lines["stiffness without plastic flow"].split()[0]) == pytest.approx(
+        elastic.stiffness / 1e6, rel=1e-3
+    )
     assert "nothing flowed" in invoke(*words, "--hardness", "5000GPa").stderr
     assert "nothing flowed" not in answer.stderr
     first = invoke(*words[:3], "1N", *words[6:], "--hardness", "5GPa").stdout

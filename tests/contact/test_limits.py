@@ -273,17 +273,17 @@ def test_outliers_are_questioned_with_the_force_that_they_carry():
     assert any(f"and carry {share:.0%} of the force" in note for note in solution.notes)
 
 
-def joint_of(hardness, pressure=3e7, **named):
+def joint_of(soft, pressure=3e7, **named):
     """Return a contact of a soft metal of this hardness."""
-    grid = rc.Grid((64, 64), 8e-6, periodic=True)
+    grid = rc.Grid((128, 128), 4e-6, periodic=True)
     rough = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(1), rolloff=128e-6, short_cutoff=32e-6)
-    gold = replace(rc.handbook("gold"), hardness=hardness)
+    gold = replace(rc.handbook("gold"), hardness=soft)
     return rc.press(rough, ("steel", gold), pressure=pressure, **named)
 
 
 @pytest.mark.parametrize(("part", "told"), [(0.18, False), (0.22, True)])
 def test_an_elastic_contact_far_above_the_hardness_of_a_named_material_is_wrong(part, told):
-    """Where the part of the contact above it is smaller, a contact that flows has nearly the same area and stiffness."""
+    """Where less of the contact is above it, a contact that flows has nearly the same area and stiffness."""
     pressure = joint_of(1e12).pressure
     limit = float(np.quantile(pressure[pressure > 0], 1 - part))
     elastic, flowing = joint_of(limit), joint_of(limit, hardness=limit)
