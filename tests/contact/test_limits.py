@@ -278,7 +278,7 @@ def joint_of(soft, pressure=3e7, **named):
     grid = rc.Grid((128, 128), 4e-6, periodic=True)
     rough = rc.self_affine(grid, 0.8, 1e-6, np.random.default_rng(1), rolloff=128e-6, short_cutoff=32e-6)
     gold = replace(rc.handbook("gold"), hardness=soft)
-    return rc.press(rough, ("steel", gold), pressure=pressure, **named)
+    return rc.press(rough, (rc.handbook("steel").solid, gold), pressure=pressure, **named)
 
 
 @pytest.mark.parametrize(("part", "told"), [(0.18, False), (0.22, True)])

@@ -65,6 +65,8 @@ def press(job: PressJob, *, answer: Answer) -> None:
         elastic: Solution | None = None
         if job.plastic.after is not None:
             elastic = best_state(next(replace(job, plastic=AfterLoad()).calls()), known)
+            if not elastic.status.converged:
+                note(f"without plastic flow, residual {elastic.residual:.1e}: {elastic.status.message}")
         if (job.plastic.after or job.plastic.flow == "raised") and not (
             solution.flow is not None and solution.flow.volume
         ):
@@ -93,7 +95,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
     answer.note_files(
         folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
     )
-    if not solution.status.converged:
+    if not record["converged"]:
         raise typer.Exit(MISSED)
 
 
@@ -127,7 +129,7 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed, elastic: Soluti
         **solution_record(solution),
         "without_plastic_flow": None if elastic is None else solution_record(elastic),
         "tolerance": solution.problem.tolerance,
-        "converged": solution.status.converged,
+        "converged": all(each.status.converged for each in (solution, elastic) if each is not None),
     }
 
 
