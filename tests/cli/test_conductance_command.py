@@ -38,7 +38,7 @@ def test_loads_that_are_not_resolved_are_marked(invoke, curve):
     with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
         resolved = dataset.resolved.to_numpy().astype(bool).tolist()
     assert set(resolved) == {True, False}
-    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:-1]
+    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:-2]
     assert [not line.endswith("not resolved") for line in lines] == resolved
     assert json.loads(invoke("conductance", curve, *COPPER, "--json").stdout)["resolved"] == resolved
 
