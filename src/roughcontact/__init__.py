@@ -13,6 +13,16 @@ Rooms of their own: `theory` (laws to compare with), `plot`, `study` (ensembles)
 
 from __future__ import annotations
 
+import sys
+
+if sys.orig_argv[1:3] == ["-m", "roughcontact"] or "".join(sys.orig_argv[1:2]).removesuffix(".exe").endswith(
+    ("/roughcontact", "\\roughcontact")
+):
+    # The program: the imports below take a tenth of a second.
+    from roughcontact.quiet_start import start_quietly
+
+    start_quietly()
+
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.late import late_names, open_name

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli import report
 from roughcontact.cli.cited import cited
+from roughcontact.cli.contact.conductance_command import conductor_facts, conductors_of
 from roughcontact.cli.contact_of_job import note_materials
 from roughcontact.cli.messages import note
 from roughcontact.cli.options import CITE, JSON, OUT, Answer
@@ -109,8 +110,8 @@ def _facts(job: TheoryJob, joint: SurfaceSpecification, table: xarray.Dataset) -
     if "hardness" in table:
         of = f", of {job.bodies.softer}" if job.theories.hardness is None else ""
         facts.append(("hardness", report.quantity("hardness", float(table["hardness"])) + of))
-    if any("conductance" in str(name) for name in table):
-        facts.append(("conductance of", _VACUUM))
+    if (conductors := conductors_of(job.conduction)) is not None:
+        facts += [*conductor_facts(conductors), ("conductance of", _VACUUM)]
     return facts
 
 
