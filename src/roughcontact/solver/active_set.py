@@ -1,6 +1,6 @@
 """The primal-dual active set method (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, eqs (A.6-8)).
 
-Labels A1 to A10 are the lines of the algorithm in docs/method.md.
+Labels A1 to A10 are the lines of the algorithm in docs/concepts/method.md.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Bound-constrained preconditioned conjugate gradients: the inner solve of the active set method.
 
-Labels B1 to B18 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
-changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that the step is
-estimated before the product, so that one product serves projection and line search, is this package's own.
+Labels B1 to B18 are the lines of the algorithm in docs/concepts/method.md, which derives each scalar. Projected
+steps on changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that
+the step is estimated before the product, so that one product serves projection and line search, is this package's
+own.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Optimality (KKT) conditions of contact: their residual, which certifies all solvers, and the active set.
 
 The conditions are ``g >= 0, p >= 0, p g = 0`` without a hardness, with the gap ``g = A p + f - d``; under a hardness H
-``p <= H``, and ``g <= 0`` where ``p = H``. See docs/method.md, section 1.
+``p <= H``, and ``g <= 0`` where ``p = H``. See docs/concepts/method.md, section 1.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Evaluation(NamedTuple):
 
 
 class Quality(Enum):
-    """What is to be expected of a predicted free set (docs/method.md, "The first prediction")."""
+    """What is to be expected of a predicted free set (docs/concepts/method.md, "The first prediction")."""
 
     GOOD = "predicted by an outer step or from a similar load, or of few cells"
     GUESSED = "predicted from a pressure on less than half as many cells, as of summits"

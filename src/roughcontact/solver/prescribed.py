@@ -229,7 +229,7 @@ def _solve(
 ) -> tuple[Array, Array, int]:
     """Return pressure, residual by an exact product [m], and number of products: iterative refinement.
 
-    Labels D1 to D5 are the lines of the algorithm in docs/method.md.
+    Labels D1 to D5 are the lines of the algorithm in docs/concepts/method.md.
     """
     # D1: a pressure that is given, of the matrix of few cells, or zero.
     before = math.inf

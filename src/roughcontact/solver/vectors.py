@@ -1,7 +1,7 @@
 """The vectors of an inner solve, by the library of the arrays; `compiled_vectors` has the same in machine code.
 
-The names are those of docs/method.md: residual r, preconditioned residual z, search direction s, its image q = A s, and
-constraint direction w, on the free set F.
+The names are those of docs/concepts/method.md: residual r, preconditioned residual z, search direction s, its image
+q = A s, and constraint direction w, on the free set F.
 """
 
 from __future__ import annotations
