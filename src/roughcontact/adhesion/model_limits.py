@@ -143,8 +143,8 @@ def notes_on_model(summit: HighestSummit, unresolved: bool = False) -> Iterator[
             f"a radius of {a:.3g} m, {a / r:.2g} times the radius of the highest summit, {r:.3g} m (w/(E* R) is "
             f"{summit.work / (summit.modulus * r):.2g}). Linear elasticity of half-spaces is good up to {SHALLOW:g} "
             "times that radius: take these numbers as orders of magnitude. The radius is that of a paraboloid, fitted "
-            f"within {FITTED:g} times it, or two cells, of the highest point: it is up to {SPHERE:.0%} too small for a "
-            "sphere, and roughness changes it.",
+            f"to the heights within {FITTED:g} times it (at least two cells) of the highest point: for a sphere it is "
+            f"up to {100 * SPHERE:.0f} % too small, and roughness changes it.",
         )
 
 

@@ -98,7 +98,7 @@ def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
 
 
 def tension(force: float, kind: Geometry) -> str:
-    """Return a tension [N] in words, so that its sign is not to be guessed."""
+    """Return a force [N], positive in tension, without its sign and with the word for it."""
     return f"{quantity('pull_off_force', abs(force), kind)} in {'compression' if force < 0 else 'tension'}"
 
 
