@@ -34,7 +34,7 @@ QUESTIONS = {
     "mpi": "how-to/scale",
     "friction loop": "tutorials/friction",
     "periodic or free": "gallery/bodies/periodic_and_free",
-    "adhesion": "concepts/adhesion",
+    "adhesion": "how-to/adhesion",
     "afm tip": "how-to/afm",
     "method of adhesion": "concepts/method-adhesion",
     "memory": "how-to/memory",

@@ -138,8 +138,6 @@ class PathAnswer:
             print_facts([("surface", size_of(self.surface.grid)), *self._pressed.facts(), *before])
             print_table(*load_table(found.to_dataset(), tuple(columns)))
             print_facts(after)
-        if missed := sum(not status.converged for status in found.status):
-            note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
         for line in found.notes:
             note(line)
 

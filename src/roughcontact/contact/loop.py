@@ -99,6 +99,15 @@ class Loop:
         """Work of first loading [J]: the elastic energy at the largest load, and what is dissipated."""
         return float(self.loading.elastic_energy[-1]) + self.dissipated_work
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What makes its curves doubtful, in sentences, each behind the branches that it is about."""
+        branches: dict[str, list[str]] = {}
+        for name, curve in self.curves.items():
+            for note in curve.notes:
+                branches.setdefault(note, []).append(name)
+        return tuple(f"{' and '.join(names).capitalize()}: {note}" for note, names in branches.items())
+
     def __repr__(self) -> str:
         """Say what the loop spans, not its numbers."""
         unit = unit_of("force", self.loading.geometry)

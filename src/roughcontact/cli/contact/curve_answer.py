@@ -252,7 +252,7 @@ class CurveAnswer:
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
-            doubts = [("doubtful", worded(line)) for line in curve.notes]
+            doubts = [("doubtful", worded(line)) for line in (self.loop or curve).notes]
             report.print_facts(
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError, within
@@ -149,8 +150,9 @@ def _detachment(solution: Any, work: float, **named: Any) -> Followed:
 
     loads = Loads.given(**named)
     states = rc.detachment_path(solution, work, **named)
-    shown = Loads.of(depth=0.0) if loads is None else loads
-    return Followed(states, shown, lambda path: collect_detachments(path, loads), count=len(shown.values))
+    shown, parts = (Loads.of(depths=[0.0] * 3), False) if loads is None else (loads, True)
+    collect = partial(collect_detachments, loads=loads)
+    return Followed(states, shown, collect, count=len(shown.values), parts=parts)
 
 
 _FOLLOWED: dict[str, Callable[..., Followed]] = {
