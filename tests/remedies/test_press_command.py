@@ -83,7 +83,7 @@ $ {FORCE} --modulus 0GPa
 > {FORCE} --modulus 1GPa
 
 $ {FORCE} --modulus 110
-! write 110GPa if this unit is meant, or 110Pa if it is so
+! write 110GPa if this unit is meant, or 110Pa if it is in Pa
 > {FORCE} --modulus 110GPa
 > {FORCE} --modulus 110Pa
 
@@ -191,7 +191,7 @@ $ {PRESS} --force 1mN --channel colour
 > {PRESS} --force 1mN --channel heights
 
 $ {PRESS} --force 1mN --level plan
-! there is no 'plan' here; did you mean 'plane'? choose of none, mean, plane, quadratic
+! there is no 'plan' here; did you mean 'plane'? choose from none, mean, plane, quadratic
 > {PRESS} --force 1mN --level plane
 > {PRESS} --force 1mN --level mean
 > {PRESS} --force 1mN --level none

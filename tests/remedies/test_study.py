@@ -49,7 +49,7 @@ FILES = [
     row(study('samples = "3"'), "samples: '3' should be a valid integer", study("samples = 3")),
     row(
         study(**CURVE | {"case": '"curv"'}),
-        "there is no case 'curv': did you mean 'curve'? It may be adhesion, asperities, cells, curve",
+        "there is no case 'curv': did you mean 'curve'? choose from adhesion, asperities, cells, curve",
         study(**CURVE),
     ),
     row(
@@ -191,7 +191,7 @@ $ study plot done --out all.png --quantity weight
 > study plot done --out all.png --quantity force
 
 $ study table done --quantity weight
-! choose of force, stiffness, residual
+! choose from force, stiffness, residual
 > study table loads --quantity stiffness --at 0.01
 
 $ study table loads --quantity stiffness

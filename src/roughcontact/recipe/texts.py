@@ -130,7 +130,9 @@ def choose(text: str, known: Sequence[str]) -> str:
     """Return what to write instead of a text that is none of some words: the nearest, and all of them."""
     near = difflib.get_close_matches(text, known, 1)
     return (
-        f"did you mean {near[0]!r}? choose of {', '.join(known)}" if near else f"choose of {', '.join(known)}"
+        f"did you mean {near[0]!r}? choose from {', '.join(known)}"
+        if near
+        else f"choose from {', '.join(known)}"
     )
 
 
@@ -181,7 +183,7 @@ class Likely:
             bare, unit = text.strip(), self.kind.unit
             raise InputError(
                 f"{bare} without a unit is {bare} {unit}, {self.odd}",
-                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is so",
+                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is in {unit}",
             )
         return value
 

@@ -97,7 +97,7 @@ def _quantities(
         if name not in single:
             raise UsageError(
                 f"{name} lies along {_rest(averaged, name)}",
-                f"choose of {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
+                f"choose from {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
                 place="--quantity",
             )
     return names
