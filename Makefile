@@ -96,7 +96,7 @@ bench: $(BENCH_ENV)/.ready
 	  && echo "bench: OK" || { echo "bench: FAILED"; exit 1; }
 
 clean:
-	rm -rf $(ENV) build docs/gallery docs/project docs/reference dist out .nox .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(ENV) build docs/gallery docs/project/[A-Z]*.md docs/api dist out .nox .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean: OK"
 

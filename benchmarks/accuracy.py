@@ -1,6 +1,6 @@
 """How accurate every geometry is: errors on refined grids, observed order, extrapolated limit, exact value.
 
-    python benchmarks/accuracy.py > docs/accuracy.md
+    python benchmarks/accuracy.py > docs/evidence/accuracy.md
 
 Every number is computed here, E* = 1. Where the edge of a contact falls between cells, errors jump from grid to grid;
 there each is the root mean square over contacts of sixteen slightly different sizes.
@@ -305,8 +305,8 @@ def toroid() -> Iterator[Case]:
 HEAD = """# Accuracy
 
 How far is each geometry from the closed forms, and how does the error fall as the grid is refined? The page is
-written by `python benchmarks/accuracy.py > docs/accuracy.md`, with E* = 1. Its errors are discretisation errors. A
-certificate bounds the residual of the discrete problem, which is far smaller.
+written by `python benchmarks/accuracy.py > docs/evidence/accuracy.md`, with E* = 1. Its errors are discretisation
+errors. A certificate bounds the residual of the discrete problem, which is far smaller.
 
 All errors are relative. The columns are computed in two ways:
 

@@ -1,4 +1,4 @@
-"""What one load costs beside the model of docs/method.md: products, cells, memory, and how its time scales.
+"""What one load costs beside the model of docs/concepts/method.md: products, cells, memory, and how its time scales.
 
     python benchmarks/cost.py [n ...]
 

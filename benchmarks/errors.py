@@ -1,4 +1,4 @@
-"""How far the errors of `rc.error_budget` can be trusted: python benchmarks/errors.py. The numbers of docs/errors.md.
+"""How far the errors of `rc.error_budget` can be trusted: the numbers of docs/concepts/errors.md.
 
 The area that counting cells adds to spheres; what is claimed for single spheres, against Hertz; what is claimed against
 what the same surface gives on four times as many cells; what bandwidth does to each number; and the joint of

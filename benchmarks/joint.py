@@ -1,4 +1,4 @@
-"""A large joint from a small map, both ways: python benchmarks/joint.py. The numbers of docs/joints.md.
+"""A large joint from a small map, both ways: python benchmarks/joint.py. The numbers of docs/concepts/joints.md.
 
 Steel on aluminium, pressed as a periodic map, and as free patches of several sizes that are cut from the same map.
 """

@@ -1,4 +1,4 @@
-"""Whether one map shows how much others differ: python benchmarks/other_maps.py. A table of docs/errors.md.
+"""Whether one map shows how much others differ: python benchmarks/other_maps.py. A table of docs/concepts/errors.md.
 
 For each kind of surface, 40 maps are pressed by one nominal pressure. Their relative standard deviation is what the
 line "sampling" of an error budget estimates from the four quarters of each.

@@ -1,4 +1,4 @@
-"""How long the page lets its user wait: the table of docs/page.md, measured in a real browser.
+"""How long the page lets its user wait: the table of docs/how-to/page.md, measured in a real browser.
 
 python benchmarks/page.py --repeats 9        needs the extras `page` and `browser`, a Chromium, and a quiet machine
 python benchmarks/page.py --picture FILE     draws docs/images/page.png instead

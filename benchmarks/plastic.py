@@ -1,6 +1,6 @@
 """A joint that flows when it is first pressed: python benchmarks/plastic.py [PICTURE].
 
-It computes the numbers of docs/plastic-evidence.md.
+It computes the numbers of docs/evidence/plastic-evidence.md.
 
 The map of `joint.py`, ground steel on ground aluminium, under the hardness of aluminium: as it is pressed first, turned
 back from each load, and unloaded from the largest; with both readings of flow, and with a hardness by the size of

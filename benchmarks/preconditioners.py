@@ -6,7 +6,8 @@ A load finds its contact and solves on it; the second alone, from nothing to 1e-
 products as are shown. Periodic cases only: A is known by its waves, A^-1 on the whole plane too.
 
 * "symbol": the inverse on the whole plane, E* q/2 in waves, restricted to the contact; "stencil": that of the library,
-  a sum over near cells (and blocks); "corrected": with the Schur correction of docs/method.md, (3), on the diagonal.
+  a sum over near cells (and blocks); "corrected": with the Schur correction of docs/concepts/method.md, (3), on the
+  diagonal.
 * "symbol, k steps of Jacobi": with the Schur complement of (2), where k steps of Jacobi solve for the cells outside.
 * "spots": block Jacobi, the exact inverse of the matrix of each contact spot; of those above LARGEST cells "stencil".
 * "balanced": a coarse solve with one unknown for each spot before and after it (balancing; Mandel, Commun. Numer.
@@ -66,12 +67,12 @@ class Contact:
         return lambda r: self.inside * whole(self.inside * r)
 
     def corrected(self, inverse: Map) -> Map:
-        """Return an inverse with the Schur correction on the diagonal (docs/method.md, (3))."""
+        """Return an inverse with the Schur correction on the diagonal (docs/concepts/method.md, (3))."""
         taken = DIAGONAL_CORRECTION * self.inside * inverse(np.ones(self.inside.shape))
         return lambda r: self.inside * inverse(r) - taken * r
 
     def by_jacobi(self, steps: int) -> Map:
-        """Return the symbol less Q_FO Q_OO^-1 Q_OF, of which Q_OO^-1 is some steps of Jacobi (docs/method.md, (2))."""
+        """Return the symbol less Q_FO Q_OO^-1 Q_OF, Jacobi steps for Q_OO^-1 (docs/concepts/method.md, (2))."""
         whole, outside = self.plane_inverse, ~self.inside
         diagonal = whole(self.unit)[0, 0]
 

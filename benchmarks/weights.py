@@ -1,4 +1,4 @@
-"""What each dependency weighs on disk, and what it is for: the table of docs/release.md.
+"""What each dependency weighs on disk, and what it is for: the table of docs/project/release.md.
 
 python benchmarks/weights.py    in an environment that holds the package and what it needs
 """

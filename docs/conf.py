@@ -23,7 +23,13 @@ author = "The roughcontact developers"
 project_copyright = author
 version = release = version_of(project)
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_gallery.gen_gallery"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+    "sphinx_reredirects",
+]
 smartquotes = False  # options begin with two dashes
 myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
@@ -64,15 +70,16 @@ html_theme_options = {"navigation_with_keys": False, "header_links_before_dropdo
 html_context = {"default_mode": "auto"}  # light or dark, as the reader has it
 
 # Pages whose list of links is the list of pages below them.
-PARTS = {"index", "tutorials/index", "how-to", "concepts", "reference", "evidence", "project"}
+PARTS = {"index"} | {path.relative_to(HERE).with_suffix("").as_posix() for path in HERE.glob("*/index.md")}
 # What a browser fetches when it opens a page, from elsewhere.
 FETCHED = re.compile(r"""<(?!a\b)[^>]*\b(?:src|href)=["'](?:https?:)?//[^>]*>""")
 
 
 def setup(app):
     """Add what Sphinx does not bring."""
-    app.connect("config-inited", lambda app, config: write_reference(HERE / "reference"))
+    app.connect("config-inited", lambda app, config: write_reference(HERE / "api"))
     app.connect("config-inited", lambda app, config: copy_project(HERE / "project"))
+    app.connect("config-inited", redirect)
     app.connect("source-read", list_to_tree)
     app.connect("missing-reference", link_to_name)
     app.connect("build-finished", require_local)
@@ -88,10 +95,19 @@ def copy_project(folder):
             (folder / path.name).write_text(text, encoding="utf-8")
 
 
+def redirect(app, config):
+    """Redirect the addresses that pages had before they stood in folders by kind."""
+    for folder in ("how-to", "concepts", "reference", "evidence", "project"):
+        for name in (page.stem for page in (HERE / folder).glob("[a-z]*.md")):
+            config.redirects[folder if name == "index" else name] = f"{folder}/{name}.html"
+    for page in (HERE / "api").glob("*.[mr]*"):
+        config.redirects[f"reference/{page.stem}"] = f"../api/{page.stem}.html"
+
+
 def list_to_tree(app, name, text):
     """Make a tree of the pages that a part lists, for the menus: readers of the Markdown see the list alone."""
-    text[0] = re.sub(r"\]\(\.\./([A-Z_]+\.md)\)", r"](project/\1)", text[0])
-    text[0] = text[0].replace("](gallery.md)", "](gallery/index.rst)")
+    text[0] = re.sub(r"\]\((?:\.\./)+([A-Z_]+\.md)\)", r"](/project/\1)", text[0])
+    text[0] = text[0].replace("gallery.md)", "gallery/index.rst)")
     if name in PARTS:
         pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.(?:md|rst)\)", text[0], re.MULTILINE)
         text[0] += "\n".join(["\n\n```{toctree}\n:hidden:", *pages, "```\n"])

@@ -17,7 +17,7 @@ def formats() -> list[str]:
         "# File formats",
         "",
         "What is read and what is written, by the ending of the file. How, what has to be said beside it, and what is "
-        "refused: [Read and write files](../files.md).",
+        "refused: [Read and write files](../how-to/files.md).",
         "",
         "## Read",
         "",

@@ -19,7 +19,7 @@ def recipes() -> list[str]:
         "# Recipes",
         "",
         "Every table and every field of a job in a file. How to write, run and repeat one: "
-        "[A job as a file](../recipes.md).",
+        "[A job as a file](../how-to/recipes.md).",
         "",
         "Values are texts, with units where they are quantities. A number without a unit is in SI units.",
         "",

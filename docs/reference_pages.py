@@ -75,9 +75,9 @@ def _parts(rooms: Collection[str]) -> list[str]:
     for room in sorted(rooms, key=list(TITLES).index):
         about[room] = (TITLES[room], _sentence(room))
     return [
-        *(f"* [{title}](reference/{page}): {text}" for page, (title, text) in about.items()),
+        *(f"* [{title}](/api/{page}): {text}" for page, (title, text) in about.items()),
         "",
-        *("```{toctree}", ":hidden:", *(f"reference/{page}" for page in about), "```"),
+        *("```{toctree}", ":hidden:", *(f"/api/{page}" for page in about), "```"),
     ]
 
 

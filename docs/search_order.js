@@ -21,7 +21,7 @@ var Scorer = {
     const asked = stems(new URLSearchParams(window.location.search).get("q") || "");
     const named = new Set(stems(title));
     const found = asked.filter((word) => named.has(word)).length;
-    const behind = { gallery: 3, reference: 6, project: 9 }[page.split("/")[0]] || 0;
+    const behind = { gallery: 3, api: 6, project: 9 }[page.split("/")[0]] || 0;
     return score + (20 * found) / Math.max(asked.length, 1) + (5 * found) / Math.max(named.size, 1) - behind;
   },
 };

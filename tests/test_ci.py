@@ -221,9 +221,9 @@ def test_an_exception_allows_its_words_until_they_are_gone(prose, monkeypatch):
 
 
 def test_findings_of_a_folder_are_printed(prose, capsys):
-    rules(prose, "docs/page.md", "hardly\n")
+    rules(prose, "docs/how-to/page.md", "hardly\n")
     rules(prose, "docs/gallery/made.md", "hardly\n")
     assert prose.main(str(prose.HOME / "docs")) is None
-    assert capsys.readouterr().out.startswith("docs/page.md:1: hardly: ")
+    assert capsys.readouterr().out.startswith("docs/how-to/page.md:1: hardly: ")
     assert [path.name for path in prose.files()] == ["page.md"]
     assert "$(BIN)/python .ci/prose.py" in (HOME / "Makefile").read_text(encoding="utf-8")

@@ -15,12 +15,12 @@ def test_the_table_of_bandwidth_is_what_the_script_prints(capsys, monkeypatch):
     importlib.import_module("errors").bandwidth()
     table = [line for line in capsys.readouterr().out.splitlines() if line.startswith("|")]
     assert len(table) == 2 + 5
-    page = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "concepts" / "errors.md").read_text(encoding="utf-8")
     assert "\n".join(table) in page
 
 
 def test_the_truth_of_most_single_spheres_lies_within(monkeypatch):
-    """Of 32 and of 64 cells; a third would be outside by the difference of two grids alone (docs/errors.md)."""
+    """Of 32 and of 64 cells; the difference of two grids alone leaves a third outside (docs/concepts/errors.md)."""
     monkeypatch.syspath_prepend(ROOT / "benchmarks")
     errors = importlib.import_module("errors")
     missed, claimed = (

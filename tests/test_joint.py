@@ -16,5 +16,5 @@ def test_the_table_of_the_periodic_joint_is_what_the_script_prints(capsys):
     assert curve.resolved.all()
     table = [line for line in capsys.readouterr().out.splitlines() if line.startswith("|")]
     assert len(table) == 2 + len(script.PRESSURES)
-    page = (ROOT / "docs" / "joints.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "concepts" / "joints.md").read_text(encoding="utf-8")
     assert "\n".join(table) in page

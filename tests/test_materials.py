@@ -53,7 +53,7 @@ def test_what_is_not_in_the_table_is_refused_with_the_names_that_are():
 
 
 def test_the_table_of_the_documentation_is_that_of_the_library():
-    page = (Path(__file__).parents[1] / "docs" / "materials.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[1] / "docs" / "reference" / "materials.md").read_text(encoding="utf-8")
     for material in MATERIALS.values():
         solid = material.solid
         row = (

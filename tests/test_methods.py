@@ -10,7 +10,7 @@ import pytest
 
 import roughcontact
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[1] / "docs" / "concepts"
 CODE = Path(roughcontact.__file__).parent
 PAGES = {"method.md": ("ABCD", "solver"), "method-adhesion.md": ("E", "adhesion")}
 page_and_code = pytest.mark.parametrize("page", PAGES)

@@ -74,7 +74,7 @@ def test_each_dependency_says_what_it_weighs_and_what_it_is_for(monkeypatch):
     purposes = importlib.import_module("weights").PURPOSES
     named = {re.match(r"[\w-]+", text)[0] for text in PROJECT["project"]["dependencies"]}
     assert purposes.keys() == named
-    page = (HOME / "docs" / "release.md").read_text(encoding="utf-8")
+    page = (HOME / "docs" / "project" / "release.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([\w-]+) \| [\d.]+ \| .* \| (.*) \|$", page, re.MULTILINE)
     assert dict(rows) == purposes
 

@@ -33,7 +33,7 @@ from roughcontact.study.study import Study
 from roughcontact.study.task import generator
 
 DOCS = ROOT / "docs"
-PAGES = tuple(DOCS / f"{name}.md" for name in ("law", "law-ensembles", "law-grids"))
+PAGES = tuple(DOCS / "evidence" / f"{name}.md" for name in ("law", "law-ensembles", "law-grids"))
 DATA = DOCS / "data" / "law"
 PARTS = (result_tables, formula, e1, e2, e3, e4, e5, e6, e7)
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)

@@ -148,7 +148,7 @@ def runs(folder: Path = FOLDER) -> Table:
         words = " ".join(line.lstrip("# ") for line in text.split("\nname")[0].splitlines())
         words = re.split(r"[.:] ", words.partition(": ")[2])[0].rstrip(".")
         found = read(path.stem, folder)
-        name = f"[`{path.stem}`](../examples/law/{path.name})"
+        name = f"[`{path.stem}`](../../examples/law/{path.name})"
         rows.append([name, words, str(asked), *_far(path.stem, found, asked, folder)])
     head = ["study", "what", "samples wanted", "done", "hours", "hours to come"]
     return [*head, "largest standard error, of", "now", "with all"], rows

@@ -138,10 +138,10 @@ The package `roughcontact-thesis` draws the figures: `make thesis FIG=fig27` in 
 FIGURES = """# The figures of the thesis, computed again
 
 What is found, every claim with its verdict, and the words and symbols stand in
-[docs/reproduction.md](../docs/reproduction.md). `python reproduction/benchmarks/pages.py` writes this page from files
-in [data](data): averages of ensembles, NetCDF files that also hold the studies they are averages of, and the findings
-of figures that take seconds. The single solutions are not kept; the command in each section makes them again, and all
-of them at once
+[docs/evidence/reproduction.md](../docs/evidence/reproduction.md). `python reproduction/benchmarks/pages.py` writes
+this page from files in [data](data): averages of ensembles, NetCDF files that also hold the studies they are
+averages of, and the findings of figures that take seconds. The single solutions are not kept; the command in each
+section makes them again, and all of them at once
 
     roughcontact thesis all --scale thesis --out DIR         # days; stopped at any time it goes on where it was
     python reproduction/benchmarks/pages.py --collect DIR
@@ -180,7 +180,7 @@ def changes_page(every: Sequence[Entry], former: Sequence[dict[str, Any]]) -> st
         "which it expects deviations counted against it, errors often had no part in the verdict, formulae were "
         "tested under numbers that are not theirs, and theories of others, misprints and questions stood among its "
         "claims. On the right the verdicts of now, by the rules of "
-        "[reproduction.md](../docs/reproduction.md#how-claims-are-judged), and why they differ.",
+        "[reproduction.md](../docs/evidence/reproduction.md#how-claims-are-judged), and why they differ.",
         "",
         "| figure | before | verdict | now | verdict | why |",
         "|---|---|---|---|---|---|",
@@ -211,7 +211,7 @@ def _findings(every: Sequence[Entry]) -> list[str]:
         lines += [*(f"{n}. {each}" for n, each in enumerate(said, start=1)), ""]
     one = told.get(PICTURE)
     if one is not None and one.computed:
-        lines += [f"![{one.title}](../reproduction/pictures/{one.name}.png)", "", plain(one.caption), ""]
+        lines += [f"![{one.title}](../../reproduction/pictures/{one.name}.png)", "", plain(one.caption), ""]
     return lines
 
 

@@ -6,9 +6,9 @@
 
 The pages say what is found in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
 figN --scale thesis --out DIR``), what the figures found that are computed here in seconds (``simple.json``), what is
-seen in each (``captions.toml``), and the pictures. What is not there is said to be missing. docs/reproduction.md holds
-findings and claims, reproduction/figures.md the figures; reproduction/verdicts.md lays former verdicts
-(``former.toml``) beside those of now.
+seen in each (``captions.toml``), and the pictures. What is not there is said to be missing.
+docs/evidence/reproduction.md holds findings and claims, reproduction/figures.md the figures;
+reproduction/verdicts.md lays former verdicts (``former.toml``) beside those of now.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ from roughcontact_thesis.verdict import Verdict
 HOME = Path(__file__).resolve().parent.parent
 FOLDER = HOME / "data"
 PICTURES = HOME / "pictures"
-PAGE = HOME.parent / "docs" / "reproduction.md"
+PAGE = HOME.parent / "docs" / "evidence" / "reproduction.md"
 FIGURES_PAGE = HOME / "figures.md"
 CHANGES = HOME / "verdicts.md"
 DPI = 160  # of the pictures

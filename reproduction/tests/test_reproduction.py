@@ -15,7 +15,7 @@ from roughcontact_thesis.figures import FIGURES, is_ensemble, module, verdicts
 
 HOME = Path(__file__).parent.parent
 FOLDER = HOME / "data"
-PAGE = HOME.parent / "docs" / "reproduction.md"
+PAGE = HOME.parent / "docs" / "evidence" / "reproduction.md"
 ENSEMBLES = [name for name in FIGURES if is_ensemble(module(name))]
 SIMPLE = [name for name in FIGURES if name not in ENSEMBLES]
 

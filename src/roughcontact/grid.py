@@ -44,7 +44,8 @@ class Grid:
 
     Notes
     -----
-    Lengths are ``n * spacing``: cells, not nodes (docs/conventions.md). Rows run along x; y increases downwards.
+    Lengths are ``n * spacing``: cells, not nodes (docs/concepts/conventions.md). Rows run along x; y increases
+    downwards.
 
     Examples
     --------

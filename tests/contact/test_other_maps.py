@@ -199,7 +199,7 @@ def test_a_note_names_it_where_it_is_nearly_all_of_an_error():
 def test_it_is_of_the_size_of_what_other_maps_give():
     """32 maps: their scatter is known to 1/sqrt(62) = 13 %, the mean square of 32 estimates of 3 freedoms to 14 %.
 
-    Quarters share waves, so that the estimate is rather too small: by a quarter in docs/errors.md.
+    Quarters share waves, so that the estimate is rather too small: by a quarter in docs/concepts/errors.md.
     """
     values, estimates = [], []
     names = ("interfacial_stiffness", "contact_area", "mean_gap")

@@ -1,10 +1,10 @@
-"""docs/errata.md and the tests speak of the same equations."""
+"""docs/evidence/errata.md and the tests speak of the same equations."""
 
 import re
 from pathlib import Path
 
 HERE = Path(__file__).parent
-PAGE = (HERE.parent.parent / "docs" / "errata.md").read_text(encoding="utf-8")
+PAGE = (HERE.parent.parent / "docs" / "evidence" / "errata.md").read_text(encoding="utf-8")
 
 
 def test_every_row_names_a_test_that_exists():

@@ -7,7 +7,7 @@ import pytest
 
 import roughcontact as rc
 
-PAGE = (Path(__file__).parents[2] / "docs" / "pictures.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "pictures.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", rc.plot.__all__)

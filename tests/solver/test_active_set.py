@@ -1,4 +1,4 @@
-"""What becomes of a first prediction of the free set: three ways, one answer (docs/method.md, A7 to A9)."""
+"""What becomes of a first prediction of the free set: three ways, one answer (docs/concepts/method.md, A7 to A9)."""
 
 import math
 

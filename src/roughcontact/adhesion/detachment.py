@@ -13,7 +13,7 @@ cell with all others held, the inverse of the diagonal of the inverse of the inf
 
 Between two events the pressure is linear in the depth, so that every event is found where it is, whatever the steps.
 
-Labels E37 to E39 are the lines of the algorithm in docs/method-adhesion.md.
+Labels E37 to E39 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ On a periodic grid each wave of displacement has its pressure. On a free one the
 far as half a period, is a circulant matrix on twice the cells along each axis. Its symbol is positive, so that it can
 be inverted wave by wave; cells beyond the grid are free of traction and of any bound. To minimise over them is to take
 the Schur complement, which on the cells of the grid is the exact inverse of the influence matrix
-(docs/method-adhesion.md, section 2).
+(docs/concepts/method-adhesion.md, section 2).
 """
 
 from __future__ import annotations

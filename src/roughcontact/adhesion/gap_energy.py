@@ -1,6 +1,6 @@
 """The energy of the gap: elastic energy of the displacement, and attraction across the gap, above a hard wall.
 
-See docs/method-adhesion.md, section 1.
+See docs/concepts/method-adhesion.md, section 1.
 """
 
 from __future__ import annotations

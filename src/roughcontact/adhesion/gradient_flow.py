@@ -10,7 +10,7 @@ tension is held by cells of constant attraction alone, all cells are damped alik
 Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
 equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
 
-Labels E17 to E23 are the lines of the algorithm in docs/method-adhesion.md.
+Labels E17 to E23 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

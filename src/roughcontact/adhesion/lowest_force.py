@@ -8,7 +8,7 @@ leave the wall. Both are bounded between two states whose gaps enclose all gaps 
 with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
 them are computed until this point is no lower than the lowest force that was found.
 
-Labels E35 and E36 are the lines of the algorithm in docs/method-adhesion.md.
+Labels E35 and E36 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

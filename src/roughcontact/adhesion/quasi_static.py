@@ -4,7 +4,7 @@ A step is taken if the energy at the new value is strictly convex on the box tha
 other equilibrium lies in it, and the gradient flow from the old state ends in the new one. Else the step is halved,
 down to a bracket; what is left then is a limit point of the branch, and the body jumps.
 
-Labels E24 to E30 are the lines of the algorithm in docs/method-adhesion.md.
+Labels E24 to E30 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

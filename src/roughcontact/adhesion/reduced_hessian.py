@@ -6,7 +6,7 @@ compliance being the preconditioner. A residual r of a vector of unit elastic no
 ``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, C being the inverse of K: the inverse of
 a part is at most the part of the inverse.
 
-Labels E31 to E34 are the lines of the algorithm in docs/method-adhesion.md.
+Labels E31 to E34 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ conjugate gradients (Steihaug, SIAM J. Numer. Anal. 20, 626 (1983)) that the com
 the Hessian not positive definite, it is shifted by a multiple of the identity: the step is then one of the implicit
 gradient flow in the gap.
 
-Labels E1 to E16 are the lines of the algorithms in docs/method-adhesion.md.
+Labels E1 to E16 are the lines of the algorithms in docs/concepts/method-adhesion.md.
 """
 
 from __future__ import annotations

@@ -62,8 +62,8 @@ def memory_needed(
 
     Notes
     -----
-    A table of measured bytes per cell, see docs/memory.md. The second number contains up to 64 MB for arrays that are
-    kept for the next load and for a matrix of few cells in contact.
+    A table of measured bytes per cell, see docs/how-to/memory.md. The second number contains up to 64 MB for arrays
+    that are kept for the next load and for a matrix of few cells in contact.
 
     Examples
     --------

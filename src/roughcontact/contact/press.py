@@ -66,7 +66,7 @@ def press(
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
-        Largest residual; see docs/results.md.
+        Largest residual; see docs/concepts/results.md.
     hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
         a function of the radii of the contact spots [m], such as `NixGao`, or a material of the `handbook` or its name.

@@ -20,7 +20,8 @@ NUMBERS = (
     *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
     *("mean_gap", "elastic_energy"),
 )
-# Factors on the correction of an area for its perimeter. They cover nine in ten single spheres (docs/errors.md).
+# Factors on the correction of an area for its perimeter. They cover nine in ten single spheres
+# (docs/concepts/errors.md).
 OF_AREA, OF_CORRECTED, OF_STIFFNESS = 1.0, 1 / 2, 1 / 8
 
 

@@ -85,7 +85,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     On a map that is rough down to its cells the depth has none (NaN), because it would grow with the grid.
     The largest pressure grows with the waves, and at the border of a free map with the grid: it has no error at all.
     *Levelling*: the map less its least-squares quadratic. *Patches*: the standard error of the mean over them. The
-    first two have the waves of two to four cells in common, so that the error is rather too large (docs/errors.md).
+    first two have the waves of two to four cells in common, so that the error is rather too large
+    (docs/concepts/errors.md).
     *Sampling*: how much another map of the surface would differ, as an order of magnitude, for one periodic or
     nominally flat map under a force. Four free quarters are pressed at the same nominal pressure; half of their
     relative standard deviation is the part. With fewer than ten spots the part, and so the error, is NaN.

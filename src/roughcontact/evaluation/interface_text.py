@@ -99,7 +99,11 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
     low, high = (stress * each for each in table.validity)
     yield "law of a rough interface, per nominal area; the compliance of the bodies is not in it: the model has it"
     yield f"valid from {low:.6g} to {high:.6g} {unit}, {len(table)} resolved loads; below: a straight line to zero"
-    kind = "periodic map" if table.periodic else "free patch, which is not pressed evenly (docs/joints.md)"
+    kind = (
+        "periodic map"
+        if table.periodic
+        else "free patch, which is not pressed evenly (docs/concepts/joints.md)"
+    )
     flows = math.isfinite(table.hardness)
     body = "elastic and perfectly plastic" if flows else "elastic"
     yield f"computed on a {kind}; {body}, normal load, no friction, no adhesion"

@@ -23,7 +23,7 @@ from roughcontact.validation import Array
 
 __all__ = ["Sampling", "sampling_of"]
 
-SPOTS = 10  # with fewer, quarters show 0.6 of the scatter of maps (docs/errors.md)
+SPOTS = 10  # with fewer, quarters show 0.6 of the scatter of maps (docs/concepts/errors.md)
 CELLS = 4  # along each axis of a quarter
 MEASURED = 0.5  # of the cells of a quarter
 LENGTHS = ("depth", "mean_gap")  # numbers that are not larger on a larger area

@@ -64,8 +64,8 @@ def slide(
         Coefficient of friction mu.
     force, displacement : float or pair of floats
         Exactly one: tangential force [N], at most mu times the normal one, under which the bodies slide steadily
-        (docs/sliding.md), or displacement of body 2 against body 1 since the start [m]; as (x, y), or one number
-        along x (along `along`, if given).
+        (docs/concepts/sliding.md), or displacement of body 2 against body 1 since the start [m]; as (x, y), or one
+        number along x (along `along`, if given).
     initial : TangentialSolution, optional
         The state to go on from, of the same contact with the same friction; `along` and `operator` are then as they
         were. Without one the contact is at rest and free of traction.

@@ -252,7 +252,7 @@ def _toml(data: bytes) -> dict[str, Any]:
     try:
         return tomllib.loads(data.decode())
     except ValueError as error:
-        raise ContentError(f"it is no TOML ({error})", "write it as docs/recipes.md shows") from error
+        raise ContentError(f"it is no TOML ({error})", "write it as docs/how-to/recipes.md shows") from error
 
 
 def carried(job: Job, folder: Path | None) -> dict[str, Any]:

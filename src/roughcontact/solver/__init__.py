@@ -1,1 +1,1 @@
-"""The solver: linear complementarity problems of contact. It knows operators and bounds, no surfaces."""
+"""The solver: linear complementarity problems of contact. It takes operators and bounds, no surfaces."""

@@ -1,6 +1,6 @@
 """The primal-dual active set method (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 865, 2002; thesis, eqs (A.6-8)).
 
-Labels A1 to A10 are the lines of the algorithm in docs/method.md.
+Labels A1 to A10 are the lines of the algorithm in docs/concepts/method.md.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class ActiveSet:
     max_steps : int
         Largest number of products with the operator.
     dense_limit : int
-        Free sets of up to so many cells are factorised.
+        Free sets of up to this number of cells are factorised.
 
     Examples
     --------
@@ -105,7 +105,7 @@ class ActiveSet:
         conditions = Optimality.of(operator, spec, separation)
         start = conditions.feasible_start(separation, initial)  # A1
         outer = self._outer(operator, separation, conditions, start)
-        del initial, start  # fields are large: the outer iteration alone holds its pressure
+        del initial, start  # fields are large: only the outer iteration holds its pressure
         state = outer.run()
         if state.status.converged:
             return state
@@ -146,7 +146,7 @@ class ActiveSet:
 
 @dataclass(slots=True, eq=False)
 class _Outer:
-    """The outer iteration from a feasible pressure. It alone holds the large fields of its iterate.
+    """The outer iteration from a feasible pressure. Only it holds the large fields of its iterate.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ class _Outer:
     exact : bool
         Whether u is of an exact product.
     dense_limit : int
-        Free sets of up to so many cells are factorised.
+        Free sets of up to this number of cells are factorised.
     steps : int
         Products so far.
     first : bool

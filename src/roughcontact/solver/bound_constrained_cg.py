@@ -1,8 +1,9 @@
 """Bound-constrained preconditioned conjugate gradients: the inner solve of the active set method.
 
-Labels B1 to B18 are the lines of the algorithm in docs/method.md, which derives each scalar. Projected steps on
-changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that the step is
-estimated before the product, so that one product serves projection and line search, is this package's own.
+Labels B1 to B18 are the lines of the algorithm in docs/concepts/method.md, which derives each scalar. Projected
+steps on changing free sets are those of More and Toraldo (SIAM J. Optim. 1, 93, 1991) and of Dostal's MPRGP; that
+the step is estimated before the product, so that one product serves projection and line search, is this package's
+own.
 """
 
 from __future__ import annotations
@@ -99,25 +100,25 @@ def inner_system(
 ) -> InnerSystem:
     """Return the bound-constrained problem from an iterate and a predicted free set (B1).
 
-    Of the iterate it needs no more than the pressure: the rest may go before it is solved.
+    It needs only the pressure of the iterate: the caller may free the rest before the solve.
 
     Parameters
     ----------
     inner : InnerOperator
         It covers F and all cells under pressure. Only the correction of the pressure passes through it, so that its
-        error is one of the correction alone.
+        error is only one of the correction.
     iterate : Iterate
         Pressure [Pa] to start from, its displacement [m], and the separation [m].
     conditions : Optimality
         Of the whole problem: its spec, and the displacement of a cell per unit pressure on itself.
     free : bool array
-        The predicted free set, one cell at least, none of them missing. Of the others those at the hardness keep it,
-        the rest goes to zero.
+        The predicted free set, one cell at least, none of them missing. Other cells at the hardness keep it; the
+        pressure of all others becomes zero.
     limit : float
         Largest residual on F [m].
     """
     pressure, displacement, separation = iterate
-    if not conditions.spec.plastic:  # machine code knows no hardness
+    if not conditions.spec.plastic:  # machine code has no hardness
         inner = on_own_rows(inner, pressure)
     # Cells that were not measured never touch, nor does what lies beyond the edge.
     part = Iterate(inner.gather(pressure), inner.gather(displacement), inner.gather(separation, math.inf))
@@ -206,7 +207,7 @@ def bound_constrained_cg(
     estimate : StepEstimate
         From the last run.
     force_given : bool
-        Whether the force is prescribed: then corrections have no resultant, and a constant residual is none.
+        Whether the force is prescribed: then corrections have no resultant, and a constant residual does not count.
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     limit : float

@@ -1,6 +1,6 @@
 """The vectors of an inner solve in machine code: work follows the free set, not the grid.
 
-For NumPy's arrays, cells of one size and no upper bound. Every member does what that of `vectors.ArrayVectors` says.
+For NumPy's arrays, cells of one size and no upper bound. Every member does what `vectors.ArrayVectors` documents.
 """
 
 from __future__ import annotations

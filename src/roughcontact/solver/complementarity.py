@@ -6,8 +6,8 @@ on unloading it leaves. In floating-point numbers its pressure is rounding, of e
 
 A displacement is known to some units in the last place of the largest one, ``u_max``. So a pressure p is
 rounding, and set to zero, where its own displacement ``A_ii p`` is no more than a few times that. An iteration that
-stops at a residual r knows a displacement to ``r u_max`` only. Where more depends on such cells than the stiffness may
-err by, it goes on to the last digits. Random surfaces hardly have such cells.
+stops at a residual r has a displacement only to ``r u_max``. Where more depends on such cells than the stiffness may
+err by, it goes on to the last digits. Random surfaces rarely have such cells.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def _added_at(
 ) -> float:
     """Return by how much the stiffness grows with the cells at some places [N/m].
 
-    Of the pressed cells of a field of some shape, `rows` from `begin` on are at hand.
+    `rows` holds the rows from `begin` on of the pressed cells of a field of some shape.
     """
     total, shift = 0.0, np.zeros(rows.ndim, np.intp)
     shift[0] = begin

@@ -12,7 +12,7 @@ __all__ = ["conjugate_gradients"]
 def conjugate_gradients(
     inner: InnerOperator, vectors: Vectors, *, limit: float, max_steps: int
 ) -> tuple[float, int]:
-    """Correct the pressure on F until its residual is small (thesis, A.1.3 as corrected; docs/method.md, C1 to C6).
+    """Correct the pressure on F to a small residual (thesis, A.1.3, corrected; docs/concepts/method.md, C1 to C6).
 
     Parameters
     ----------

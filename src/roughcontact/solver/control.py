@@ -125,7 +125,7 @@ class Specification:
 
 
 def checked_tolerance(tolerance: Any) -> float:
-    """Return a tolerance that double precision can meet and that still says something.
+    """Return a tolerance that double precision can meet and that is still small enough to mean something.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def checked_tolerance(tolerance: Any) -> float:
 
 
 class Status(Enum):
-    """The outcome of a solve; `message` says it in a sentence.
+    """The outcome of a solve; `message` is a sentence about it.
 
     Examples
     --------
@@ -185,7 +185,7 @@ _OUTCOMES = {
     Status.STAGNATED: (
         "The residual stopped falling above the tolerance: often rounding allows no more",
         "ask for a larger tolerance, or take a large offset out of the heights before they are stored; "
-        "else try another solver",
+        "otherwise try another solver",
     ),
     Status.UNSETTLED: (
         "The hardness of the spots and the spots under that hardness did not settle on each other",
@@ -203,7 +203,7 @@ _OUTCOMES = {
 class Start:
     """Where a solve begins: a pressure [Pa] and a depth [m]; it owns the pressure until that is moved to the solve.
 
-    Fields are large: one that has been replaced is held by nobody, so that its memory is free.
+    Fields are large: no name keeps one that has been replaced, so that its memory is free.
     """
 
     pressure: Any  # an array; None once it is moved

@@ -34,7 +34,7 @@ class DirectSolution:
 
 
 def press_cells(operator: Operator, separation: Array, control: Control, cells: Cells) -> DirectSolution:
-    """Solve on `cells` alone and deactivate those with tensile pressure, until none has any (thesis, (A.6-8)).
+    """Solve only on `cells` and deactivate those with tensile pressure, until none has any (thesis, (A.6-8)).
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class _System:
         self._gone: Cells
         self._free: Array
         self._columns: Array
-        # LAPACK wants Fortran order: the transpose, of which "lower" is what is the upper triangle here.
+        # LAPACK needs Fortran order, so it gets the transpose: its "lower" triangle is the upper one here.
         self._factor = _factor(matrix.T, lower=True)
         self._restart(np.arange(len(right)))
 

@@ -116,7 +116,7 @@ class FullGrid:
 
     @property
     def diagonal_correction(self) -> float:
-        """Of the truncated inverse."""
+        """The correction for truncating the inverse."""
         return 0.0 if self.local_inverse is None else DIAGONAL_CORRECTION
 
     def gather(self, field: Any, beyond: float = 0.0) -> Any:
@@ -141,8 +141,8 @@ class FullGrid:
     def approximate_inverse(self, displacement: Array) -> Array:
         """Return a pressure [Pa] that would cause about this `displacement` [m].
 
-        Of an operator without one that is the displacement, over about what all cells together do to one: a pressure in
-        any unit, and no step along it is much too long.
+        Without an approximate inverse it is the displacement over roughly the influence of all cells on one: a
+        pressure in any unit, and no step along it is much too long.
         """
         inverse = self._can.approximate_inverse
         if inverse is not None:
@@ -171,7 +171,7 @@ def first_product(
 ) -> tuple[Array, bool]:
     """Return the displacement [m] under a first pressure [Pa], and whether it is exact (A2).
 
-    An inner operator that covers all cells under pressure gives it on its own cells alone.
+    An inner operator that covers all cells under pressure gives it only on its own cells.
     """
     if inner is None:
         inner = _full_grid(operator)
@@ -186,7 +186,7 @@ def first_product(
 
 
 def factorisation_pays(operator: Operator, count: int, limit: int, tolerance: float = 0.0) -> bool:
-    """Whether so many cells are better factorised: up to `limit`, and fewer where tiles compete (A8)."""
+    """Whether `count` cells are better factorised: up to `limit`, and fewer where tiles compete (A8)."""
     if count <= tuning.DIRECT_ROUGHLY or count > limit:
         return count <= limit
     few = count <= tuning.DIRECT_BESIDE_TILES and tolerance < tuning.ROUGH_TOLERANCE

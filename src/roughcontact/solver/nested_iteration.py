@@ -27,7 +27,7 @@ def nested_start(
 ) -> tuple[Array, float]:
     """Return a pressure [Pa] and a depth [m] to start from, found on larger cells, recursively.
 
-    On the coarsest cells the summits alone are pressed; of other fields than planes on the host none is.
+    On the coarsest cells only the summits are pressed, and only of planes on the host.
     """
     coarser, xp = coarse_operator(operator, separation.shape), namespace(separation)
     plane = xp is np and separation.ndim == 2 and max(separation.shape) <= tuning.COARSEST
@@ -78,7 +78,7 @@ def coarse_operator(operator: Operator, shape: tuple[int, ...]) -> tuple[Operato
 def coarse_operator_on(
     operator: Operator, shape: tuple[int, ...], factors: tuple[int, ...]
 ) -> Operator | None:
-    """Return the operator on blocks of so many cells along each axis; None where it has none."""
+    """Return the operator on blocks of given numbers of cells along each axis; None where it has none."""
     grid = operator.grid
     if not isinstance(grid, Grid):
         return None

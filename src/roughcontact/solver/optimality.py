@@ -1,7 +1,7 @@
 """Optimality (KKT) conditions of contact: their residual, which certifies all solvers, and the active set.
 
 The conditions are ``g >= 0, p >= 0, p g = 0`` without a hardness, with the gap ``g = A p + f - d``; under a hardness H
-``p <= H``, and ``g <= 0`` where ``p = H``. See docs/method.md, section 1.
+``p <= H``, and ``g <= 0`` where ``p = H``. See docs/concepts/method.md, section 1.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Evaluation(NamedTuple):
 
 
 class Quality(Enum):
-    """What is to be expected of a predicted free set (docs/method.md, "The first prediction")."""
+    """How good a predicted free set can be expected to be (docs/concepts/method.md, "The first prediction")."""
 
     GOOD = "predicted by an outer step or from a similar load, or of few cells"
     GUESSED = "predicted from a pressure on less than half as many cells, as of summits"
@@ -116,7 +116,7 @@ class Optimality:
     self_influence : float
         A_ii: displacement of a cell per unit pressure on itself [m/Pa].
     passes : Passes, optional
-        Over the fields, in machine code: it knows no hardness, and cells of one size alone.
+        Over the fields, in machine code: without a hardness, for cells of one size only.
     """
 
     spec: Specification
@@ -134,8 +134,8 @@ class Optimality:
     def feasible_start(self, separation: Array, initial: Array) -> Array:
         """Return `initial` without tension and without pressure on missing cells, scaled to the force (A1).
 
-        Where nothing is left the cells of the lowest separation carry the force, or the pressure that displaces each of
-        them alone by the depth.
+        Where nothing is left the cells of the lowest separation carry the force, or each has the pressure that by
+        itself displaces it by the depth.
         """
         measure, passes, control = self.measure, self.passes, self.spec.control
         if passes is not None and passes.fit(initial, separation):
@@ -174,7 +174,7 @@ class Optimality:
         the algebra, not that of the grid.
         """
         xp, hardness = self.measure.xp, self.spec.hardness
-        # Of a pressure that is out of bounds, infinite or NaN one of these comparisons is false.
+        # One of these comparisons is false for a pressure that is out of bounds, infinite or NaN.
         strongest = float(xp.max(pressure))
         limited = bool(xp.all(pressure <= hardness))
         if not (float(xp.min(pressure)) >= 0 and limited and strongest < math.inf):
@@ -205,7 +205,7 @@ class Optimality:
         """Return the cells with pressure or with penetration beyond what is allowed [m] (A6).
 
         Cells at the hardness are free where their gap is more than is allowed. The `first` prediction comes from
-        another grid or load: cells with ``A_ii p < g`` are left out, since one projected step of such a cell alone
+        another grid or load: cells with ``A_ii p < g`` are left out, since one projected step of only that cell
         leaves no pressure on it.
         """
         (pressure, displacement, separation), spec = iterate, self.spec

@@ -20,7 +20,7 @@ def press_plastic(
 ) -> State:
     """Press under a specification with a hardness, from a `start` of the pressure [Pa].
 
-    Where nearly every cell in contact is plastic, the few between the bounds hardly determine the depth at a given
+    Where nearly every cell in contact is plastic, the few between the bounds determine the depth poorly at a given
     force, and the projected method may cycle. At given depth it does not; the force grows with the depth.
     """
     solver = PolonskyKeer(max_steps=max_steps)

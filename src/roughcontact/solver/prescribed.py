@@ -50,7 +50,7 @@ class Prescribed:
     residual : float
         Largest error of the displacement on the region, relative to its largest value.
     steps : int
-        Products with the operator; none where few cells were factorised, and their matrix says that this will do.
+        Products with the operator; none where few cells were factorised and their matrix shows the accuracy.
     """
 
     pressure: Array
@@ -166,13 +166,13 @@ def prescribe(
         inside, wanted = restrict(region, subdomain), restrict(target, subdomain)
 
     def start() -> Array | None:
-        """Return the pressure to start from. Fields are large: the solve alone holds it."""
+        """Return the pressure to start from. Fields are large: only the solve holds it."""
         begun = None if initial is None else xp.where(region, initial, 0.0)
         return begun if begun is None or subdomain is None else restrict(begun, subdomain)
 
     with one_blas_thread():
         pressure, residual, steps = _solve(part, inside, wanted, start(), tolerance * size, max_steps, xp)
-        # With A p = g - r the work g A^-1 g is p (g + r) but for r A^-1 r.
+        # With A p = g - r the work g A^-1 g is p (g + r), except for r A^-1 r.
         work = Measure(part.weights, xp).dot(pressure, wanted + residual)
     whole = pressure if subdomain is None else prolong(pressure, subdomain, region.shape)
     return Prescribed(
@@ -188,7 +188,7 @@ def _subdomain(operator: Operator, region: Mask) -> Subdomain | None:
         return np.flatnonzero(region)
     box = bounding_box(region)
     assert box is not None  # some cell is in the region
-    # A box takes a kernel of its own, which costs as much as two products or three; in a box nothing is periodic.
+    # A box takes a separate kernel, which costs as much as two products or three; in a box nothing is periodic.
     padded = math.prod(2 * (s.stop - s.start) for s in box)
     whole = math.prod(n if p else 2 * n for n, p in zip(region.shape, operator.grid.periodic, strict=True))
     return box if padded < tuning.SMALLER_BOX * whole else None
@@ -229,7 +229,7 @@ def _solve(
 ) -> tuple[Array, Array, int]:
     """Return pressure, residual by an exact product [m], and number of products: iterative refinement.
 
-    Labels D1 to D5 are the lines of the algorithm in docs/method.md.
+    Labels D1 to D5 are the lines of the algorithm in docs/concepts/method.md.
     """
     # D1: a pressure that is given, of the matrix of few cells, or zero.
     before = math.inf
@@ -280,7 +280,7 @@ def _solve(
 def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Array, Array] | None:
     """Return the pressure on few cells, and its displacement on them by their matrix.
 
-    More cells start from zero: a start from coarser cells saves hardly a product, and takes longer.
+    More cells start from zero: a start from coarser cells saves almost no product, and takes longer.
     """
     if not is_numpy(region):
         return None
@@ -294,7 +294,7 @@ def _on_few_cells(operator: Operator, region: Mask, wanted: Array) -> tuple[Arra
 
 
 def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
-    """Return which cells of a grid are meant, as truth values.
+    """Return the cells of a region, as truth values on the grid.
 
     Raises
     ------
@@ -314,5 +314,5 @@ def checked_region(region: Any, shape: tuple[int, ...]) -> Mask:
         if bool(xp.all(inside | (given == 0))):
             return inside
     raise InputError(
-        "a region is given by truth values, such as pressure > 0, or by ones and zeros alone", place="region"
+        "a region is given by truth values, such as pressure > 0, or only by ones and zeros", place="region"
     )

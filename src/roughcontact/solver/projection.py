@@ -63,7 +63,7 @@ def project(measure: Measure, pressure: Array, gap: Array, spec: Specification) 
         return _project_onto_simplex(measure, pressure, force)
     pressure = xp.clip(pressure, 0.0, hardness)
     # The missing force is distributed over the cells between the bounds. Each pass takes at least one cell to a bound,
-    # or is the last but for rounding.
+    # or is the last, up to rounding.
     for _ in range(PASSES):
         missing = force - measure.total(pressure)
         if abs(missing) <= ROUNDING * force:
@@ -97,13 +97,13 @@ def bearing_level(measure: Measure, level: Array, cells: Mask, spec: Specificati
 
 
 def _nearest(measure: Measure, gap: Array, pressure: Array, spec: Specification, force: float) -> Mask:
-    """Return the cells without pressure of the smallest gap, as many as bear twice a `force` at the hardness."""
+    """Return the cells without pressure of the smallest gap, enough to bear twice a `force` at the hardness."""
     free = (pressure == 0) & measure.xp.isfinite(gap)
     return free & (gap <= bearing_level(measure, gap, free, spec, 2 * force))  # type: ignore[no-any-return]
 
 
 def _project_onto_simplex(measure: Measure, pressure: Array, force: float) -> Array:
-    """Return the nearest pressure on the simplex of given force where it is too large, else the same scaled up.
+    """Return the nearest pressure on the simplex of given force where it is too large, otherwise the same scaled up.
 
     The nearest is ``max(pressure - shift, 0)``; each pass finds the shift for the cells that are left.
     """

@@ -23,7 +23,7 @@ def defect_correction(
 ) -> State:
     """Run a solver with an inexact sum until the residual with the exact one is small.
 
-    Labels D1 to D5 are the lines of the algorithm in docs/method.md.
+    Labels D1 to D5 are the lines of the algorithm in docs/concepts/method.md.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ class RowsOperator:
 
     @property
     def diagonal_correction(self) -> float:
-        """Of the truncated inverse."""
+        """The correction for truncating the inverse."""
         return 0.0 if self.local_inverse is None else self.plane.diagonal_correction
 
     @property

@@ -1,6 +1,6 @@
 """Restriction to the overlap: contact lies where the undeformed bodies overlap, so nothing outside is computed.
 
-docs/method.md, "Subdomain", proves it.
+docs/concepts/method.md, "Subdomain", proves it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where a solve begins on the coarsest cells: the contact of the summits alone, one for each block of cells.
+"""Where a solve begins on the coarsest cells: the contact of only the summits, one for each block of cells.
 
 All force on the lowest cell would press far too deep, and predict a contact of most cells.
 """
@@ -23,11 +23,11 @@ BLOCKS = 8  # of a side
 
 
 def summit_start(operator: Operator, separation: Array, control: Control) -> tuple[Array, float]:
-    """Return the pressure [Pa] and the depth [m] of a contact of summits alone; fields of two axes, on the host.
+    """Return the pressure [Pa] and the depth [m] of a contact of only the summits; fields of two axes, on the host.
 
     It is no pressure, and the solve begins with the lowest cell, where no more cells than summits are in reach of the
     depth at which that cell would carry all. Nor is there any at a given depth of a periodic body: at given depth that
-    cell alone is not pressed too deep, and a start with more of them saved no product.
+    single cell is not pressed too deep, and a start with more of them saved no product.
     """
     if isinstance(control, Depth):
         deepest = 0.0 if is_semidefinite(operator) else control.value

@@ -3,14 +3,14 @@
 A certified answer depends on none of them beyond its tolerance. Accuracies and rounding floors stand where they are
 derived. "Counted" numbers come from `benchmarks/steps.py`, which counts products with each of them changed. "Timed"
 ones come from `benchmarks/pairs.py --tuning NAME`, which times loads with each of them halved and doubled, in turn. The
-others are safeguards: they act on rare problems alone, which `benchmarks/robust.py` poses.
+others are safeguards: they act only on rare problems, which `benchmarks/robust.py` poses.
 """
 
-# --- active_set: outer iteration, safeguards but for INNER_TOLERANCE ---
+# --- active_set: outer iteration, safeguards, except INNER_TOLERANCE ---
 SCREENING_RESIDUAL = 0.2  # of the residual of a predicted set: how far it is solved to be screened
 SCREENING_GRID = 4096  # cells of a plane up to which a guess is screened by steps on it, not on its matrix
 SCREENING_CELLS = 300  # cells: a factorisation of fewer costs no more than some products
-PLASTIC_FORCE = 0.5  # of the force: beyond the hardness, from which on hardly a cell is between the bounds
+PLASTIC_FORCE = 0.5  # of the force: beyond the hardness, from which on almost no cell is between the bounds
 PROGRESS = 0.9  # of the smallest residual so far: a larger one is no progress
 ROUNDS_IN_SINGLE = 3  # rounds without progress after which only exact products are trusted
 ROUNDS_AT_ALL = 12  # rounds without progress after which another method is tried
@@ -26,7 +26,7 @@ TRIAL_STEP = 0.9  # of the step that is expected: length of the trial step
 SHORTEST_STEP, LONGEST_STEP = 0.5, 1.1  # of a trial step with newly active cells: safeguard of alpha
 ESTIMATE_AT_BOUNDS = 0.7, 1.1  # of the last estimate: safeguard of the next after such a step
 ESTIMATE_FREE = 0.5, 1.5  # of the last estimate: after any other step
-STALE_CONSTRAINT_DIRECTION = 0.03  # of the cells of F: lost ones after which M^-1 1 is made anew
+STALE_CONSTRAINT_DIRECTION = 0.03  # of the cells of F: lost ones after which M^-1 1 is computed again
 
 # --- direct, inner_operator: which way to solve, timed ---
 DIRECT_CELLS = 2000  # cells: a matrix of 32 MB; time grows with the third power beyond
@@ -45,7 +45,7 @@ LOOKUPS = 1.5
 LIST_FILLING = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
 LARGE_BOX = 2**21  # cells of a box from which on each pass over it is worth sparing
 KEPT_BOX = 1.3  # times the cells of a new box, up to which the last box is kept: its kernel is at hand
-SMALLER_BOX = 0.5  # of the padded cells: a box that is worth a kernel of its own
+SMALLER_BOX = 0.5  # of the padded cells: a box that is worth a separate kernel
 
 # --- nested_iteration: timed, and `benchmarks/ideas.py` ---
 COARSEST = 64  # cells along the longer side at which a problem is solved from nothing
@@ -59,5 +59,5 @@ LEAP = 4.0  # times the smallest residual so far: a step that was too long
 CYCLING = 10  # iterations without a smaller residual, after which cells of the wrong sign may cycle
 PATIENCE = 500  # iterations without a smaller residual, after which the method has stagnated
 PLASTIC_PATIENCE = 40  # the same where the depth can be sought instead: what converges needs fewer
-DEPTH_TRIALS = 80  # depths: by bisection alone, more than the digits of a depth
-FORCE_CLOSE = 1e-9  # of the force: then the active sets are right, but for cells at the very edge
+DEPTH_TRIALS = 80  # depths: by bisection only, more than the digits of a depth
+FORCE_CLOSE = 1e-9  # of the force: then the active sets are right, except for cells at the very edge

@@ -1,7 +1,7 @@
 """The vectors of an inner solve, by the library of the arrays; `compiled_vectors` has the same in machine code.
 
-The names are those of docs/method.md: residual r, preconditioned residual z, search direction s, its image q = A s, and
-constraint direction w, on the free set F.
+The names are those of docs/concepts/method.md: residual r, preconditioned residual z, search direction s, its image
+q = A s, and constraint direction w, on the free set F.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class ArrayVectors:
         return max_abs(self._out_of_bounds())
 
     def constraint_direction(self) -> float:
-        """Make w = M^-1 1 on F, anew where F has lost many cells; return its sum 1.w (B4)."""
+        """Make w = M^-1 1 on F, again where F has lost many cells; return its sum 1.w (B4)."""
         area = self._measure.total(self.free)
         if self._w is None or area < (1 - tuning.STALE_CONSTRAINT_DIRECTION) * self._w_area:
             self._w, self._w_area = self._inner.approximate_inverse(self.free), area

@@ -297,7 +297,7 @@ def test_two_surfaces_are_drawn_one_after_the_other(tmp_path):
 
 
 def test_the_job_and_the_study_of_the_page_are_what_they_are_said_to_be():
-    page = (Path(__file__).parents[3] / "docs" / "studies.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "how-to" / "studies.md").read_text(encoding="utf-8")
     blocks = [tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL)]
     [job] = [from_plain(each) for each in blocks if "job" in each]
     [few] = [Study(**each) for each in blocks if each.get("case") == "job"]

@@ -284,7 +284,7 @@ class CurveAnswer:
             yield Note(
                 Rank.USUAL,
                 "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
-                "in N/m only, never per area (docs/joints.md)",
+                "in N/m only, never per area (docs/concepts/joints.md)",
             )
 
     def _figure(self) -> Figure:

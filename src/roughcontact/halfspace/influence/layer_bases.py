@@ -1,4 +1,4 @@
-"""What a layer lies on, and how the layer then answers waves of pressure, compared with a half-space of its own."""
+"""What a layer lies on, and its response to waves of pressure beside that of a half-space of its material."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Influence functions of a layer: the half-space of its own, and what the base takes from it or adds."""
+"""Influence functions of a layer: that of a half-space of its material, and the correction for the base."""
 
 from __future__ import annotations
 

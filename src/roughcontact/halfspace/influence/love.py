@@ -16,7 +16,7 @@ __all__ = ["love", "love_table", "over_cell", "strip", "table_of_cells", "wave_c
 
 
 # Measured against 60-digit arithmetic (tests/halfspace/influence/test_love.py): beyond FAR longer sides the
-# expansion of 1/r by multipoles, beyond NEAR shorter sides Gauss's rule across the cell, else the
+# expansion of 1/r by multipoles, beyond NEAR shorter sides Gauss's rule across the cell, otherwise the
 # closed form. Each is good to some 1e-14 where it is used.
 FAR = 18.0
 ORDER = 4  # pairs of multipoles: the first that is left out is 2e-3 FAR^-10 of the whole

@@ -15,7 +15,7 @@ Pairs = npt.NDArray[np.intp]
 
 # Measured against 60-digit arithmetic (tests/halfspace/operators/test_ring.py).
 WIDE = 1e-3  # product of two rings' widths over their radii: from here on differences of discs keep 12 digits
-NEAR = 3.0  # gap over the wider width: below, the logarithm needs a rule of its own
+NEAR = 3.0  # gap over the wider width: below, the logarithm needs a separate rule
 FAR = ((40.0, 3), (10.0, 4), (NEAR, 6))  # from which gap on, and how many points of Gauss's rule serve
 REACH = 1e-17  # part of a piece next to the singularity that an integral of ln t can do without
 POINTS, ACROSS = 40, 4  # of Gauss's rule over the logarithm of the distance, and over the place
@@ -44,7 +44,7 @@ def ring_matrix(edges: Array) -> Array:
     function, ``2 pi^2 a b^2 2F1(-1/2, 1/2; 2; m)``, keeps its digits for a small disc in a large one.
 
     The double difference costs narrow rings these digits. They are integrated instead: circles of radii r and
-    r + t have ``8 pi r (r + t)/(2 r + t) K(1 - t^2/(2 r + t)^2)``, smooth but for the logarithm of t.
+    r + t have ``8 pi r (r + t)/(2 r + t) K(1 - t^2/(2 r + t)^2)``, smooth except for the logarithm of t.
     """
     widths = np.diff(edges)
     energy = _discs(edges)
@@ -132,7 +132,7 @@ def _within(edges: Array, i: Pairs) -> Array:
 
 
 def _logarithmic(start: Array, length: Array) -> Iterator[tuple[Array, Array]]:
-    """Yield places s on 0 to `length`, and weights, for functions of t = start + s that are smooth but for ln t.
+    """Yield places s on 0 to `length`, and weights, for functions of t = start + s that are smooth except for ln t.
 
     Gauss's rule over that logarithm, in which they are analytic; where t comes from zero, from a little above it.
     """

@@ -101,7 +101,7 @@ class ShearWaves:
 
 @dataclass(frozen=True, slots=True)
 class TensorTables:
-    """An influence tensor that depends on the offset alone: xx and yy are even along both axes, xy is odd."""
+    """An influence tensor that depends only on the offset: xx and yy are even along both axes, xy is odd."""
 
     influence: Cerruti | ShearWaves
     modulus: ClassVar[None] = None
@@ -153,8 +153,8 @@ def _inverse(shape: tuple[int, ...], spacing: tuple[float, ...], compliance: She
 def _waves(shape: tuple[int, ...], spacing: tuple[float, ...]) -> tuple[Array, Array, Array, Array]:
     """Return q [rad/m] and qx^2, qy^2 and qx qy over q^2, shape ``(ny//2 + 1, nx//2 + 1)`` each.
 
-    At Nyquist's wavenumber, the same for both signs, the mean of qx qy over both is zero. Of the constant, which has no
-    direction, both squares are 1/2.
+    At Nyquist's wavenumber, the same for both signs, the mean of qx qy over both is zero. The constant has no
+    direction: both its squares are 1/2.
     """
     qy, qx = (2 * np.pi * np.fft.rfftfreq(n, step) for n, step in zip(shape, spacing, strict=True))
     q = wavenumbers(shape, spacing)

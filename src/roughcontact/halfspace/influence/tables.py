@@ -21,7 +21,9 @@ __all__ = [
 
 # Cells to the side of a table up to which it is made of the waves one by one (timed by benchmarks/pairs.py).
 SMALL_TABLE = 64
-LARGE_PLANE = 2**26  # cells of a period from which on waves are taken by columns, so many of them at a time
+LARGE_PLANE = (
+    2**26
+)  # cells of a period from which on waves are taken by columns, this number of cells at a time
 FEW_WAVES = 64
 MATRIX_ROWS = 16  # rows of a matrix that are made in one go at least, so that their offsets stay in cache
 # Cells to the side of the first table: single values cost much within, and a short series beyond.
@@ -160,7 +162,7 @@ class _Table:
     copies: dict[str, npt.NDArray[Any]] = field(default_factory=dict)  # of the whole, in other precisions
 
     def covers(self, shape: tuple[int, int]) -> bool:
-        """Whether it has room to both sides for offsets of up to so many cells."""
+        """Whether it has room to both sides for offsets within a shape."""
         return 0 < self.first >= shape[1] and self.whole.shape[0] >= shape[0]
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
@@ -175,7 +177,7 @@ class _Table:
 class Tables:
     """An influence function that keeps its largest table and cuts smaller ones out of it.
 
-    The windows of successive loads grow; each would make its table anew, so that the second has room to spare. `limit`
+    The windows of successive loads grow; each would need a new table, so that the second has room to spare. `limit`
     is the shape of the whole grid, beyond which no table is needed.
     """
 
@@ -222,7 +224,7 @@ class Tables:
         """Return single values [m/Pa], from the table where it holds them.
 
         A table is made as soon as single values have cost as much as it would. `reach` is the shape of the
-        table that would hold them all, where the caller knows it.
+        table that would hold them all, if the caller has it.
         """
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
@@ -247,7 +249,7 @@ class Tables:
         return _holds(self._largest.values.shape, shape)
 
     def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:
-        """Return the shape of a new table: that and what there is, with room to spare if it is not the first."""
+        """Return the shape of a new table: at least `shape` and the present one, with spare room after the first."""
         large = self._largest.values
         spare = 4 if large.size > FIRST_TABLE * FIRST_TABLE else math.inf
         return tuple(
@@ -319,7 +321,7 @@ def table_of_waves(transfer: Array, period: tuple[int, ...], shape: tuple[int, .
 
 
 def _waves(length: int, count: int) -> Array:
-    """Return what each wave of an even function of so many cells contributes to its first values."""
+    """Return what each wave of an even function of `length` cells contributes to its first values."""
     waves = np.arange(length // 2 + 1)
     often = np.where(waves * 2 % length == 0, 1.0, 2.0)
     return np.asarray(

@@ -86,7 +86,7 @@ def half_space(
 def singly_periodic(
     grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
 ) -> InfluenceOperator:
-    """Return the half-space under loads that repeat themselves along one axis and are alone along the other.
+    """Return the half-space under loads that repeat themselves along one axis and not along the other.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The operator of an influence function that depends on the offset alone, whatever way its sum is done."""
+"""The operator of an influence function that depends only on the offset, for each way of summation."""
 
 from __future__ import annotations
 

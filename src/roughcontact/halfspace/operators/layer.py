@@ -49,7 +49,7 @@ def layer(
     Returns
     -------
     Operator
-        On a free grid the layer is endless, and loaded on the grid's cells alone; displacements vanish far away. On
+        On a free grid the layer is endless, and loaded only on the grid's cells; displacements vanish far away. On
         a periodic one a constant pressure on a rigid base compresses the layer, so that depths are absolute; on an
         elastic base the mean displacement is zero, as on a half-space.
 

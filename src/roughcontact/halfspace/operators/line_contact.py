@@ -43,7 +43,7 @@ class LineOperator:
 
     @property
     def capabilities(self) -> Capabilities:
-        """What it can do beyond the protocol: what its plane can, but for tiles."""
+        """What it can do beyond the protocol: what its plane can, except tiles."""
         plane = capabilities(self.plane)
         return Capabilities(
             exact=None if self.plane.exact is None else LineOperator(self.plane.exact),

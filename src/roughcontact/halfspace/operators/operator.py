@@ -212,7 +212,7 @@ def exact_of(operator: AnyOperator) -> AnyOperator:
 
 
 def geometry_of(operator: Operator) -> Geometry:
-    """Return what the operator's cells are: what it states, else what its grid suggests."""
+    """Return what the operator's cells are: what it states, otherwise what its grid suggests."""
     return capabilities(operator).geometry or Geometry.of(operator.grid)
 
 

@@ -110,7 +110,7 @@ def shear_half_space(
 
     Both components of the traction, and their coupling through Poisson's ratio, are in it. That between normal and
     tangential displacement is not: it vanishes for equal bodies and where both are incompressible, and for others
-    `dundurs_parameter` says how strong it is.
+    `dundurs_parameter` measures how strong it is.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ def fourier_sum(influence: Influences, grid: Grid) -> Convolution | TensorConvol
         lengths = padded_lengths(grid, shared=True)
         return Convolution(transfer_function(table, (False, False), lengths, grid.periodic), lengths)
     lengths = padded_lengths(grid)
-    # Of the odd component, twice the factor -i.
+    # The odd component has the factor -i twice.
     parts = [
         (-1) ** odd * transfer_function(part, (odd, odd), lengths, grid.periodic)
         for part, odd in zip(table, (False, True, False), strict=True)
@@ -98,7 +98,7 @@ def transfer_function(table: Array, parity: Parity, lengths: Pair, periodic: Seq
             transfer = -waves.imag if odd else waves.real
         elif not odd:
             transfer = scipy.fft.dct(transfer, type=1, axis=axis, overwrite_x=True, workers=workers)
-        elif lengths[axis] > 2:  # else nothing is left between the two places that are zero
+        elif lengths[axis] > 2:  # otherwise nothing is left between the two places that are zero
             inside = (slice(None),) * axis + (slice(1, -1),)
             transfer[inside] = scipy.fft.dst(transfer[inside], type=1, axis=axis, workers=workers)
     return np.ascontiguousarray(transfer)

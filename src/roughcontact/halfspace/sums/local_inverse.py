@@ -99,7 +99,7 @@ def _far(modulus: float, box: Pair, spacing: tuple[float, ...], columns: slice =
 
 @lru_cache(maxsize=64)
 def _near(ratio: float, large: bool) -> Array:
-    """Return the weights of near cells, as long as so many widths, for ``q``; with blocks for the rest of it."""
+    """Return the weights of near cells, as long as `ratio` widths, for ``q``; with blocks for the rest of it."""
     wanted = definite(wavenumbers((FITTED, FITTED), (ratio, 1.0)))
     if not large:
         return _fitted(wanted, wanted)

@@ -37,7 +37,7 @@ class Multilevel:
     takes half the time and errs fifty times more; order 10 with near 14 takes half as long again and errs
     forty times less (benchmarks/operators.py).
 
-    Of a tensor the coupling of the two components is odd along both axes, and its levels are. The error is less than
+    The coupling of the two components of a tensor is odd along both axes, and so are its levels. The error is less than
     5e-6 of the largest displacement under tractions whose components are nowhere negative, and some 1e-5 under noise,
     whose displacements cancel. Between any two cells, near or far, no component errs by more than 1.1e-4 of the
     tensor's trace: the remainder of the interpolation ten cells away.

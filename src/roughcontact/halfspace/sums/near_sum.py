@@ -1,4 +1,4 @@
-"""The sum over near cells: in machine code where there is some, else in products of matrices."""
+"""The sum over near cells: in machine code where there is some, otherwise in products of matrices."""
 
 from __future__ import annotations
 

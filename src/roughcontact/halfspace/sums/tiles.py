@@ -148,5 +148,5 @@ def list_loaded(values: Field) -> tuple[Indices, Indices, Field]:
 
 
 def count(cells: int) -> int:
-    """Return how many tiles a side of so many cells takes."""
+    """Return the number of tiles along a side of `cells` cells."""
     return -(-cells // SIDE)

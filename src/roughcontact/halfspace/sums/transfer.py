@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["NodeGrid", "coarse_count", "interpolation", "offset_weights"]
 
 
-# Axes are coarsened together while their spacings differ by less than this factor; else the finer one goes first.
+# Axes are coarsened together while their spacings differ by less than this factor; otherwise the finer one goes first.
 SAME_SPACING = math.sqrt(2)
 
 

@@ -1,7 +1,7 @@
 """The stiffness of rough squares as computed: exponent and prefactor of ensembles of surfaces, with errors.
 
 k/(E* L) = zeta (F/(E* h L))^alpha as the thesis has it (`pohrt_popov`), but alpha and zeta are those of the mean
-stiffness of 800 free squares of 512 x 512 cells for each of twelve Hurst exponents (docs/law.md), and monotone
+stiffness of 800 free squares of 512 x 512 cells for each of twelve Hurst exponents (docs/evidence/law.md), and monotone
 interpolations between them. With kappa, k/(E* L) at F/(E* h L) = 0.02, zeta is kappa 0.02^-alpha.
 """
 
@@ -187,8 +187,8 @@ def stiffness(
     -----
     The amplitudes of the waves are those of the spectrum, their phases random, and waves end at two cells. Single
     surfaces scatter about the mean by up to a quarter. Curves of the mean stiffness are bent a little:
-    docs/law.md says how far they lie beside a power law. Each Hurst exponent left out, interpolation meets its values
-    within one standard error.
+    docs/evidence/law.md says how far they lie beside a power law. Each Hurst exponent left out, interpolation meets
+    its values within one standard error.
 
     Examples
     --------
@@ -257,7 +257,7 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     scale = float(_scale(length, modulus) * positive(rms, "rms [m]"))
     return LoadingLaw(
         "Rough squares, computed",
-        "docs/law.md",
+        "docs/evidence/law.md",
         {"stiffness": partial(stiffness, **surface)},
         (scale * float(_lowest(h)), scale * FORCE_LIMIT),
     )
