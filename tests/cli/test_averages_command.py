@@ -14,7 +14,7 @@ from roughcontact.statistics.fit_window import force_window
 from roughcontact.study import Store, export
 from tables import read_table
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "studies.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "study-files.md"
 TEXT = """
 name = "tried"
 case = "curve"

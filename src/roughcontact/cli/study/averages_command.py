@@ -197,7 +197,9 @@ def averaged_in(folder: Path, window: Window | None, load: tuple[str, float] | N
         require_results(folder, summary)
         dataset = export(store)
     if summary.failed or summary.left:
-        note(f"{summary.failed} cases failed and {summary.left} are left: they have no part in the averages")
+        note(
+            f"{summary.failed} cases failed, {summary.left} are not computed: the averages are of the other {summary.done}"
+        )
     if load is not None:
         name, value = load
         _require_between(dataset, name, value)
