@@ -104,7 +104,7 @@ def specs(part: Any) -> Iterator[tuple[Field[Any], Spec]]:
 
 
 def with_fields_of(other: Any) -> Callable[[type[_T]], type[_T]]:
-    """Return a decorator of a class that is to be a dataclass: it begins with the fields of another one."""
+    """Return a decorator for a class before `dataclass`: the fields of another part are put before its own."""
 
     def extended(kind: type[_T]) -> type[_T]:
         for each in fields(other):

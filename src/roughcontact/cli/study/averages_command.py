@@ -197,9 +197,8 @@ def averaged_in(folder: Path, window: Window | None, load: tuple[str, float] | N
         require_results(folder, summary)
         dataset = export(store)
     if summary.failed or summary.left:
-        note(
-            f"{summary.failed} cases failed, {summary.left} are not computed: the averages are of the other {summary.done}"
-        )
+        without = f"{summary.failed} cases failed, {summary.left} are not computed"
+        note(f"{without}: the averages are of the other {summary.done}")
     if load is not None:
         name, value = load
         _require_between(dataset, name, value)
