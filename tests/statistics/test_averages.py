@@ -85,7 +85,9 @@ def test_it_counts_the_samples_and_the_forces_that_are_resolved(own):
     np.testing.assert_array_equal(counts[0, 0], expected)
     np.testing.assert_array_equal(counts[1, 0], np.where(resolved, expected - 1, 0))
     assert not [name for name in found if str(name).startswith("resolved_") and name != "resolved_samples"]
-    assert (found["law_count"] == len(FORCE) - 8 - own).all()  # the last lacks more than a tenth of the samples
+    assert (
+        found["law_count"] == len(FORCE) - 8 - own
+    ).all()  # the last lacks more than a tenth of the samples
     assert (found["law_resolved"] == 12 - own).all()
 
 
