@@ -87,6 +87,15 @@ $ {FORCE} --modulus 110
 > {FORCE} --modulus 110GPa
 > {FORCE} --modulus 110Pa
 
+$ {FORCE} --modulus steel
+! --modulus: 'steel' is a name, and the reduced modulus is a number; name both bodies by --materials, such as
+> {FORCE} --materials steel,aluminium
+> {FORCE} --materials steel,rigid
+
+$ {FORCE} --young steel --poisson 0.3
+! --young: 'steel' is a name, and Young's modulus is a number; name both bodies by --materials, such as steel,aluminium
+> {FORCE} --materials steel,steel
+
 $ {FORCE} --modulus 1N
 ! '1N' is not a modulus; write a modulus such as 110GPa
 > {FORCE} --modulus 110GPa

@@ -67,6 +67,18 @@ FILES = [
         "parameters.modulus: 'modulus' is missing; give modulus",
         study(**CURVE),
     ),
+    *(
+        row(
+            study(**CURVE | {"modulus": f'"{text}"'}),
+            f"{text!r} is a name, and a reduced modulus is a number; write '{number} GPa', that of {bodies}",
+            study(**CURVE | {"modulus": f'"{number} GPa"'}),
+        )
+        for text, number, bodies in (
+            ("steel", "111.9", "steel and steel"),
+            ("steel, aluminium", "57.47", "steel and aluminium"),
+            ("rigid,steel", "223.8", "rigid and steel"),
+        )
+    ),
     row(
         study(**CURVE, hardness='"1GPa"', relative_hardness="0.1"),
         "give hardness or relative_hardness, not both",

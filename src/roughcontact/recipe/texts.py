@@ -163,6 +163,8 @@ class Likely:
         What a value beyond them is.
     meant : str
         The unit that was probably meant.
+    named : str
+        What to do where a name stands in place of the number.
     """
 
     amount: Amount
@@ -170,6 +172,7 @@ class Likely:
     high: float
     odd: str
     meant: str
+    named: str = ""
 
     @property
     def kind(self) -> Kind:
@@ -178,6 +181,8 @@ class Likely:
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
+        if self.named and text[:1].isalpha():
+            raise InputError(f"{text!r} is a name, and {self.amount.what} is a number", self.named)
         value = self.amount(text)
         if not self.low <= value <= self.high and not quantity.has_unit(text):
             bare, unit = text.strip(), self.kind.unit
@@ -190,7 +195,10 @@ class Likely:
 
 def modulus(what: str, kind: Kind = MODULUS) -> Likely:
     """Return a reader of moduli and hardnesses [Pa]."""
-    return Likely(Amount(kind, what), _FOAM, math.inf, "softer than foam", "GPa")
+    named = (
+        "name both bodies by `materials`, such as steel,aluminium or steel,rigid" if kind is MODULUS else ""
+    )
+    return Likely(Amount(kind, what), _FOAM, math.inf, "softer than foam", "GPa", named)
 
 
 def known_material(text: str) -> Material | None:
