@@ -118,7 +118,9 @@ class SessionCache:
         if bodies is None:
             return {}
         slope = self._once("slope", _key(surface_calls(job)), lambda: _slope(surface))
-        stress, height = performed(bodies.calls(), known_names())["modulus"] * slope, surface.rms
+        modulus, height = performed(bodies.calls(), known_names())["modulus"], surface.rms
+        # A spring bears a force per length, the modulus times its depth.
+        stress = modulus * (height if job.contact.profile == "winkler" else slope)
         if not (stress > 0 and height > 0):
             return {}
         pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)

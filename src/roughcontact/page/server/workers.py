@@ -257,6 +257,9 @@ class Sessions:
         """Open a session and return its key; None if there are too many."""
         if len(self.known) >= MOST_SESSIONS:
             await self._end_silent(self.room)
+        leaving = [each.leaving for each in self.known.values() if each.leaving is not None]
+        if len(self.known) >= MOST_SESSIONS and leaving:
+            await asyncio.wait(leaving, return_when=asyncio.FIRST_COMPLETED)
         if len(self.known) >= MOST_SESSIONS:
             return None
         key = secrets.token_hex(16)
@@ -301,9 +304,7 @@ class Sessions:
 
     async def _end_silent(self, limit: float) -> None:
         before = monotonic() - limit
-        for key in [
-            key for key, each in self.known.items() if each.leaving or (each.heard < before and not each.busy)
-        ]:
+        for key in [key for key, each in self.known.items() if each.heard < before and not each.busy]:
             await self.end(key)
 
     def _prepare(self) -> asyncio.Task[_Worker]:

@@ -76,6 +76,7 @@ export function jobOf(name, state, { jobs }) {
     const given = Object.entries(state[part] || {}).filter(([field]) => fields.some((each) => each.name === field));
     job[part] = Object.fromEntries(given);
   }
+  job.preparation.level ??= "none"; // a page shows the heights that it presses
   return job;
 }
 

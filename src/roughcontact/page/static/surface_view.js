@@ -107,7 +107,7 @@ export function surfaceView(recipe) {
           { x: header.x, y: header.normal, label: "normal", kind: "line", colour: "--ink-soft", dash: [5, 4] },
         ] });
       } else if (header.type === "spectrum") {
-        chart(by("spectrum"), { x: { label: "wavenumber", unit: "rad/m", log: true }, y: { label: "density", unit: "m⁴", log: true }, height: 200, label: "Power spectrum", series: [
+        chart(by("spectrum"), { x: { label: "wavenumber", unit: "rad/m", log: true }, y: { label: "density", unit: header.unit, log: true }, height: 200, label: "Power spectrum", series: [
           { x: header.x, y: header.y, label: "power spectrum", kind: "line", colour: "--accent" },
         ] });
       } else if (header.type === "roughness") {
