@@ -336,7 +336,7 @@ def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
     tab.wait("() => document.getElementById('said').textContent.includes('A new one takes over')")
     # What is asked of a process before the server knows of its end is answered as above.
     assert psutil.wait_procs(killed, timeout=30)[1] == []
-    tab.page.get_by_role("button", name="Ask again").click()
+    tab.page.get_by_role("button", name="Compute again").click()
     tab.settled()
     assert tab.facts["surface"].startswith("1024 x 1024 cells")
     assert not tab.page.locator("#again").is_visible()
@@ -608,11 +608,42 @@ def test_loads_without_a_unit_are_asked_about(tab, part):
     assert tab.page.locator(".trouble").count() == 0
 
 
+def test_a_profile_is_asked_how_it_is_pressed_and_has_no_second_direction(tab, tmp_path):
+    rc.write(rc.self_affine(rc.Grid(64, 1e-6), 0.8, 1e-7, np.random.default_rng(2)), tmp_path / "line.npz")
+    assert not tab.drop("line.npz", (tmp_path / "line.npz").read_bytes())
+    tab.until(
+        lambda: "line or winkler" in tab.page.locator('[id="contact.profile_trouble"]').text_content()
+    )
+    for profile, unit in (("line", "Pa"), ("winkler", "N/m")):
+        tab.page.select_option('[id="contact.profile"]', profile)
+        tab.until(lambda profile=profile: f"--profile {profile} --pressure" in tab.text("command"))
+        tab.settled()
+        tab.until(lambda unit=unit: tab.page.input_value("#load").endswith(unit))
+        tab.until(lambda: not tab.page.locator("#cut_places").is_visible())
+    tab.page.select_option("#loads", "forces")
+    tab.page.locator("#start").click()
+    tab.wait("() => document.querySelectorAll('#points tbody tr').length === 12")
+    assert "--profile winkler" in tab.text("curve_command")
+
+
+def test_a_single_adhesive_state_has_a_map_of_its_traction(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    assert not tab.page.locator("#traction").is_visible()
+    tab.page.select_option("#kind", "adhesion press")
+    tab.until(lambda: "The load is the one above" in tab.text("kind_said"))
+    tab.page.fill('[id="adhesion.work"]', "1J/m^2")
+    tab.page.fill('[id="adhesion.range"]', "100nm")
+    tab.page.locator("#start").click()
+    tab.page.locator("#traction").click(timeout=1000 * PATIENCE)
+    tab.until(lambda: tab.text("low").startswith(("-", "≤ -")))
+
+
 # What reaches beyond the screen; the heights of the bars; whether a table scrolls with its first column in view.
 BEYOND = """() => [...document.querySelectorAll("body *")]
   .filter((each) => !each.closest(".table") && each.getBoundingClientRect().right > innerWidth)
   .map((each) => each.outerHTML)"""
-BARS = """() => [...document.querySelectorAll(".bar.load, #view > .bar, #curves > .bar")]
+BARS = """() => [...document.querySelectorAll(".bar.load, #view > .bar, #curves > .bar, #of_cut > .bar")]
   .map((each) => each.clientHeight)"""
 SCROLLED = """() => {
   const box = document.getElementById("points").parentElement;

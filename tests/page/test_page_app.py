@@ -215,7 +215,7 @@ def test_a_disk_that_takes_nothing_is_said(server, tmp_path):
     (tmp_path / session).rmdir()
     [found] = asked(server, put(session))
     assert found.status == 507
-    assert "cannot keep the file" in found.json["message"]
+    assert "cannot store the file" in found.json["message"]
 
 
 @pytest.mark.parametrize(

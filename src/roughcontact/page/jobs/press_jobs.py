@@ -59,14 +59,14 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     )
     if solution.contact.any():
         bars = pressure_bars(solution)
-        beyond = f"{100 * bars.beyond:.2g} % of the contact area beyond, up to {written(bars.largest, unit)}"
+        part = f"{100 * bars.beyond:.2g} % of the contact area, up to {written(bars.largest, unit)}"
         send(
             {
                 "type": "pressures",
                 "x": ((bars.edges[1:] + bars.edges[:-1]) / 2).tolist(),
                 "y": bars.density.tolist(),
                 "unit": unit,
-                "beyond": beyond if bars.beyond else "",
+                "beyond": f"Beyond the axis: {part}." if bars.beyond else "",
             }
         )
 
@@ -78,9 +78,10 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     from roughcontact.plot.drawing.engineering_units import pretty
 
     solution = cache.solution(request.job)
-    problem, along_row = solution.problem, request.more.get("axis") != "column"
+    problem = solution.problem
     *across, x = problem.grid.coordinates
-    if across and not along_row:
+    along_row = not across or request.more.get("axis") != "column"
+    if not along_row:
         [x], across = across, [x]
     count = across[0].size if across else 1
     at = min(request.whole("place", 1, count), count) - 1
@@ -109,9 +110,9 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
 def _warning(solution: Solution) -> str:
     """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
     if not solution.status.converged:
-        return "The solver has missed its tolerance: take another load, or filter the shortest waves."
+        return "The solver missed its tolerance: take another load, or filter the shortest waves."
     if solution.contact.any() and not solution.resolved_from_below:
         return (
-            "So few cells bear this load that the grid sets the stiffness: take a larger load or a finer map."
+            "Too few cells carry this load, so the stiffness depends on the grid: take a larger load or a finer map."
         )
     return ""

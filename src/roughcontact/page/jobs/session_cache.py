@@ -54,7 +54,7 @@ class SessionCache:
                 and max(points(job.source.points)) > _MOST_POINTS
             ):
                 raise InputError(
-                    f"a surface has up to {_MOST_POINTS} points a side here, not {job.source.points}",
+                    f"a surface on the page has at most {_MOST_POINTS} points a side, not {job.source.points}",
                     "give fewer, or use the command line",
                     "source.points",
                 )

@@ -78,22 +78,23 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
     import roughcontact as rc
     from roughcontact.plot.drawing.usual_range import usual_range
+    from roughcontact.plot.pressure_bars import fewer
 
     surface = cache.surface(request.job)
     rough = surface.rms > 0
     if rough:
         heights = surface.heights[surface.measured]
         heights = heights - heights.mean()
-        histogram = rc.height_histogram(surface, bins=80, ends=usual_range(heights))
+        histogram = rc.height_histogram(surface, bins=fewer(80, heights), ends=usual_range(heights))
         beyond = 1 - float(histogram.count.sum()) / heights.size
-        ends = [written(float(end), "m") for end in (heights.min(), heights.max())]
+        ends = " to ".join(written(float(end), "m") for end in (heights.min(), heights.max()))
         send(
             {
                 "type": "heights",
                 "x": histogram.centres.tolist(),
                 "y": histogram.density.tolist(),
                 "normal": histogram.gaussian(histogram.centres).tolist(),
-                "beyond": f"{beyond:.2%} of the heights beyond, {' to '.join(ends)}" if beyond else "",
+                "beyond": f"Beyond the axis: {100 * beyond:.2g} % of the heights, {ends}." if beyond else "",
             }
         )
     warned = [each | {"remedy": on_the_page(each["remedy"])} for each in cache.warnings(request.job)]
@@ -132,7 +133,7 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     import roughcontact as rc
 
     areal = surface.grid.ndim == 2
-    parameters: Any = rc.areal_parameters(surface) if areal else rc.profile_parameters(surface)
+    parameters: Any = rc.areal_parameters(surface) if areal else rc.profile_parameters(surface.filled())
     moments = rc.surface_moments(surface)
     facts = [
         (name, words, written(float(getattr(parameters, name)), unit, 4))

@@ -71,13 +71,13 @@ class PageRequest:
 
         def known(file: File) -> UploadedFile:
             if file.file not in files:
-                raise InputError("the server has no such file any more", "drop it again", "source.file")
+                raise InputError("the server no longer has this file", "drop it again", "source.file")
             return files[file.file]
 
         job = from_plain(plain)
         if isinstance(job, TheoryJob):
             raise InputError(
-                "a page shows maps", "run a job of theories by the command roughcontact run", "job"
+                "the page shows surfaces, and a job of theories has none", "use the command roughcontact run", "job"
             )
         beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
         return cls(

@@ -30,10 +30,10 @@ GIVEN = "given"  # what the page calls the file of the command line
 _DELAY = 3.0  # seconds before the next reserve is started: the first answer comes first
 _GRACE = 0.15  # seconds in which a cancelled request may end; its process is killed afterwards
 _DIED = (
-    "The process that computes was ended from outside, or ran out of memory. A new one takes over: press Ask again, or "
-    "Start for a curve."
+    "The computing process was killed, or it ran out of memory. A new one takes over: press Compute again, or Start "
+    "for a curve."
 )
-_NOT_STARTED = "The process that computes did not start: see what it wrote where the server runs."
+_NOT_STARTED = "The computing process did not start: read its messages in the terminal of roughcontact serve."
 
 
 @dataclass(slots=True, eq=False)

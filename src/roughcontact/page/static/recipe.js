@@ -80,6 +80,9 @@ export function jobOf(name, state, { jobs }) {
   return job;
 }
 
+// How a state presses a profile; none where it presses a map.
+export const profileOf = ({ contact }) => (contact || {}).profile;
+
 // The parts of a state on which an answer of a kind depends.
 export const partsOf = (name, { jobs }) => ["source", ...Object.keys(jobs[name])];
 
