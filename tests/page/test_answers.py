@@ -242,7 +242,9 @@ def test_a_spike_takes_no_room_in_the_distribution_of_the_pressure(ask, file):
     heights[20, 30] += 2e-6
     rc.write(rc.Surface(heights, rc.Grid((96, 96), 1e-6)), file.path)
     [found] = of(ask(press, load={"pressure": "2 GPa"}), "pressures")
-    [header] = [each for each in of(ask(press, load={"pressure": "2 GPa"}), "map") if each["map"] == "pressure"]
+    [header] = [
+        each for each in of(ask(press, load={"pressure": "2 GPa"}), "map") if each["map"] == "pressure"
+    ]
     width = found["x"][1] - found["x"][0]
     assert found["x"][-1] < 0.2 * header["ends"][1]
     part = float(re.search(r"([\d.]+) % of the contact area", found["beyond"])[1]) / 100
@@ -260,7 +262,9 @@ def test_the_distribution_of_hertz_needs_no_end(ask):
 WAVY = {"kind": "self-affine", "hurst": "0.8", "rms": "0.2um", "size": "64um", "points": "64", "seed": "3"}
 
 
-@pytest.mark.parametrize(("profile", "body", "unit"), [("line", "line", "Pa"), ("winkler", "foundation", "N/m")])
+@pytest.mark.parametrize(
+    ("profile", "body", "unit"), [("line", "line", "Pa"), ("winkler", "foundation", "N/m")]
+)
 def test_a_profile_is_a_map_of_one_row(ask, profile, body, unit):
     parts = {"source": WAVY, "contact": {"profile": profile}}
     [heights] = of(ask(look, **parts), "map")

@@ -97,7 +97,11 @@ def test_an_order_that_is_answered_is_done():
             "hurst is missing",
         ),
         ("look", {"job": "surface", "source": {**MADE, "points": 10**6}}, "at most 4096 points"),
-        ("look", {"job": "surface", "source": {"kind": "file", "file": "/etc/passwd"}}, "no longer has this file"),
+        (
+            "look",
+            {"job": "surface", "source": {"kind": "file", "file": "/etc/passwd"}},
+            "no longer has this file",
+        ),
         ("look", {"job": "dig", "source": MADE}, "no job 'dig'"),
         ("press", {"job": "press", "source": MADE, "bodies": BODIES, "load": {"force": "much"}}, "much"),
     ],

@@ -258,11 +258,7 @@ def test_every_field_of_a_job_is_in_a_form(person, part):
     person.wait()
     for part_of_job in (Preparation, Bodies, AfterLoad, Contact, File):
         form = part_of_job.__name__.replace("AfterLoad", "Plastic").replace("File", "Source").lower()
-        names = [
-            each.name
-            for each, spec in specs(part_of_job)
-            if spec.option and each.name != "file"
-        ]
+        names = [each.name for each, spec in specs(part_of_job) if spec.option and each.name != "file"]
         assert len(names) > 2 or part_of_job is Contact
         for name in names:
             assert person.field(f"{form}.{name}").count() == 1, (form, name)

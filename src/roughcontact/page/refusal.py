@@ -74,7 +74,9 @@ def _fault(error: InputError) -> dict[str, Any]:
         if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
             remedy = f"Fill in {' and '.join(lacking)}."
         elif remedy is not None and _READER.search(remedy):
-            remedy = "choose line or winkler as `profile`" if "line" in remedy else "choose \u2013 as `profile`"
+            remedy = (
+                "choose line or winkler as `profile`" if "line" in remedy else "choose \u2013 as `profile`"
+            )
             places = ["contact.profile"]
     sentences = [_sentence(each) for each in (message, remedy) if each]
     return {"message": " ".join(sentences), "places": places}

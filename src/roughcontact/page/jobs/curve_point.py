@@ -47,7 +47,7 @@ def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
 
 
 def _conducted(job: CurveJob) -> list[Column]:
-    """Return the conductances that a job asks for: of the interface over the nominal area, else in total."""
+    """Return the conductances that a job asks for: those per nominal area of the interface, or the total ones."""
     electrical, _, thermal, _ = CONDUCTION_PER_AREA if job.conduction.of == "interface" else CONDUCTION
     columns = {"resistivities": electrical, "conductivities": thermal}
     return [columns[name] for name in job.conduction.named()]

@@ -190,7 +190,7 @@ def _writers(
     table: str = "",
     numbers: Any = None,
 ) -> Writers:
-    """Return how an answer is written in every form; of one state the table holds the numbers alone."""
+    """Return how an answer is written in every form; of one state the table holds the numbers only."""
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.canvas import save
 

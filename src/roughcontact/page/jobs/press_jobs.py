@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from roughcontact.labels.labelled import plain_values
 from roughcontact.labels.variables import unit_of
@@ -108,11 +108,9 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 
 def _warning(solution: Solution) -> str:
-    """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
+    """Return one sentence with a remedy if the numbers of a load are not reliable; otherwise an empty text."""
     if not solution.status.converged:
         return "The solver missed its tolerance: take another load, or filter the shortest waves."
     if solution.contact.any() and not solution.resolved_from_below:
-        return (
-            "Too few cells carry this load, so the stiffness depends on the grid: take a larger load or a finer map."
-        )
+        return "Too few cells carry this load, so the stiffness depends on the grid: take a larger load or a finer map."
     return ""

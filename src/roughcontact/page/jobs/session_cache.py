@@ -40,7 +40,7 @@ class UploadedFile:
 
 @dataclass(frozen=True, slots=True)
 class SessionCache:
-    """What was computed last, by the calls that compute it; all of it can be computed again."""
+    """What was computed last, by the calls that compute it; each answer can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
 
@@ -112,7 +112,7 @@ class SessionCache:
 
         return self._once("solution", _key([*surface_calls(job), *contact_calls(job)]), pressed)
 
-    def span(self, job: Job) -> dict[str, tuple[float, float, float]]:
+    def span(self, job: Any) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
         surface, bodies = self.surface(job), getattr(job, "bodies", None)
         if bodies is None:

@@ -36,7 +36,7 @@ class ShownCurve:
     ----------
     curve : Curve, Loop, AdhesiveCurve, DetachmentCurve or AdhesiveState
     facts : list of (str, str)
-        What is worth telling of it as a whole.
+        Facts about it as a whole: labels and values.
     figure : function
         Draws it; of a curve of rising loads, which has theories, None.
     notes : list of str

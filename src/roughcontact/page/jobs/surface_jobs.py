@@ -36,7 +36,7 @@ _AREAL = (
     ("Sdq", "root mean square gradient", ""),
     ("Sdr", "developed interfacial area ratio", ""),
 )
-# Of a profile those of ISO 21920-2.
+# For a profile, parameters of ISO 21920-2.
 _PROFILE = (
     ("Rq", "root mean square height", "m"),
     ("Ra", "arithmetic mean height", "m"),
@@ -51,7 +51,7 @@ _PROFILE = (
 
 
 def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
+    """Send what the file holds, the heights after their preparation, and facts about them."""
     import numpy as np
 
     source = request.job.source

@@ -77,7 +77,9 @@ class PageRequest:
         job = from_plain(plain)
         if isinstance(job, TheoryJob):
             raise InputError(
-                "the page shows surfaces, and a job of theories has none", "use the command roughcontact run", "job"
+                "the page shows surfaces, and a job of theories has none",
+                "use the command roughcontact run",
+                "job",
             )
         beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
         return cls(

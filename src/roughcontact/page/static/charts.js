@@ -4,10 +4,10 @@ import { digits, scaleFor } from "./words.js";
 
 /* global uPlot */
 
-// Of a logarithmic axis the decades alone have lines: all of them would be a band of ink.
+// Only the decades of a logarithmic axis have lines: all lines would be a band of ink.
 const decade = (at) => at !== null && Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-6;
 const decades = (_, splits) => splits.map((at) => (decade(at) ? at : null));
-// Of more decades than there is room for labels, every second or third has one.
+// Where labels of all decades would overlap, every second or third decade has one.
 function labelled(ticks, log, most) {
   const every = log ? Math.ceil(ticks.filter(decade).length / most) : 1;
   return every > 1 ? ticks.map((at) => (decade(at) && Math.round(Math.log10(at)) % every === 0 ? at : null)) : ticks;
@@ -16,7 +16,7 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 const shown = new Set();
 
 // Series: { label, x, y, kind: "line" | "points" | "rings" | "mark" | "area", colour, dash, gaps }. Axes: { label, unit, log };
-// `y.per` stands for a density over x, `beyond` says what lies outside. `clicked(x)` and `hovered(k)` tell of places in the units of the series.
+// `y.per` stands for a density over x, `beyond` is a line about what lies outside. `clicked(x)` and `hovered(k)` get places in the units of the series.
 export function chart(root, spec) {
   root.spec = spec;
   if (!shown.has(root)) {
@@ -110,7 +110,7 @@ function draw(root) {
   });
 }
 
-// The ends of an axis: values that differ by rounding alone have no ticks between them.
+// The ends of an axis: values that differ only by rounding have no ticks between them.
 function apart(low, high) {
   const size = Math.max(Math.abs(low), Math.abs(high));
   return high - low > 1e-6 * size ? [low, high] : [low - (0.05 * size || 1), high + (0.05 * size || 1)];

@@ -1,4 +1,4 @@
-// The page: what the user does changes the recipe, and the recipe says what is to be computed.
+// The page: the user changes the recipe, and the page computes what the recipe asks for.
 
 import { comparison } from "./comparison.js";
 import { dragged } from "./crop.js";
@@ -27,7 +27,7 @@ const by = (id) => document.getElementById(id);
 let largest = Infinity;
 let front = null;
 let lull = null;
-let forms = null; // what the server tells of the fields
+let forms = null; // the fields as the server describes them
 let curve = null;
 let raw = null; // the surface before its preparation
 let same = {}; // the bodies in other words
@@ -60,7 +60,7 @@ const JOBS = { look: "surface", study: "surface", bodies: "curve", press: "press
 function asked(question) {
   const { now } = recipe;
   if (question === "bodies") return { job: "curve", source: BLANK, bodies: now.bodies, plastic: jobOf("curve", now, forms).plastic };
-  if (question === "press" ? !now.load : JOBS[question] === "surface" && profileOf(now)) {
+  if (question === "press" ? !load.ready : JOBS[question] === "surface" && profileOf(now)) {
     const { source, preparation, bodies, contact } = jobOf("curve", now, forms);
     return { job: "curve", source, preparation, bodies, contact };
   }
@@ -162,6 +162,7 @@ async function perform(job) {
   if (!more) return pump();
   const basis = () => JSON.stringify(asked(job));
   const before = basis();
+  const answers = asked(job).job; // of a press the loads that suit come first, and then the contact
   const sent = request("front", job, asked(job), more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
     if ((wanted.look && JOBS[job] === "press") || (before !== basis() && !load.dragged)) return;
@@ -184,7 +185,7 @@ async function perform(job) {
     surfaceCard.refused();
   }
   if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names, examples));
-  if (job === "press" && end.how === "done" && recipe.now.load) wanted.cut = true;
+  if (job === "press" && end.how === "done" && load.ready) wanted[answers === "press" ? "cut" : "press"] = true;
   if (job === "study" && !wanted.study) {
     if (end.how === "stopped") wanted.study = true;
     else surfaceCard.done();
@@ -272,7 +273,7 @@ function listen() {
   by("colours").onchange = ({ target }) => { map.state.colours = target.value; map.paint(); compare.show(); };
   [by("undo").onclick, by("redo").onclick, by("again").onclick] = [recipe.undo, recipe.redo, again];
   by("keep").onclick = () => compare.keep(curve.kept);
-  exports(by("export"), { load: () => (recipe.now.load ? asked("press") : asked("look")), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
+  exports(by("export"), { load: () => asked(load.ready ? "press" : "look"), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
   helpLine(by("help"));
   shortcuts({ ...recipe, leave: () => map.state.mode === "crop" && by("crop").click() });
   new MutationObserver(() => { map.paint(); compare.show(); }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
@@ -311,7 +312,7 @@ try {
   groups();
   curve = curveView({ recipe, forms, known: begun.theories, load, failed, ended: compare.show, mapped: (header, data) => { map.set(header.map, header, data); show(); } });
   listen();
-  document.querySelector("main").inert = false; // before, nobody would answer
+  document.querySelector("main").inert = false; // before, no handler answers
   show();
   pump();
   const before = goesOn(kept, begun.files);

@@ -31,7 +31,7 @@ export function mapView(canvas, bar, heard) {
     return { x: (canvas.width - w) / 2, y: (canvas.height - h) / 2, w, h };
   }
 
-  // The ends of the colours: those of another map too, where both are to be compared.
+  // The ends of the colours: those of both maps in a comparison.
   function ends(field) {
     const own = ownEnds(field);
     const other = state.beside && state.beside.ends(kind());
