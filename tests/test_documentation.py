@@ -1,7 +1,8 @@
 """What README and documentation show runs as printed.
 
-Every block of Python is a program of its own; what a page's comments or blocks of text print is compared. The command
-lines of a page run one after the other. Both start in a folder that holds the files that the pages name.
+Every block of Python is a program of its own, except on a sheet of the course, where all blocks are one program. What a
+block prints is compared with the text below it. The command lines of a page run one after the other. Both start in a
+folder that holds the files that the pages name.
 """
 
 import importlib.util
@@ -36,11 +37,13 @@ COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 
 def blocks():
     for page in PAGES:
-        for number, (code, printed) in enumerate(BLOCK.findall(page.read_text(encoding="utf-8"))):
+        found = BLOCK.findall(page.read_text(encoding="utf-8"))
+        for number, cells in enumerate([found] if page.parent.name == "course" else zip(found)):
+            code = "".join(code for code, _ in cells)
             wanted = [name for name, sign in OPTIONAL.items() if sign in code]
             lacking = [each for each in wanted if importlib.util.find_spec(each) is None]
             skipped = pytest.mark.skipif(bool(lacking), reason=f"{', '.join(lacking)}: not installed")
-            yield pytest.param(code, printed, id=f"{page.name}-{number}", marks=skipped)
+            yield pytest.param(cells, id=f"{page.name}-{number}", marks=skipped)
 
 
 def commands():
@@ -77,16 +80,17 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize(("code", "printed"), list(blocks()))
-def test_python_runs_as_printed(code, printed, folder):
-    out = io.StringIO()
+@pytest.mark.parametrize("cells", list(blocks()))
+def test_python_runs_as_printed(cells, folder):
+    names = {"__name__": "__main__"}
     try:
-        with redirect_stdout(out):
-            exec(compile(code, "block", "exec"), {"__name__": "__main__"})
+        for code, printed in cells:
+            with redirect_stdout(io.StringIO()) as out:
+                exec(compile(code, "block", "exec"), names)
+            if printed:
+                assert out.getvalue() == printed
     finally:
         plt.close("all")
-    if printed:
-        assert out.getvalue() == printed
 
 
 @pytest.mark.parametrize("lines", list(commands()))

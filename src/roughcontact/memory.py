@@ -15,7 +15,7 @@ from roughcontact.errors import InputError
 __all__ = ["MemoryWarning", "free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
 
 SMALL = 2**24  # [bytes] what every machine has: nothing is asked
-GROUPS = Path("/sys/fs/cgroup")  # where Linux says what a container or a job may use
+GROUPS = Path("/sys/fs/cgroup")  # where Linux states what a container or a job may use
 OWN = Path("/proc/self/cgroup")
 _ELSEWHERE = "or use a machine with more memory"
 
@@ -48,7 +48,7 @@ def require_memory(least: int, most: int, what: str, remedy: str) -> None:
     Raises
     ------
     ValueError
-        If the lower bound exceeds what there is.
+        If the lower bound exceeds the free memory.
     """
     if most < SMALL:
         return
@@ -63,7 +63,7 @@ def require_memory(least: int, most: int, what: str, remedy: str) -> None:
         )
         if impossible:
             raise error
-        warnings.warn(str(error), MemoryWarning, stacklevel=6)  # whoever calls `press`
+        warnings.warn(str(error), MemoryWarning, stacklevel=6)  # the caller of `press`
 
 
 def require_free(need: int, what: str, remedy: str, error: Callable[[str, str], Exception]) -> None:

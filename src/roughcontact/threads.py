@@ -39,7 +39,7 @@ BESIDE = "MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE"
 
 _limit: ContextVar[int | None] = ContextVar("threads", default=None)
 
-# Held for what a forked process must not find half done: a fork waits until nobody holds it. One lock for all of it,
+# Held for what a forked process must not find half done: a fork waits until it is free. One lock for all such things,
 # so that no two can wait for each other.
 no_fork = RLock()
 
@@ -70,7 +70,7 @@ def once(function: Callable[[*Ts], T]) -> Callable[[*Ts], T]:
 def threads() -> int:
     """Return how many threads there are for large transforms.
 
-    As many as the process may use cores, 8 at most, or fewer if ``OMP_NUM_THREADS`` says so; without it the processes
+    As many as the process may use cores, 8 at most, or fewer by ``OMP_NUM_THREADS``; without it the processes
     that MPI has started on a machine share its cores. One within a case of a study, of which others run beside it.
     """
     limit = _limit.get()
@@ -79,7 +79,7 @@ def threads() -> int:
 
 @contextmanager
 def limit_threads(count: int) -> Iterator[None]:
-    """Use so many threads meanwhile."""
+    """Use `count` threads meanwhile."""
     token = _limit.set(count)
     try:
         yield
@@ -88,11 +88,11 @@ def limit_threads(count: int) -> Iterator[None]:
 
 
 def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> None:
-    """Do some work on all items, on several threads if there are any, and at least so many items.
+    """Do some work on all items, on several threads if there are several threads and at least `least` items.
 
     What is done to one item must not depend on what is done to another; then nothing depends on the number of threads.
-    Each takes the next that is left, so that nobody waits for one that starts late. If this is interrupted, others may
-    still be at work: `work` must hold what they look at.
+    Each takes the next that is left, so that no thread waits for one that starts late. If this is interrupted,
+    others may still be at work: `work` must hold what they look at.
     """
     count = min(threads(), len(items))
     if count < 2 or len(items) < least:
@@ -126,8 +126,9 @@ def spread(work: Callable[[T], None], items: Sequence[T], least: int = 2) -> Non
 def join_in(work: Callable[[int], None], count: int) -> None:
     """Have several threads, numbered from 0, join in some work, of which each takes what is left.
 
-    The first is this one: it could do all alone, and when it returns all is done. It waits for no other to come, or to
-    find that nothing is left: `work` must hold what they look at. If it is interrupted, others may still be at work.
+    The first is this one: it could do all by itself, and when it returns all is done. It waits for no other to come,
+    or to find that nothing is left: `work` must hold what they look at. If it is interrupted, others may still be at
+    work.
     """
     wanted = [work]
     try:
@@ -153,7 +154,7 @@ def one_blas_thread() -> Iterator[None]:
     """Keep BLAS and LAPACK to one thread meanwhile.
 
     The factorisations here are small. A second thread makes them at best twice as fast on an idle machine, and
-    much slower where another process wants a core, since BLAS threads spin while they wait for each other.
+    much slower where another process needs a core, since BLAS threads spin while they wait for each other.
 
     Most BLAS has one number of threads for the whole process: it is 1 from the first thread of Python that comes in
     until the last one is out, and others that call BLAS meanwhile have one thread, too.
@@ -164,7 +165,7 @@ def one_blas_thread() -> Iterator[None]:
         return
     limits = ExitStack()
     try:
-        with no_fork:  # threadpoolctl takes a lock of its own, on the way in and out
+        with no_fork:  # threadpoolctl takes a lock itself, on the way in and out
             _come_in(me)
             limits.enter_context(_own().limit(limits=1, user_api="blas"))
         yield
@@ -192,7 +193,7 @@ def _go_out(thread: int) -> None:
         _inside.discard(thread)
         while not _inside and _before:
             library, count = _before.pop()
-            if library.num_threads == 1:  # else somebody has set another number meanwhile, which stays
+            if library.num_threads == 1:  # otherwise another number was set meanwhile, which stays
                 _set(library, count)
 
 
@@ -206,7 +207,7 @@ def _set(library: Any, count: int) -> None:
 
 @cache
 def _own() -> ThreadpoolController:
-    """Return the BLAS of which each thread of Python has a number of its own."""
+    """Return the BLAS for which each thread of Python sets a number of threads."""
     return _controller().select(threading_layer="openmp", internal_api="mkl")
 
 
@@ -256,9 +257,9 @@ def _stated(variable: str) -> int:
 
 
 class _HelperThreads:
-    """Threads that wait for calls, of which nobody asks what became of them.
+    """Threads that wait for calls, whose outcome is not asked for.
 
-    A pool, which could tell, takes longer to call one.
+    A pool, which would return the outcome, takes longer to call one.
     """
 
     def __init__(self) -> None:
@@ -268,7 +269,7 @@ class _HelperThreads:
 
     @property
     def waiting(self) -> int:
-        """Calls that nobody has come to yet."""
+        """Calls that no thread has taken yet."""
         return self._calls.qsize()
 
     def call(self, wanted: list[Callable[[int], None]], numbers: Sequence[int]) -> None:
@@ -285,7 +286,7 @@ class _HelperThreads:
         while True:
             wanted, k = self._calls.get()
             for work in wanted[:1]:
-                with suppress(BaseException):  # whoever called could do all alone
+                with suppress(BaseException):  # the caller could do all by itself
                     work(k)
                 del work  # what it holds is not held while waiting
             del wanted

@@ -114,7 +114,7 @@ def scalar(value: Any, what: str) -> float:
 
 
 def finite(value: npt.ArrayLike, what: str) -> Array:
-    """Return `value` as `number` does, if all of it is finite."""
+    """Return `value` as `number` does, if every number is finite."""
     x = number(value, what)
     if not (there := np.isfinite(x)).all():
         raise about(what, f"must be finite (given: {np.asarray(x)[~there].flat[0]:g})")
@@ -148,7 +148,7 @@ def positive(value: npt.ArrayLike, what: str, *, zero: bool = False) -> Array:
     Raises
     ------
     ValueError
-        If a value is no number, or not positive (or 0) and finite.
+        If a value is NaN, or not positive (or 0) and finite.
     """
     x = number(value, what)
     right = np.isfinite(x) & ((x >= 0) if zero else (x > 0))
@@ -258,16 +258,16 @@ def numeric(
 def numeric(function: Any = None, /, **units: Any) -> Any:
     """Check the arguments of a function by the annotations of its parameters, before it sees them.
 
-    ``float`` wants one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
+    ``float`` takes one number, ``int`` a whole one, ``ArrayLike`` and ``float | Array`` numbers or arrays that can
     be broadcast; none takes NaN. With ``| None`` they may be None. ``Surface``, ``Solution`` and the others of `BODIES`
-    want one. Whatever else is annotated is passed on, as are all values as given: their range is the function's own
+    require one. Whatever else is annotated is passed on, as are all values as given: their range is the function's own
     affair. Only a value that carries a unit is converted: `units` gives the SI unit of each parameter that has a
     dimension, or how it follows from the other arguments.
 
     Raises
     ------
     ValueError
-        From the decorated function: the parameter, what it is to be and what it is; or the shapes that do not fit.
+        From the decorated function: the parameter, what is required and what was given; or the shapes that do not fit.
     """
     if function is None:
         return partial(_checked, units=units)
@@ -277,7 +277,7 @@ def numeric(function: Any = None, /, **units: Any) -> Any:
 def numeric_method(function: F) -> F:
     """Check the arguments of a function that is a method, see `numeric`; each ``float`` of it is a number without unit.
 
-    Type checkers know from this signature alone what comes out, which they must where files import each other.
+    Type checkers take from only this signature what comes out, which they must where files import each other.
     """
     return numeric(function)  # type: ignore[return-value]
 

@@ -471,6 +471,9 @@ def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, sur
     np.testing.assert_allclose(record["depth"], loop.loading.depth, rtol=1e-6)
     names = {each.name for each in (tmp_path / "out").iterdir()}
     assert {"curve.nc", "loop.nc", "loop.csv", "loop.png", "flattened.png", "flattened.npz"} <= names
+    assert "first_loading.png" in names
+    assert "curve.png" not in names
+    assert "first_loading.png, loop.nc" in answer.stderr
     flat = rc.read(tmp_path / "out" / "flattened.npz")
     np.testing.assert_allclose(flat.heights, loop.flattened.heights, rtol=0, atol=1e-15)
     assert "raised by" in flat.provenance[-2] + flat.provenance[-1]

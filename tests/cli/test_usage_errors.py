@@ -64,7 +64,7 @@ def test_quiet_leaves_remarks_out_and_keeps_what_makes_a_number_wrong(invoke, ro
     assert quiet.stdout == told.stdout
     assert "the tilt is removed" in told.stderr
     assert "the tilt is removed" not in quiet.stderr
-    assert "of the reduced modulus: real bodies yield" in quiet.stderr
+    assert "% of the reduced modulus: real bodies yield" in quiet.stderr
 
 
 def test_verbose_says_what_is_done(invoke, rough):

@@ -362,6 +362,11 @@ ANSWERS = [
         lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=rc.half_space(PLANE, MODULUS)),
     ),
     row(
+        lambda: rc.citations(1e-4),
+        "there are no references for 'float', which is not of this package: give an answer",
+        lambda: rc.citations(pressed()),
+    ),
+    row(
         lambda: rc.prescribed_displacement(
             np.ones((16, 16), bool), 1e-9, operator=rc.half_space(PERIODIC.grid, MODULUS)
         ),

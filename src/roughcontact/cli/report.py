@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         quantity,
         size_of,
         solution_facts,
+        stiffness_facts,
         surface_facts,
         surface_record,
     )
@@ -27,8 +28,8 @@ else:  # late: the help and the completion of options do not wait for NumPy
     _HOMES = {
         "adhesive_facts": "adhesive_curve_facts adhesive_facts law_facts",
         "facts": (
-            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts surface_facts "
-            "surface_record"
+            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts stiffness_facts "
+            "surface_facts surface_record"
         ),
     }
     for _home, _names in _HOMES.items():
@@ -48,6 +49,7 @@ __all__ = [
     "quantity",
     "size_of",
     "solution_facts",
+    "stiffness_facts",
     "surface_facts",
     "surface_record",
     "tell",

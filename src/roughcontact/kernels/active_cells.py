@@ -75,7 +75,7 @@ class ActiveCells:
         largest: bool = False,
         weight: float = 1.0,
     ) -> list[float]:
-        """Run a kernel over these cells, and return so many weighted sums, or the largest, of what it finds."""
+        """Run a kernel over these cells, and return `count` weighted sums, or the largest, of what it finds."""
         if not count:
             self._code[name](*self._given, *arguments, workers=self._workers)
             return []
@@ -84,7 +84,7 @@ class ActiveCells:
         return self._combine(totals, count if largest else 0) if self._combine else totals
 
     def finds_blocks(self, side: int) -> bool:
-        """Whether groups of its cells are pieces of blocks of so many cells to a side, and few enough."""
+        """Whether groups of its cells are pieces of blocks of `side` by `side` cells, and few enough."""
         columns, lanes = self.inside.shape[-1], WIDTH // self.inside.itemsize
         return not (columns % lanes or lanes % side) and self._count * lanes <= FEW * self.inside.size
 

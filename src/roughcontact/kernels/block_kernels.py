@@ -21,7 +21,7 @@ class Plane(NamedTuple):
 
 
 class RowScratch(NamedTuple):
-    """Memory for a row, as long as all blocks of it, for each thread: so many numbers apart."""
+    """Memory for a row, as long as all its blocks, for each thread; `stride` is their distance in numbers."""
 
     rows: Vector
     stride: Index

@@ -138,7 +138,7 @@ class _Pooled:
 
 
 def _block(kind: Kind, memory: Memory) -> Block:
-    """Return what NumPy calls the interface of an array, and the memory that this speaks of."""
+    """Return what NumPy calls the interface of an array, and the memory that it describes."""
     start = address(memory)
     data = start + -start % LINE, False
     return {"data": data, "shape": kind[0], "typestr": kind[1], "version": 3}, memory
@@ -146,7 +146,7 @@ def _block(kind: Kind, memory: Memory) -> Block:
 
 def _keep(block: Block) -> None:
     kind, size = (block[0]["shape"], block[0]["typestr"]), block[1].nbytes - LINE
-    # An array may go whenever Python clears up, even here or on the way into a fork: nobody waits then.
+    # An array may go whenever Python clears up, even here or on the way into a fork: this does not wait then.
     if not no_fork.acquire(blocking=False):
         return
     try:

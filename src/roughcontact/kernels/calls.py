@@ -1,4 +1,4 @@
-"""The one layer that calls machine code: kernels take NumPy's arrays as they are, and nobody else knows addresses."""
+"""The one layer that calls machine code: kernels take NumPy's arrays as they are; addresses stay in this file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Threads(Protocol):
     """What runs kernels, by several threads or one."""
 
     def gather(self, workers: int) -> None:
-        """Call so many threads, this one among them."""
+        """Call `workers` threads, this one among them."""
 
     def running(self, kernel: int) -> Callable[[bytes, int], None]:
         """Return what runs a kernel at an address."""
@@ -60,7 +60,7 @@ class Function:
     ------
     TypeError
         Before the call: if arguments are more or fewer than the parameters, an array has another type of numbers than
-        the kernel's or they do not lie one after the other, or a single number is none.
+        the kernel's or they do not lie one after the other, or a single number is not a number.
     """
 
     __slots__ = ("_arrays", "_pack", "_run", "_team", "name")
@@ -71,7 +71,7 @@ class Function:
         self._pack = struct.Struct("=" + "".join(p.slot for p in parameters)).pack
 
     def __call__(self, *arguments: Any, workers: int = 1) -> None:
-        """Run it, by so many threads if it shares work; that arrays are as large as it asks for is not checked."""
+        """Run it, by `workers` threads if it shares work; that arrays are as large as it asks for is not checked."""
         if len(arguments) != len(self._arrays):
             raise TypeError(f"{self.name} takes {len(self._arrays)} arguments, not {len(arguments)}")
         slots = []

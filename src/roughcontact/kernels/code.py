@@ -1,7 +1,7 @@
 """The kernel language: loops over numbers, many at a time, which LLVM translates to machine code.
 
-A function is written by running Python: its loops run once, and what their bodies say is written down. Numbers come in
-lanes, as many as a processor takes in one instruction. README.md beside this file shows how.
+A function is written by running Python: its loops run once, and their bodies are written down. Numbers come in
+lanes: those that a processor takes in one instruction. README.md beside this file shows how.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ T = TypeVar("T", Number, Index)
 
 # What a kernel is given that is called from Python: its arguments in eight bytes each, counters, and the thread.
 PACKED = (INDEX.as_pointer(), INDEX.as_pointer(), INDEX)
-# What tells a processor that a thread but waits for memory to change: LLVM's names, and their arguments.
+# The instruction for a thread that waits for memory to change: LLVM's names, and their arguments.
 ISB = "llvm.aarch64.isb", (ir.Constant(ir.IntType(32), 15),)
 PAUSES = {"x86_64": ("llvm.x86.sse2.pause", ()), "aarch64": ISB, "arm64": ISB}
 
@@ -128,7 +128,7 @@ class Code:
         return found
 
     def range(self, start: Index | int, stop: Index | int, step: Index | int = 1) -> Iterator[Index]:
-        """Loop over indices; what the body says is written once."""
+        """Loop over indices; the body is written once."""
         builder, (first, last, by) = self.builder, (self._index(k) for k in (start, stop, step))
         before = builder.block
         head, body, after = (builder.append_basic_block(name) for name in ("head", "body", "after"))
@@ -146,8 +146,8 @@ class Code:
     def shared(self, phase: int, parts: Index) -> Iterator[Index]:
         """Loop over parts of the work of a phase, which all threads share that run the kernel; go on when all are done.
 
-        Each takes the next part that is left: whoever comes late finds less to do, or nothing. Phases are numbered in
-        turn; for each there are two counters, in lines of the cache of their own.
+        Each takes the next part that is left: a thread that comes late finds less to do, or nothing. Phases are
+        numbered in turn; for each there are two counters, in separate lines of the cache.
         """
         counters: Memory[Index] = Memory(self._counters, self.builder, "int64", self.count)
         taken, done = (self.index((2 * phase + k) * APART) for k in range(2))

@@ -69,6 +69,6 @@ def _along_rows(name: str, plan: PlanePlan, local: Array, spectrum: Array) -> No
 
 
 def _shared(plan: PlanePlan, size: int) -> tuple[int, tuple[Array, int, int]]:
-    """Return how many threads share work on so many bytes, and the memory that each has of its own."""
+    """Return the number of threads that share work on `size` bytes, and the memory of each."""
     workers = threads() if size >= LARGE else 1
     return workers, (aligned(workers * plan.scratch, plan.precision, kept=False), plan.scratch, plan.raw)

@@ -1,4 +1,4 @@
-"""Object code on disk: kept where nobody else can write, and given back only for the key that it was kept under."""
+"""Object code on disk: kept where no other user can write, and given back only for the key that it was kept under."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def read(name: str, key: bytes) -> bytes | None:
 
 
 def keep(name: str, key: bytes, code: bytes) -> None:
-    """Keep the code if there is a place for it; whoever reads meanwhile finds all of it or none."""
+    """Keep the code if there is a place for it; a process that reads meanwhile finds the whole code or none."""
     with contextlib.suppress(OSError):
         wanted = cache_folder()
         missing = [place for place in (wanted, *wanted.parents) if not place.exists()]
@@ -54,8 +54,8 @@ def keep(name: str, key: bytes, code: bytes) -> None:
 def private(folder: Path) -> Path | None:
     """Return a folder without links on the way to it; None if another user could write to it or put one in its place.
 
-    It is looked at from the root on: what lies in a folder that nobody else can write to stays what it is. A parent
-    such as ``/tmp``, where everybody writes but nobody moves what is another's, is safe. Windows by itself keeps others
+    It is looked at from the root on: what lies in a folder that no other user can write to stays what it is. A parent
+    such as ``/tmp``, where all users write but cannot move the files of others, is safe. Windows by itself keeps others
     out of a user's profile.
 
     Raises

@@ -5,8 +5,8 @@ spectrum is multiplied where it lies, in digit-reversed order, so that nothing i
 rows or columns as there are lanes go at once.
 
 In between, spectra lie in blocks of columns: number ``((b * rows + y) * 2 + part) * lanes + l`` is the real or the
-imaginary part of wave ``b * lanes + l`` of row y. Of a plane whose rows lie on several processes each has such a
-spectrum of its rows; every step is a kernel of its own there, and of whole columns a process has one piece from each.
+imaginary part of wave ``b * lanes + l`` of row y. Where the rows of a plane lie on several processes, each has such a
+spectrum of its rows; every step is then a separate kernel, and whole columns consist of one piece from each process.
 """
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ class Scratch(NamedTuple):
 class RowTransform(NamedTuple):
     """The spectrum; the transform of rows; how many of these are a part of the work.
 
-    Of half of the columns as padded, whose neighbours are taken for complex numbers; twiddle factors tell these apart.
+    It covers half of the padded columns; neighbours are taken for complex numbers, and twiddle factors separate them.
     """
 
     spectrum: BlockedSpectrum
@@ -167,27 +167,27 @@ def convolve(
 
 @kernel
 def transform_rows(code: Code, plane: RealField, along: RowTransform, scratch: Scratch) -> None:
-    """Do the first step of `convolve` alone."""
+    """Do only the first step of `convolve`."""
     for some in _parts(code, 0, plane.ny, along.many):
         code.call(_rows, plane, some, along, scratch.own(code), scratch.offset, inverse=False)
 
 
 @kernel
 def filter_columns(code: Code, across: ColumnTransform, scratch: Scratch) -> None:
-    """Do the second alone."""
+    """Do only the second step."""
     for some in _parts(code, 0, across.pieces.blocks, across.wide):
         code.call(_columns, some, across, scratch.own(code))
 
 
 @kernel
 def transform_rows_back(code: Code, plane: RealField, along: RowTransform, scratch: Scratch) -> None:
-    """Do the third alone."""
+    """Do only the third step."""
     for some in _parts(code, 0, plane.ny, along.many):
         code.call(_rows, plane, some, along, scratch.own(code), scratch.offset, inverse=True)
 
 
 def _parts(code: Code, phase: int, count: Index, size: Index) -> Iterator[IndexRange]:
-    """Loop over parts of so many rows or blocks, which all threads share."""
+    """Loop over parts of `size` rows or blocks, which all threads share."""
     for part in code.shared(phase, (count + size - 1) // size):
         yield IndexRange(part * size, (part * size + size).min(count))
 

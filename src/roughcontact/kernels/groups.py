@@ -22,7 +22,7 @@ class Cells(NamedTuple):
     def each(self, code: Code, totals: Totals | None = None) -> Iterator[Index]:
         """Loop over the cells, as many at once as there are lanes, the rest one by one; the body is written twice.
 
-        Each part has totals of its own; at last they are combined.
+        Each part has its totals; at last they are combined.
         """
         for first, last in _parts(code, self.size, self.part, totals):
             for i in code.each(last - first):
@@ -44,7 +44,7 @@ class Groups(NamedTuple):
     def cells(self, code: Code, totals: Totals | None = None) -> Iterator[Index]:
         """Loop over the groups, then over the single cells; the body is written twice.
 
-        The last part has the single cells. Each has totals of its own; at last they are combined.
+        The last part has the single cells. Each has its totals; at last they are combined.
         """
         for first, last in _parts(code, self.size, self.part, totals):
             for k in code.range(first, last):

@@ -68,7 +68,7 @@ def functions(family: str, precision: str) -> Mapping[str, Function]:
     Notes
     -----
     Other threads run meanwhile. The first call on a machine takes about a second; later processes find the code in
-    the user's folder for caches, if there is one and nobody else can write to it.
+    the user's folder for caches, if there is one and no other user can write to it.
     """
     kernels, key = _kernels(family), _key(family, precision)
     if key is None:

@@ -27,7 +27,7 @@ class Taps(NamedTuple):
 class Folded(NamedTuple):
     """A field whose columns lie class by class, with far - 1 rows more on both sides: its numbers and sizes.
 
-    Of each class there are so many rows, and so many columns, a multiple of the lanes.
+    Each class has a number of rows and a number of columns, a multiple of the lanes.
     """
 
     numbers: Vector

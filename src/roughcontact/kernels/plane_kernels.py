@@ -100,7 +100,7 @@ def scale_down(
     r: Vector,
     base: Vector,
 ) -> None:
-    """``m := 1`` where active, else 0; ``r := a (depth - s - u)``, at least NEVER; ``base := a p``."""
+    """``m := 1`` where active, otherwise 0; ``r := a (depth - s - u)``, at least NEVER; ``base := a p``."""
     for i in cells.each(code):
         residual = (depth - (f.s[i] + f.u[i])) * a
         r[i] = maximum(residual, residual.filled(NEVER))
@@ -128,6 +128,6 @@ def positive_total(code: Code, cells: Cells, p: Doubles, s: Doubles, totals: Dou
 
 @kernel
 def positive_part(code: Code, cells: Cells, p: Doubles, s: Doubles, a: Double, answer: Doubles) -> None:
-    """``answer := a max(p, 0)`` where s is finite, else 0."""
+    """``answer := a max(p, 0)`` where s is finite, otherwise 0."""
     for i in cells.each(code):
         answer[i] = where((p[i] > 0.0) & (s[i] < math.inf), p[i] * a, 0.0)

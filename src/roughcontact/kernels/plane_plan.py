@@ -40,7 +40,7 @@ class PlanePlan:
         and in order, or of one block of columns.
     along, across : tuple
         Arguments of the kernels for transforms along rows, whose neighbours are taken for complex numbers and separated
-        by twiddle factors of their own; and along columns, with the row of a multiplier for each place, whose waves are
+        by further twiddle factors; and along columns, with the row of a multiplier for each place, whose waves are
         in digit-reversed order.
     """
 
@@ -68,7 +68,7 @@ class PlanePlan:
         return cls(lengths, precision, lanes, blocks, raw, scratch, along, across)
 
     def padded(self, rows: int) -> int:
-        """Return how many rows a spectrum has memory for that holds so many."""
+        """Return the number of rows for which a spectrum of `rows` has memory."""
         return -(-rows // self.lanes) * self.lanes
 
     def in_blocks(self, multiplier: Array) -> Array:

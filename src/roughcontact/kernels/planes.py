@@ -104,7 +104,7 @@ def extremes(
     run = functions("plane_kernels", "float64")["extremes"]
     found = run_on_plane(run, 7, 10, pressure, displacement, separation, combine=combine)
     highest, raised, moved, strongest, weakened, least, nearest, level, count, nothing = found
-    if nothing != 0:  # or is no number
+    if nothing != 0:  # or NaN
         return None
     return Extremes(highest, -raised, moved, strongest, -weakened, -least, -nearest, level, int(count))
 

@@ -72,7 +72,7 @@ class KernelDefinition:
     ----------
     body : function
         Takes the `Code` to write to, then its parameters. Each is annotated by `Index` or one of the types above, or by
-        a NamedTuple of such, which stands for its fields one after the other. What it takes by keyword alone is known
+        a NamedTuple of such, which stands for its fields one after the other. What it takes only by keyword is fixed
         when it is written, by another kernel that calls it. One whose name begins with an underscore is for others, and
         takes its arguments as machine code does.
     """

@@ -2,8 +2,8 @@
 
 The thread that calls a kernel leads; others serve it, call after call. They look for the next one for some
 microseconds, then now and then for some milliseconds, since to wake a thread of Python takes longer than most kernels.
-A call offers its work and begins: it waits for nobody to come, and for those who have come only until they have done
-what they took.
+A call offers its work and begins: it does not wait for threads to come, and waits for those that have come only until
+their part is done.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ __all__ = ["BOX", "Team"]
 # Back-off of a thread without work: it spins, then sleeps briefly, then leaves the team.
 SPINS = 2000  # some 50 us
 SLEEPS = 200  # some 20 ms
-# Indices of the shared state, a work queue of one entry. Those that some threads change while others read are in cache
-# lines of their own: the sequence number (a sequence lock, odd while a kernel is offered); whether there is a leader;
+# Indices of the shared state, a work queue of one entry. Those that some threads change while others read are in
+# separate cache lines: the sequence number (a sequence lock, odd while a kernel is offered); whether there is a leader;
 # the threads that read the offer, that have joined in it, and that serve; and the offer itself.
 SEQUENCE, HAS_LEADER, INSIDE, JOINED, SERVING, OFFER = (k * APART for k in range(6))
 KERNEL, PACKED, COUNTERS, WANTED = (OFFER + k for k in range(4))
@@ -35,7 +35,7 @@ BOX = OFFER + APART  # indices in all
 
 
 class Team:
-    """The threads that run kernels. One leads at a time: another that calls meanwhile does all alone.
+    """The threads that run kernels. One leads at a time: another that calls meanwhile does all its work itself.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Team:
         return partial(self._lead, self._place, kernel)
 
     def gather(self, workers: int) -> None:
-        """Call so many threads, this one among them, of which those that do not serve already come."""
+        """Call `workers` threads, this one among them; those that do not serve already come."""
         missing = workers - 1 - self._box[SERVING] - wakes_pending()
         if missing > 0:
             wake(self._join, missing)
@@ -69,16 +69,16 @@ class Team:
         self._serve(self._place, SPINS, SLEEPS, *self._sleep)
 
     def _begin_again(self) -> None:
-        """In a forked process there is one thread: the one that forked, which leads nobody now."""
+        """In a forked process there is one thread: the one that forked, which leads no other now."""
         for place in range(len(self._box)):
             self._box[place] = 0
 
 
 def _system_sleep() -> tuple[int, int]:
-    """Return the address of the system's function that lets a thread sleep, and what to tell it for a short time."""
+    """Return the address of the system's function that lets a thread sleep, and its argument for a short time."""
     if sys.platform == "win32":
         return _place(ctypes.windll.kernel32.Sleep), 1  # ms
-    else:  # in its own branch, by which mypy knows platforms
+    else:  # in its own branch, by which mypy separates platforms
         return _place(ctypes.CDLL(None).usleep), 50  # us
 
 

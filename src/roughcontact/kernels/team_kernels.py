@@ -24,7 +24,7 @@ from roughcontact.kernels.values import Index
 
 @kernel
 def _lead(code: Code, box: Indices, kernel: Index, packed: Index, wanted: Index) -> None:
-    """Run a kernel, by so many threads if they serve and serve nobody else; return when all is done."""
+    """Run a kernel, by `wanted` threads if they serve no other call; return when all is done."""
     place, counters, alone = code.index, code.new_counters(), code.variable(code.index(1))
     with code.when(place(1) < wanted):
         alone.set(box.swap(place(HAS_LEADER), 1))

@@ -116,7 +116,7 @@ def add_near_sources(
     influence: Vector,
     sums: Vector,
 ) -> None:
-    """Add to each of so many tiles the sums over the sources of tiles near it.
+    """Add to each of `count` tiles the sums over the sources of tiles near it.
 
     Near are `reach` tiles to each side. The influence is at offsets of cells from the middle of rows of eight tiles.
     """
@@ -150,7 +150,7 @@ def sum_stencil_on_tiles(
     weights: Vector,
     scratch: Vector,
 ) -> None:
-    """Write to so many tiles of y the weighted sums over the cells of x near each; see `sum_stencil`.
+    """Write to `count` tiles of y the weighted sums over the cells of x near each; see `sum_stencil`.
 
     Scratch holds the rows of three by three tiles that such sums look at, for each thread.
     """

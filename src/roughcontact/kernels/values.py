@@ -1,7 +1,7 @@
 """The values of the kernel language: numbers, conditions, indices, and memory that holds them.
 
-Operators on them do not compute: they write down what is to be computed. A number, or a condition, is a single one or
-one in each lane; where both kinds meet, the single one is broadcast.
+Operators on them do not compute: they write down what the code will compute. A number, or a condition, is a single
+one or one in each lane; where both kinds meet, the single one is broadcast.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class Number:
         return Condition(self.builder.fcmp_unordered("!=", *_aligned(self, 0.0)), self.builder)
 
     def heaviside(self) -> Number:
-        """Return 1 where the number is positive, else 0."""
+        """Return 1 where the number is positive, otherwise 0."""
         return where(self > 0.0, self.filled(1.0), 0.0)
 
     def filled(self, value: float) -> Number:
@@ -120,7 +120,7 @@ class Number:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Index:
-    """A whole number; as a place in memory that of one number, or of the first of as many as there are lanes."""
+    """A whole number; as a place in memory that of one number, or of the first of one in each lane."""
 
     value: Any
     builder: Any
@@ -250,7 +250,7 @@ V = TypeVar("V", Number, Index, Memory[Number])
 
 
 def where(condition: Condition, one: V, other: V | float) -> V:
-    """Return one value, or memory, where a condition holds, else the other."""
+    """Return one value, or memory, where a condition holds, otherwise the other."""
     found: Any
     if isinstance(one, Memory):
         memory = one.builder.select(condition.value, one.pointer, cast("Any", other).pointer)
@@ -268,7 +268,7 @@ def constant(kind: Any, value: float) -> Any:
 
 
 def broadcast(value: Any, count: int, builder: Any) -> Any:
-    """Return a value in each of so many lanes; as it is if it has lanes."""
+    """Return a value in each of `count` lanes; as it is if it has lanes."""
     if isinstance(value.type, ir.VectorType):
         return value
     nothing = ir.Constant(ir.VectorType(value.type, count), ir.Undefined)

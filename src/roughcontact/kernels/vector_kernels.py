@@ -1,8 +1,8 @@
 """Vector updates and dot products on a list of groups of cells, as conjugate gradients on a part of a plane need them.
 
-Kernels go through a list of groups of cells, as many as there are lanes, that have some inside the region; what lies
+Kernels go through a list of groups of cells, one for each lane, that have some inside the region; what lies
 elsewhere is neither read nor written. Sums are added up in double precision. Letters are those of
-docs/concepts/method.md; the mask ``m`` is 1 on the free set F, else 0.
+docs/concepts/method.md; the mask ``m`` is 1 on the free set F, otherwise 0.
 """
 
 from __future__ import annotations

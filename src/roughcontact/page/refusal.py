@@ -20,6 +20,7 @@ _ARGUMENTS = {
     "poisson_ratio": "Poisson",
     "young_modulus": "Young",
     "contact.profile": "Profile",
+    "by loading_loop": "by a loop of loads",
 }
 _LACKING = {
     "unit": "Unit (of the heights)",

@@ -26,7 +26,7 @@ def by_first(communicator: Communicator, work: Callable[[], T]) -> T:
 
 
 def by_each(communicator: Communicator, work: Callable[[], Any]) -> None:
-    """Let every process do something of its own.
+    """Let every process do its own work.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def _agreed(communicator: Communicator, works: list[Callable[[], Any]]) -> list[
     fault: Exception | None = None
     try:
         found = [work() for work in works]
-    except Exception as error:  # raised on all, or the others would wait for ever
+    except Exception as error:  # raised on all, or the others would never return
         fault = error
     gathered = communicator.allgather((found, fault))
     for _, raised in gathered:

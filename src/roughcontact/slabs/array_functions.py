@@ -55,7 +55,7 @@ class SlabFunctions:
     minimum, maximum = _of_pairs(np.minimum), _of_pairs(np.maximum)
 
     def where(self, condition: SlabArray, x: Any, y: Any) -> SlabArray:
-        """Return x where the condition holds, else y."""
+        """Return x where the condition holds, otherwise y."""
         return condition.like(np.where(condition.local, condition.rows_of(x), condition.rows_of(y)))
 
     def clip(self, x: SlabArray, low: Any, high: Any) -> SlabArray:
@@ -130,7 +130,7 @@ class SlabFunctions:
         return row
 
     def beyond(self, x: SlabArray, count: int) -> tuple[Local, Local]:
-        """Return so many entries before the first of this process, row by row, and as many after its last.
+        """Return `count` entries before the first of this process, row by row, and `count` after its last.
 
         They are fewer where the whole begins or ends; a process without rows gets none.
         """
@@ -155,7 +155,7 @@ class SlabFunctions:
         return taken[:before], taken[before:]
 
     def with_rows_beside(self, x: SlabArray, count: int) -> tuple[Local, int]:
-        """Return the rows of this process with so many before and after them, and which row is the first of all these.
+        """Return the rows of this process with `count` before and after them, and which row is the first of all these.
 
         They are fewer where the whole begins or ends.
         """
@@ -167,7 +167,7 @@ class SlabFunctions:
     # --- of the whole ---
 
     def combined(self, totals: list[float], largest: int) -> list[float]:
-        """Return the largest of the first so many totals of the processes, and sums of the others."""
+        """Return the first `largest` totals as the largest of the processes, the others as their sums."""
         of_each = np.empty((self.size, len(totals)))
         counts = [len(totals)] * self.size
         self.communicator.Allgatherv(np.array(totals), (of_each.reshape(-1), counts))

@@ -106,14 +106,14 @@ def plane_of_waves(
 
 
 def at_once(edges: Edges, nx: int) -> int:
-    """Return how many waves of a slab of columns go round at once, of planes with rows of so many cells."""
+    """Return how many waves of a slab of columns go round at once, of planes with rows of `nx` cells."""
     return max(FEWEST, max(np.diff(edges).tolist()) * nx // PARTS)  # cells of the largest slab
 
 
 def _turns(columns: int, ny: int, edges: Edges) -> Iterator[list[slice]]:
     """Yield which columns go to each process in one exchange, until all have gone.
 
-    Every process takes part in every exchange, as the largest slabs tell: all know how many there are.
+    Every process takes part in every exchange, and the largest slabs fix their number on all.
     """
     ends = [columns * process // (len(edges) - 1) for process in range(len(edges))]
     width = max(1, at_once(edges, 2 * columns - 2) // ny)

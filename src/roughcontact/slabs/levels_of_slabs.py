@@ -10,19 +10,19 @@ from roughcontact.slabs.slab_array import SlabArray
 
 __all__ = ["divides", "gathered_if_small", "scatter_like"]
 
-# Cells: to solve on so many takes some tens of megabytes.
+# Cells: a solve on this number takes some tens of megabytes.
 SMALL = 2**18
 
 
 def divides(field: Any, factors: tuple[int, ...]) -> bool:
-    """Whether blocks of so many cells lie on one process each; so it is of any other array than one in slabs."""
+    """Whether each block of cells lies on one process; always so for an array that is not in slabs."""
     return not isinstance(field, SlabArray) or all(edge % factors[0] == 0 for edge in field.edges)
 
 
 def gathered_if_small(field: Any) -> Any:
     """Return a small array as one of NumPy, in slabs on every process, each of which solves on it; any other as it is.
 
-    On so few cells machine code takes less time than a device takes to be told what to do.
+    On so few cells machine code takes less time than a device takes to start.
     """
     if math.prod(field.shape) > SMALL:
         return field

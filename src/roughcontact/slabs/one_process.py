@@ -8,7 +8,7 @@ __all__ = ["OneProcess"]
 
 
 class OneProcess:
-    """A process alone."""
+    """A single process."""
 
     rank, size = 0, 1
 

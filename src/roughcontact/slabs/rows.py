@@ -13,7 +13,7 @@ IMBALANCE = 1.07
 
 
 def edges_of(count: int, processes: int) -> Edges:
-    """Return where the rows of each process begin, and where the last ones end, of so many."""
+    """Return where the rows of each process begin, and where the last ones end, of `count` rows."""
     unit = 1
     while count and count % (2 * unit) == 0 and _largest(count, 2 * unit, processes) <= IMBALANCE * count:
         unit *= 2
@@ -22,5 +22,5 @@ def edges_of(count: int, processes: int) -> Edges:
 
 
 def _largest(count: int, unit: int, processes: int) -> int:
-    """Return what all processes together would hold if each held as many as the largest."""
+    """Return what all processes together would hold if each held the number of the largest."""
     return processes * unit * -(-(count // unit) // processes)

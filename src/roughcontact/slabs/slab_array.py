@@ -103,7 +103,7 @@ class SlabArray:
         return SlabArray(local, self.edges, self.functions)
 
     def in_blocks(self, local: Local, side: int) -> SlabArray:
-        """Return numbers of blocks of so many rows, each on the process that holds these rows."""
+        """Return numbers of blocks of `side` rows, each on the process that holds these rows."""
         return SlabArray(local, tuple(edge // side for edge in self.edges), self.functions)
 
     def rows_of(self, other: Any) -> Any:

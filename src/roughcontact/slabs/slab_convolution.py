@@ -94,7 +94,7 @@ class SlabConvolution:
 def _turns(plan: PlanePlan, edges: Edges) -> tuple[Edges, ...]:
     """Return which blocks go to each process in every exchange.
 
-    All processes take part in all of them, as the largest slabs tell: each knows how many there are.
+    All processes take part in all of them, and the largest slabs fix their number on each.
     """
     (ny, nx), processes = plan.lengths, len(edges) - 1
     many = max(1, at_once(edges, nx) // (ny * plan.lanes)) * processes

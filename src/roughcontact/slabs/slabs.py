@@ -25,7 +25,7 @@ class Slabs:
     Parameters
     ----------
     communicator : mpi4py.MPI.Comm, optional
-        The processes; without, this one alone.
+        The processes; without it, only this one.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Slabs:
         self.functions = SlabFunctions(self.communicator)
 
     def rows(self, count: int) -> slice:
-        """Return which rows this process holds, of a plane of so many.
+        """Return which rows this process holds, of a plane of `count` rows.
 
         Parameters
         ----------
@@ -86,7 +86,7 @@ class Slabs:
         Parameters
         ----------
         local : array
-            Those that ``rows`` says, which are copied.
+            Those of ``rows``, which are copied.
 
         Returns
         -------
@@ -96,7 +96,7 @@ class Slabs:
         Raises
         ------
         ValueError
-            If the rows are not as many as ``rows`` says, or differ in length or type.
+            If the rows are not those of ``rows``, or differ in length or type.
         """
         own = np.array(local, order="C")
         given = self.communicator.allgather((own.shape, own.dtype))
@@ -108,6 +108,6 @@ class Slabs:
             raise InputError(
                 f"the processes gave {counts} rows; those of process {self.communicator.rank} of a plane of "
                 f"{edges[-1]} are {self.rows(edges[-1])}",
-                "give what Slabs.rows says",
+                "give the rows of Slabs.rows",
             )
         return SlabArray(own, edges, self.functions)

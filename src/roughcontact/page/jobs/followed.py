@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
+    from roughcontact.materials import Modulus
     from roughcontact.solver.loads import Loads
 
 __all__ = ["Followed", "collected", "follow", "up_to_path"]
@@ -75,7 +77,7 @@ def up_to_path(calls: Iterable[Call]) -> Iterator[Call]:
             return
 
 
-def _curve(surface: Any, modulus: float, **named: Any) -> Followed:
+def _curve(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.curve import collect
 
@@ -84,7 +86,7 @@ def _curve(surface: Any, modulus: float, **named: Any) -> Followed:
     return Followed(states, loads, collect, count=len(loads.values), notes=notes)
 
 
-def _loop(surface: Any, modulus: float, **named: Any) -> Followed:
+def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.loop import BRANCHES, collect_loop, loads_of_loop
 
@@ -98,7 +100,7 @@ def _loop(surface: Any, modulus: float, **named: Any) -> Followed:
     )
 
 
-def _rising(surface: Any, modulus: float, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
+def _rising(surface: Any, modulus: Modulus, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
     """Return the loads that are named; otherwise name forces that suit the surface, with what is known of them."""
     import roughcontact as rc
     from roughcontact.solver.loads import Loads
@@ -111,7 +113,7 @@ def _rising(surface: Any, modulus: float, named: dict[str, Any]) -> tuple[Loads,
     return Loads("force", found.forces), found.notes
 
 
-def _adhesive_curve(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+def _adhesive_curve(surface: Any, modulus: Modulus, adhesion: Any, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.adhesive_curve import collect_states
     from roughcontact.solver.loads import Loads
@@ -122,7 +124,7 @@ def _adhesive_curve(surface: Any, modulus: float, adhesion: Any, **named: Any) -
 
 
 def _adhesive_loop(
-    surface: Any, modulus: float, adhesion: Any, *, depth: float, points: int, **named: Any
+    surface: Any, modulus: Modulus, adhesion: Any, *, depth: float, points: int, **named: Any
 ) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.adhesive_curve import collect_states
@@ -148,8 +150,9 @@ def _detachment(solution: Any, work: float, **named: Any) -> Followed:
 
     loads = Loads.given(**named)
     states = rc.detachment_path(solution, work, **named)
-    shown = Loads.of(depth=0.0) if loads is None else loads
-    return Followed(states, shown, lambda path: collect_detachments(path, loads), count=len(shown.values))
+    shown, parts = (Loads.of(depths=[0.0] * 3), False) if loads is None else (loads, True)
+    collect = partial(collect_detachments, loads=loads)
+    return Followed(states, shown, collect, count=len(shown.values), parts=parts)
 
 
 _FOLLOWED: dict[str, Callable[..., Followed]] = {

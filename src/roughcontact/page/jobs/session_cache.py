@@ -114,11 +114,14 @@ class SessionCache:
 
     def span(self, job: Job) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
+        from roughcontact.materials import as_modulus
+
         surface, bodies = self.surface(job), getattr(job, "bodies", None)
         if bodies is None:
             return {}
         slope = self._once("slope", _key(surface_calls(job)), lambda: _slope(surface))
-        stress, height = performed(bodies.calls(), known_names())["modulus"] * slope, surface.rms
+        modulus = as_modulus(performed(bodies.calls(), known_names())["modulus"])
+        stress, height = modulus * slope, surface.rms
         if not (stress > 0 and height > 0):
             return {}
         pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)

@@ -83,7 +83,7 @@ def _of_loop(loop: Loop) -> ShownCurve:
     from roughcontact.plot.facts import loop_facts
     from roughcontact.plot.loops import loop_figure
 
-    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), heights=loop.flattened)
+    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), loop.notes, heights=loop.flattened)
 
 
 def _of_path(path: AdhesiveCurve) -> ShownCurve:
