@@ -7,6 +7,7 @@ folder that holds the files that the pages name.
 
 import importlib.util
 import io
+import pydoc
 import re
 import shlex
 from contextlib import redirect_stdout
@@ -18,6 +19,7 @@ import pytest
 from typer.testing import CliRunner
 
 import roughcontact as rc
+from public_names import public_names
 from roughcontact.cli.app import app
 
 HOME = Path(__file__).parent.parent
@@ -28,6 +30,8 @@ NOT_HERE = {"cluster.md", "law-ensembles.md", "reproduction.md"}
 FEWER = {
     **{"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"},
     **{"--samples 10 ": "--samples 2 ", "points = 128": "points = 32"},
+    **{"--samples 4 ": "--samples 1 ", "--samples 8": "--samples 2"},
+    **{"points = 64": "points = 32", "samples = 4": "samples = 1"},
 }
 # Libraries that a block may want and a machine may lack.
 OPTIONAL = {"torch": "import torch\n", "tqdm": "rc.progress.bar("}
@@ -98,3 +102,13 @@ def test_commands_run_as_printed(lines, folder):
     for line in lines:
         answer = CliRunner().invoke(app, shlex.split(fewer(line))[1:])
         assert answer.exit_code == 0, f"{line}\n{answer.stderr}"
+
+
+def test_the_reference_lists_what_there_is_without_the_site():
+    """For readers in the repository: the parts of the package, and calls that print the docstrings."""
+    page = (HOME / "docs" / "reference" / "index.md").read_text(encoding="utf-8")
+    rooms = {name.room for name in public_names()}
+    assert rooms == set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
+    for path in re.findall(r"python -m pydoc ([\w.]+[a-z])", page):
+        if not path.endswith("PART"):
+            assert pydoc.locate(path) is not None, path

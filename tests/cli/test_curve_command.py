@@ -224,7 +224,7 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose of persson"),
+        (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose from persson"),
         (("--theory", "gw,gw"), "each theory once"),
         (("--theory", ","), "each theory once"),
         (("--hurst", "0.8"), "--hurst belongs to --theory"),

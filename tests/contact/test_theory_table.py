@@ -94,7 +94,7 @@ def test_a_table_says_what_it_holds():
     [
         (TWO, "gw", {}, "give `nayak`, or `hurst`"),
         (TWO, "persson", {}, "give `hurst` and one of"),
-        (TWO, "power-law", {}, "needs the size of the joint: choose of persson, gw"),
+        (TWO, "power-law", {}, "needs the size of the joint: choose from persson, gw"),
         (TWO, "cgp", {}, "needs the size of the joint"),
         (TWO, "hurtz", {}, "is not known: choose of"),
         (TWO, "cmy", {"hardness": None}, "give the `hardness` of the softer body"),

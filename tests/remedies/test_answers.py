@@ -100,7 +100,7 @@ ADHESION = [
     ),
     row(
         lambda: stuck(),
-        "give exactly one of depth, force, pressure and mean_gap, not none",
+        "give exactly one of depth, force, pressure and mean_gap: none is given",
         lambda: stuck(force=1e-9),
     ),
     row(

@@ -144,7 +144,7 @@ $ thesis fig1
 > thesis fig4
 
 $ thesis fig4 --scale huge
-! choose of small, thesis
+! choose from small, thesis
 > thesis fig4 --scale small
 > thesis fig4 --scale thesis
 """

@@ -6,11 +6,11 @@ and tells answer and error apart by the key ``error`` or by the exit status. Sta
 
 from __future__ import annotations
 
-import json
-import sys
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
+
+from roughcontact.cli.json_answer import emit
 
 __all__ = ["emit_error", "kind_of"]
 
@@ -60,7 +60,7 @@ def emit_error(
         "place": place,
         "exit_status": status,
     }
-    sys.stdout.write(json.dumps({"error": record, **beside}, ensure_ascii=True) + "\n")
+    emit({"error": record, **beside})
 
 
 def kind_of(error: BaseException) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import typer
 
+from roughcontact.cli.json_answer import emit
 from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
@@ -54,11 +54,6 @@ __all__ = [
     "surface_record",
     "tell",
 ]
-
-
-def emit(record: Mapping[str, Any]) -> None:
-    """Print one JSON object on standard output."""
-    typer.echo(json.dumps(record, allow_nan=False, ensure_ascii=True))
 
 
 def print_facts(facts: Sequence[tuple[str, str]]) -> None:

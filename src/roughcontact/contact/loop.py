@@ -101,12 +101,8 @@ class Loop:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What makes its curves doubtful, in sentences, each behind the branches that it is about."""
-        branches: dict[str, list[str]] = {}
-        for name, curve in self.curves.items():
-            for note in curve.notes:
-                branches.setdefault(note, []).append(name)
-        return tuple(f"{' and '.join(names).capitalize()}: {note}" for note, names in branches.items())
+        """What makes first loading doubtful, in sentences: unloading follows no power law on any rough surface."""
+        return self.loading.notes
 
     def __repr__(self) -> str:
         """Say what the loop spans, not its numbers."""

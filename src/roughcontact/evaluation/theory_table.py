@@ -129,7 +129,7 @@ def _law(name: str, joint: SurfaceSpecification, modulus: float, hardness: float
     """Return a law of one square metre of a joint, whose forces are its pressures."""
     if name not in WITHOUT_SIZE:
         why = "needs the size of the joint" if name in laws.LAWS else "is not known"
-        raise InputError(f"the theory {name!r} {why}", f"choose of {', '.join(WITHOUT_SIZE)}", "names")
+        raise InputError(f"the theory {name!r} {why}", f"choose from {', '.join(WITHOUT_SIZE)}", "names")
     given: dict[str, Any] = {"area": 1.0, "moments": joint}
     if "spectrum" in laws.LAWS[name].needs:
         spectrum = joint.spectrum

@@ -1,4 +1,4 @@
-"""What a page says of the two bodies: their reduced modulus, hardness and grades, and the same in other numbers."""
+"""What a page shows of the two bodies: their reduced modulus, hardness and grades, and the same in other numbers."""
 
 from __future__ import annotations
 

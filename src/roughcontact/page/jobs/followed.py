@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.errors import InputError, within
+from roughcontact.errors import within
 from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
@@ -56,12 +56,6 @@ def collected(followed: Followed) -> Any:
 def follow(calls: Iterable[Call], known: dict[str, Any]) -> Followed:
     """Perform calls up to the one that follows loads, and return the states that it follows."""
     *before, last = up_to_path(calls)
-    if last.function not in _FOLLOWED:
-        raise InputError(
-            "a page shows no single state of surfaces that stick",
-            "take an adhesion curve that ends there",
-            "job",
-        )
     for call in before:
         perform(call, known)
     with within(last.place):
@@ -143,6 +137,21 @@ def _ways(loads: Loads) -> list[str]:
     return ["approach" if grows else "retreat" for grows in approaches(loads.approach)]
 
 
+def _adhesive_state(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.solver.loads import Loads
+
+    def states() -> Iterator[Any]:
+        try:
+            state = rc.adhesive_state(surface, modulus, adhesion, **named)
+        except rc.ConvergenceError as error:
+            state = error.solution
+        yield state
+
+    loads = Loads.of(**{name: named.get(name) for name in ("force", "pressure", "depth", "mean_gap")})
+    return Followed(states(), loads, lambda path: next(iter(path)), count=1)
+
+
 def _detachment(solution: Any, work: float, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.detachment_curve import collect_detachments
@@ -161,4 +170,5 @@ _FOLLOWED: dict[str, Callable[..., Followed]] = {
     "rc.adhesive_curve": _adhesive_curve,
     "rc.adhesive_loop": _adhesive_loop,
     "rc.detachment_curve": _detachment,
+    "rc.adhesive_state": _adhesive_state,
 }
