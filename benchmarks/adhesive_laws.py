@@ -119,7 +119,7 @@ def plane(number: float, cells: int) -> None:
 
 def pulled(surface: rc.Surface | rc.RadialProfile, depth: float) -> tuple[float, float, int]:
     """Return the largest tension of a stuck surface drawn back under given depths, the first, and its events."""
-    (off,) = rc.detachment_path(rc.press(surface, 1.0, depth=depth), 1.0)
+    *_, off = rc.detachment_path(rc.press(surface, 1.0, depth=depth), 1.0)
     return off.pull_off_force, -off.detachments[0].force_before, len(off.detachments)
 
 

@@ -14,6 +14,7 @@ from sphinx.util.logging import getLogger
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
 
+from course_notebooks import offer, sheets, write_notebooks  # noqa: E402
 from reference_pages import write_reference  # noqa: E402
 
 from public_names import public_names  # noqa: E402
@@ -81,7 +82,9 @@ def setup(app):
     app.connect("config-inited", lambda app, config: copy_project(HERE / "project"))
     app.connect("config-inited", redirect)
     app.connect("source-read", list_to_tree)
+    app.connect("source-read", offer_notebook)
     app.connect("missing-reference", link_to_name)
+    app.connect("build-finished", write_course)
     app.connect("build-finished", require_local)
     app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
@@ -111,6 +114,18 @@ def list_to_tree(app, name, text):
     if name in PARTS:
         pages = re.findall(r"^\* \[[^]]*\]\(([^):#]+)\.(?:md|rst)\)", text[0], re.MULTILINE)
         text[0] += "\n".join(["\n\n```{toctree}\n:hidden:", *pages, "```\n"])
+
+
+def offer_notebook(app, name, text):
+    """Link the notebooks of a sheet of the course below its title."""
+    if HERE / f"{name}.md" in sheets(HERE / "course"):
+        text[0] = text[0].replace("\n\n", offer(Path(name).name), 1)
+
+
+def write_course(app, error):
+    """Write the notebooks of the course, each beside its page."""
+    if not error:
+        write_notebooks(HERE / "course", Path(app.outdir) / "course")
 
 
 def link_to_name(app, env, node, text):

@@ -36,6 +36,7 @@ TITLES = {  # in this order
     "study": "Studies",
     "plot": "Pictures",
     "files": "Files",
+    "citing": "References to cite",
     "errors": "Errors",
     "memory": "Memory",
     "progress": "Progress",

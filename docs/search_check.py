@@ -34,7 +34,7 @@ QUESTIONS = {
     "mpi": "how-to/scale",
     "friction loop": "tutorials/friction",
     "periodic or free": "gallery/bodies/periodic_and_free",
-    "adhesion": "concepts/adhesion",
+    "adhesion": "how-to/adhesion",
     "afm tip": "how-to/afm",
     "method of adhesion": "concepts/method-adhesion",
     "memory": "how-to/memory",
@@ -52,6 +52,7 @@ QUESTIONS = {
     "progress in a notebook": "how-to/progress",
     "how far is a long job": "how-to/progress",
     "press": "api/roughcontact.press",
+    "papers to cite": "how-to/citing",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 

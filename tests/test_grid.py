@@ -38,7 +38,7 @@ def test_a_window_is_free():
         (("4", 1.0), "positive whole"),
         ((np.nan, 1.0), "positive whole"),
         (((4, 4), 0.0), "spacing must be positive"),
-        (((4, 4), None), "exactly one of spacing and size, not none"),
+        (((4, 4), None), "exactly one of spacing and size: none is given"),
         (((4, 4), (1.0, np.nan)), "spacing must be positive"),
         (((4, 4), (1.0, np.inf)), "spacing must be positive"),
         (((4, 4), (1.0, 1.0, 1.0)), "spacing needs one value or 2"),

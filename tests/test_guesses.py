@@ -247,7 +247,7 @@ def test_the_size_of_a_grid_is_that_of_all_cells(size):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({}, "give exactly one of spacing and size, not none"),
+        ({}, "give exactly one of spacing and size: none is given"),
         ({"spacing": 1.0, "size": 1.0}, "exactly one of spacing and size, not spacing and size"),
         ({"size": 0.0}, "size must be positive"),
         ({"size": "8um"}, "size must be positive"),

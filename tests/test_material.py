@@ -3,7 +3,7 @@ import math
 import pytest
 
 import roughcontact as rc
-from roughcontact.material import as_modulus
+from roughcontact.materials import as_modulus
 
 STEEL, RUBBER = rc.Solid(210e9, 0.3), rc.Solid(1e6, 0.5)
 
@@ -31,6 +31,8 @@ def test_a_modulus_may_be_a_number_a_solid_or_a_pair():
     assert as_modulus(5.0) == 5.0
     assert as_modulus(STEEL) == rc.reduced_modulus(STEEL)
     assert as_modulus((STEEL, RUBBER)) == rc.reduced_modulus(STEEL, RUBBER)
+    assert as_modulus(("steel", "Aluminum")) == rc.reduced_modulus("steel", "aluminium")
+    assert as_modulus("Gold") == as_modulus(rc.handbook("gold")) == rc.reduced_modulus("gold")
 
 
 @pytest.mark.parametrize("modulus", [0.0, -1.0, math.nan, math.inf])

@@ -43,14 +43,15 @@ ORDER = [
     {"mdr"},
     {"files"},
     {"recipe"},
+    {"citing"},
     {"study"},
     {"plot"},
     {"page"},
     {"cli"},
 ]
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
-# `theory` stands beside the house; `methods` and the two top files open doors and do nothing else.
-DOORS = {"methods", "__init__", "__main__"}
+# `theory` stands beside the house; `methods` and the three top files open doors and do nothing else.
+DOORS = {"methods", "__init__", "__main__", "quiet_start"}
 BESIDE = {"theory", *DOORS}
 METHODS = "roughcontact.methods"
 AT_THE_RIM = RANK["files"]

@@ -78,7 +78,7 @@ def test_what_is_not_a_pair(value):
 
 def test_exactly_one_is_given():
     assert exactly_one(force=None, depth=0.0, pressure=None) == ("depth", 0.0)
-    with pytest.raises(ValueError, match="exactly one of force, depth and pressure, not none"):
+    with pytest.raises(ValueError, match="exactly one of force, depth and pressure: none is given"):
         exactly_one(force=None, depth=None, pressure=None)
     with pytest.raises(ValueError, match="exactly one of forces and depths, not forces and depths"):
         exactly_one(forces=[1.0], depths=[1.0])

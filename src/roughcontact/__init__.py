@@ -4,13 +4,24 @@ Get a surface: `read`, `Surface`, `self_affine`, `specified`, `shapes`, `example
 methods prepare it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
 
 Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` where surfaces
-attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer.
+attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer;
+`citations` lists the papers behind it.
 
 Rooms of their own: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`.
 ``help(rc.press)`` shows one name; the command ``roughcontact doctor`` checks an installation.
 """
 
 from __future__ import annotations
+
+import sys
+
+if sys.orig_argv[1:3] == ["-m", "roughcontact"] or "".join(sys.orig_argv[1:2]).removesuffix(".exe").endswith(
+    ("/roughcontact", "\\roughcontact")
+):
+    # The program: the imports below take a tenth of a second.
+    from roughcontact.quiet_start import start_quietly
+
+    start_quietly()
 
 from typing import TYPE_CHECKING, Any
 
@@ -48,6 +59,8 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.adhesion.detachment_path import detachment_path as detachment_path
     from roughcontact.adhesion.detachment_state import DetachmentState as DetachmentState
     from roughcontact.adhesion.quasi_static import Jump as Jump
+    from roughcontact.citing.bibliography import Citations as Citations
+    from roughcontact.citing.citations import citations as citations
     from roughcontact.contact.compare import Comparison as Comparison
     from roughcontact.contact.convergence import ConvergenceError as ConvergenceError
     from roughcontact.contact.curve import Curve as Curve

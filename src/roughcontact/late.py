@@ -34,7 +34,8 @@ def late_names(spec: ModuleSpec) -> dict[str, str] | None:
     source = getattr(spec.loader, "get_source", lambda name: None)(spec.name)
     if source is None:
         return None
-    block = next(node for node in ast.parse(source).body if isinstance(node, ast.If))
+    conditions = (node for node in ast.parse(source).body if isinstance(node, ast.If))
+    block = next(node for node in conditions if "TYPE_CHECKING" in ast.unparse(node.test))
     return {
         alias.name: node.module or ""
         for node in block.body

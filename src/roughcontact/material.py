@@ -9,9 +9,9 @@ from typing import Any
 
 from roughcontact.errors import InputError, about
 from roughcontact.guesses import hinted
-from roughcontact.validation import moderate, require_numbers, scalar, shown
+from roughcontact.validation import moderate, require_numbers, shown
 
-__all__ = ["Bodies", "Solid", "as_modulus", "inverse_sum", "pair_of", "require_solid"]
+__all__ = ["Bodies", "Solid", "inverse_sum", "pair_of", "require_solid"]
 
 
 @hinted
@@ -53,30 +53,6 @@ class Solid:
 
 
 Bodies = Solid | tuple[Solid, Solid]
-
-
-def as_modulus(modulus: float | Solid | tuple[Solid, ...]) -> float:
-    """Return the reduced modulus E* [Pa] of a number, a solid, or a pair of solids.
-
-    Raises
-    ------
-    ValueError
-        If the modulus is not positive and finite.
-    """
-    solids = (modulus,) if isinstance(modulus, Solid) else modulus
-    if isinstance(solids, tuple):
-        if len(solids) not in (1, 2):
-            raise InputError(
-                f"two solids have a reduced modulus, not {len(solids)}",
-                "give one Solid, or a pair",
-                place="modulus",
-            )
-        value = inverse_sum((1 - s.poisson_ratio**2) / s.young_modulus for s in map(require_solid, solids))
-    else:
-        value = scalar(modulus, "reduced modulus")
-    if not (math.isfinite(value) and value > 0):
-        raise InputError(f"the reduced modulus must be positive and finite [Pa], not {value}")
-    return moderate(value, "the reduced modulus [Pa]")
 
 
 def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
-from roughcontact.errors import placed
+from roughcontact.errors import InputError, placed
 from roughcontact.guesses import hinted
-from roughcontact.material import Solid, as_modulus, inverse_sum, require_solid
-from roughcontact.validation import require, require_numbers
+from roughcontact.material import Solid, inverse_sum, require_solid
+from roughcontact.validation import moderate, require, require_numbers, scalar
 
 __all__ = [
-    *("MATERIALS", "Elastic", "Material", "handbook", "hardness_of"),
-    *("reduced_modulus", "reduced_shear_modulus"),
+    *("MATERIALS", "Elastic", "Material", "Modulus", "as_modulus", "handbook", "hardness_of"),
+    *("reduced_modulus", "reduced_shear_modulus", "softer_of"),
 ]
 
 _VICKERS = 9.80665e6  # Pa: a Vickers number is a force over the faces of the indentation, in kgf/mm^2
@@ -74,6 +75,8 @@ class Material:
 
 Elastic: TypeAlias = Solid | Material | str
 """A solid, a material of a handbook, or its name."""
+Modulus: TypeAlias = float | Elastic | tuple[Elastic, ...]
+"""A reduced modulus E* [Pa], or the one or two bodies that it follows from."""
 
 
 def _alloy(
@@ -143,8 +146,7 @@ def handbook(name: str) -> Material:
     >>> aluminium.grade, f"{aluminium.hardness / 1e9:.2f} GPa"
     ('6061-T6', '1.05 GPa')
     """
-    key = str(name).casefold()
-    key = _ALIASES.get(key, key)
+    key = _key(name)
     require(
         key in MATERIALS,
         f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
@@ -184,6 +186,36 @@ def reduced_modulus(first: Elastic, second: Elastic | None = None) -> float:
     '57.47 GPa'
     """
     return as_modulus(_solids(first, second))
+
+
+def as_modulus(modulus: Modulus) -> float:
+    """Return the reduced modulus E* [Pa] of a number, or of one or two bodies.
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive and finite.
+    """
+    if (bodies := _bodies(modulus)) is None:
+        value = scalar(modulus, "reduced modulus")
+    elif len(bodies) in (1, 2):
+        value = inverse_sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _solids(*bodies))
+    else:
+        raise InputError(
+            f"two solids have a reduced modulus, not {len(bodies)}",
+            "give one Solid, or a pair",
+            place="modulus",
+        )
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(f"the reduced modulus must be positive and finite [Pa], not {value}")
+    return moderate(value, "the reduced modulus [Pa]")
+
+
+def softer_of(modulus: Modulus) -> Material | None:
+    """Return the material with the smallest hardness among the bodies; None if no body is a material."""
+    named = [handbook(body) if isinstance(body, str) else body for body in _bodies(modulus) or ()]
+    materials = [body for body in named if isinstance(body, Material)]
+    return min(materials, key=lambda material: material.hardness, default=None)
 
 
 def reduced_shear_modulus(first: Elastic, second: Elastic | None = None) -> float:
@@ -231,7 +263,19 @@ def hardness_of(value: Any) -> Any:
     return material.hardness if isinstance(material, Material) else value
 
 
-def _solids(first: Elastic, second: Elastic | None) -> tuple[Solid, ...]:
+def _bodies(modulus: Modulus) -> tuple[Elastic, ...] | None:
+    """Return the bodies that a modulus follows from; None for a number."""
+    if isinstance(modulus, Solid | Material) or (isinstance(modulus, str) and _key(modulus) in MATERIALS):
+        return (modulus,)
+    return modulus if isinstance(modulus, tuple) else None
+
+
+def _key(name: str) -> str:
+    key = str(name).casefold()
+    return _ALIASES.get(key, key)
+
+
+def _solids(first: Elastic, second: Elastic | None = None) -> tuple[Solid, ...]:
     """Return the solids of one body, or of two."""
     bodies = (first,) if second is None else (first, second)
     materials = (handbook(body) if isinstance(body, str) else body for body in bodies)

@@ -240,8 +240,9 @@ def exactly_one(**given: Any) -> tuple[str, Any]:
     """
     stated = {name: value for name, value in given.items() if value is not None}
     *others, last = given
-    wanted, found = f"{', '.join(others)} and {last}", " and ".join(stated) or "none"
-    require(len(stated) == 1, f"give exactly one of {wanted}, not {found}", place=", ".join(given))
+    wanted, found = f"{', '.join(others)} and {last}", " and ".join(stated)
+    wrong = f", not {found}" if stated else ": none is given"
+    require(len(stated) == 1, f"give exactly one of {wanted}{wrong}", place=", ".join(given))
     return stated.popitem()
 
 

@@ -15,7 +15,7 @@ from sticking import rough
 
 def pulled(surface, depth):
     """Return the state of a surface of modulus and work of adhesion 1 whose last cell has let go."""
-    (off,) = rc.detachment_path(rc.press(surface, 1.0, depth=depth), 1.0)
+    *_, off = rc.detachment_path(rc.press(surface, 1.0, depth=depth), 1.0)
     assert not off.contact.any()
     return off
 
@@ -181,9 +181,34 @@ def test_only_on_a_plane_the_criterion_depends_on_the_direction():
     assert pulled(rough(16, periodic=True, slope=0.2, seed=0), 0.5).directional
 
 
-def test_a_state_without_loads_is_that_in_which_the_last_cell_lets_go():
+@pytest.mark.parametrize(
+    "surface", [ball(40), rough(24, periodic=False, slope=0.2, seed=0)], ids=["rings", "plane"]
+)
+def test_without_loads_the_states_are_those_of_start_pull_off_and_end(surface):
+    pressed = rc.press(surface, 1.0, depth=0.5, tolerance=1e-12)
+    start, pull_off, off = rc.detachment_path(pressed, 0.01)
+    depths = [each.depth for each in (start, pull_off)]
+    listed = list(rc.detachment_path(pressed, 0.01, depths=[*depths, -100.0]))
+    assert depths[0] == pressed.depth
+    # Rounding decides whether the event at the depth of the pull-off comes before the state that is listed there.
+    for one, other in ((start, listed[0]), (off, listed[2])):
+        np.testing.assert_array_equal(one.pressure, other.pressure)
+        assert (one.lowest_force, one.stiffness) == (other.lowest_force, other.stiffness)
+    assert not start.detachments
+    assert pull_off.detachments + off.detachments == listed[1].detachments + listed[2].detachments
+    deepest = off.detachments[0]
+    assert (pull_off.depth, pull_off.lowest_force) == (deepest.depth, deepest.force_before)
+    assert pull_off.force == pytest.approx(-off.pull_off_force, rel=1e-9)
+    assert pull_off.contact_area == pull_off.lowest_force_area == off.lowest_force_area
+    # The cells of all events before it are gone, and the pressure of the others closes the gap.
+    gone = sum(event.cells for event in pull_off.detachments)
+    assert pressed.contact.sum() - pull_off.contact.sum() == gone
+    assert {each.status.value for each in (start, pull_off)} == {"converged"}
+
+
+def test_without_loads_the_last_state_is_that_in_which_the_last_cell_lets_go():
     pressed = rc.press(ball(40), 1.0, depth=4.0)
-    (off,) = rc.detachment_path(pressed, 1.0)
+    *_, off = rc.detachment_path(pressed, 1.0)
     *_, listed = rc.detachment_path(pressed, 1.0, depths=[4.0, 1.0, -100.0])
     assert off.depth == off.detachments[-1].depth_after == listed.detachments[-1].depth
     assert off.pull_off_force == listed.pull_off_force
@@ -243,11 +268,11 @@ def test_what_flowed_is_refused_and_the_flattened_surface_taken():
     assert pressed.plastic.any()
     with pytest.raises(ValueError, match=r"are at the hardness.*give solution.flattened"):
         rc.detachment_path(pressed, 0.01)
-    (off,) = rc.detachment_path(pressed.flattened, 0.01)
+    *_, off = rc.detachment_path(pressed.flattened, 0.01)
     assert off.pull_off_force > 0
     never = rc.press(surface, 1.0, depth=0.5, hardness=100.0)
     assert not never.plastic.any()
-    (same,), (elastic,) = (
+    (*_, same), (*_, elastic) = (
         rc.detachment_path(each, 0.01) for each in (never, rc.press(surface, 1.0, depth=0.5))
     )
     assert same.pull_off_force == pytest.approx(elastic.pull_off_force, rel=1e-9)

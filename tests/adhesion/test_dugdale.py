@@ -76,7 +76,7 @@ def test_the_pull_off_is_that_of_maugis_equations(number):
     coarse, fine = pull_off_error(number, 40), pull_off_error(number, 160)
     assert fine <= max(
         coarse / 4, 2e-4
-    )  # of first order at least, and to the digits of docs/concepts/adhesion.md
+    )  # of first order at least, and to the digits of docs/evidence/adhesion-evidence.md
     assert fine <= 1e-3
 
 

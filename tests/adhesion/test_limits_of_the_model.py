@@ -1,13 +1,14 @@
 """Notes on surfaces that stick where linear elasticity, the preload, the loads or the range decide on the numbers."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import roughcontact as rc
-from roughcontact.adhesion.model_limits import SHALLOW, SHORT_RANGE, HighestSummit, highest_summit
+from roughcontact.adhesion.model_limits import SHALLOW, SHORT_RANGE, SPHERE, HighestSummit, highest_summit
 from roughcontact.contact.problem import separation_of
 from roughcontact.theory import maugis
 
@@ -43,8 +44,11 @@ def test_the_radius_of_a_rough_tip_is_that_of_the_tip_and_of_a_sphere_that_of_th
     roughness = rc.self_affine(grid, 0.8, rms=0.3e-9, rng=np.random.default_rng(1))
     # Over 0.53 of the radius or more the tip falls by at least 2.8 nm; roughness changes that by twice its rms height.
     assert summit(rc.shapes.paraboloid(grid, R) + roughness, SOFT).radius == pytest.approx(R, rel=0.6 / 2.8)
-    # Over 0.75 of its radius a sphere falls by u/2 + u^2/8 + u^3/16, u being (a/R)^2: by least squares 0.588 u.
-    assert summit(rc.shapes.sphere(grid, R), SOFT).radius == pytest.approx(R, rel=1 - 0.5 / 0.588)
+    # A sphere falls by 1 - sqrt(1 - u), u being (r/R)^2; least squares over all u up to 0.75^2, the largest distance.
+    u = np.linspace(0, 0.75**2, 10_001)
+    slope = np.polyfit(u, 1 - np.sqrt(1 - u), 1)[0]
+    assert 1 - 0.5 / slope == pytest.approx(SPHERE, abs=0.005)
+    assert summit(rc.shapes.sphere(grid, R), SOFT).radius == pytest.approx(R, rel=SPHERE)
     disc = rc.shapes.flat_disc(grid, 2e-8)
     assert summit(disc, SOFT).radius == math.inf
     assert summit(disc, SOFT).shallow
@@ -121,7 +125,7 @@ def test_a_preload_below_a_third_of_the_pull_off_force_is_noted_on_a_cylinder(pa
     grid = rc.Grid(120, 0.5e-9)
     operator, least = rc.line(grid, STIFF), HighestSummit(R, STIFF, W, True).least_preload
     pressed = rc.press(rc.shapes.paraboloid(grid, R), STIFF, force=part * least, operator=operator)
-    (off,) = rc.detachment_path(pressed, W)
+    *_, off = rc.detachment_path(pressed, W)
     assert about(off.notes, "for which a cylinder needs") == expected
 
 
@@ -162,3 +166,21 @@ def test_a_range_on_which_the_pull_off_force_depends_is_noted(factor):
     there_and_back = rc.adhesive_curve(BALL, 1e8, adhesion, depths=[10e-9, 0.0])
     assert about(there_and_back.notes, "Tabor's number of the highest summit is 0.6") == (factor < 1)
     assert not about(rc.adhesive_curve(BALL, 1e8, adhesion, depths=[10e-9]).notes, "Tabor's number")
+
+
+def test_notes_stand_in_the_order_of_their_rank():
+    """What makes a number wrong comes first, though it is found last."""
+    weak = rc.Adhesion(work=10e-3, range=40e-9)
+    short = rc.adhesive_curve(BALL, 1e8, weak, depths=[10e-9, 2e-9])
+    missed = replace(short, status=(rc.Status.STAGNATED, rc.Status.CONVERGED), summit_radius=5e-9)
+    expected = ["1 of 2 loads missed", "The retreat ends at its lowest force", "The contact is not small"]
+    assert [words in note for words, note in zip(expected, missed.notes, strict=False)] == [True] * 3
+    assert about(short.notes, "missed") == 0
+    assert "N (tension is negative)" in short.notes[0]
+    off = list(rc.detachment_path(rc.press(BALL, 1e8, depth=5e-9), 10e-3))[-1]
+    stalled = replace(off, residual=1e-3, solution=replace(off.solution, status=rc.Status.MAX_STEPS))
+    first, second, last = stalled.notes
+    assert first.startswith("Residual 1.0e-03: ")
+    assert second.startswith("The preload missed the tolerance, residual ")
+    assert last.startswith("The preload was too small")
+    assert off.notes == (last,)

@@ -231,7 +231,7 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
-        ((*STICKS, "--law", "sharp"), "--law: there is no 'sharp' here; choose of exponential, dugdale"),
+        ((*STICKS, "--law", "sharp"), "--law: there is no 'sharp' here; choose from exponential, dugdale"),
     ],
 )
 def test_a_law_that_is_none_is_refused(invoke, rough, given, says):

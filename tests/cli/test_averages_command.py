@@ -14,7 +14,7 @@ from roughcontact.statistics.fit_window import force_window
 from roughcontact.study import Store, export
 from tables import read_table
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "studies.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "study-files.md"
 TEXT = """
 name = "tried"
 case = "curve"
@@ -81,6 +81,7 @@ def test_a_table_has_a_line_for_each_combination(invoke, study, averaged):
         "L)",
         "to",
         "loads",
+        "resolved",
     ]
     alpha, error = averaged["exponent"].to_numpy(), averaged["exponent_error"].to_numpy()
     for i, row in enumerate(rows):
@@ -89,7 +90,7 @@ def test_a_table_has_a_line_for_each_combination(invoke, study, averaged):
         digits = len(words[4].partition(".")[2])
         assert words[2:5] == [f"{alpha[i]:.{digits}f}", "+-", f"{error[i]:.{digits}f}"]
         assert len(words[4].lstrip("0.")) == 2
-        assert words[-1] == "8"
+        assert words[-2:] == ["8", "0"]
 
 
 def test_means_can_be_asked_for_at_a_force(invoke, study, averaged):
@@ -157,8 +158,10 @@ def test_a_table_counts_the_samples_behind_each_mean(invoke, study, monkeypatch)
         return dataset.assign(force=force.where(dataset["sample"] != 2, 0.01 * force))
 
     monkeypatch.setattr(sys.modules["roughcontact.study.export"], "export", shortened)
-    rows = invoke("study", "table", study, "--at", "2N").stdout.splitlines()[1:]
-    assert [row.split()[1] for row in rows] == ["2", "2"]
+    answer = invoke("study", "table", study, "--at", "2N")
+    assert [row.split()[1] for row in answer.stdout.splitlines()[1:]] == ["2", "2"]
+    assert "the loads of some samples do not reach this load" in answer.stderr
+    assert "do not reach" not in invoke("study", "table", study, "--at", "0.0002").stderr
 
 
 def test_json_holds_the_laws(invoke, study, averaged):

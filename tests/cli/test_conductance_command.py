@@ -38,7 +38,7 @@ def test_loads_that_are_not_resolved_are_marked(invoke, curve):
     with xarray.open_dataset(curve, engine="h5netcdf") as dataset:
         resolved = dataset.resolved.to_numpy().astype(bool).tolist()
     assert set(resolved) == {True, False}
-    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:-1]
+    lines = invoke("conductance", curve, *COPPER).stdout.splitlines()[1:-2]
     assert [not line.endswith("not resolved") for line in lines] == resolved
     assert json.loads(invoke("conductance", curve, *COPPER, "--json").stdout)["resolved"] == resolved
 
@@ -58,7 +58,8 @@ def test_by_default_it_is_that_of_the_interface_per_area(invoke, curve):
     assert record["of"] == "interface"
     shown = invoke(*words).stdout
     assert shown.startswith("nominal pressure [")
-    assert "conductance of   the interface alone" in shown
+    assert "thermal conductivities   16 and 160 W/(m K)" in shown
+    assert "conductance of           the interface alone" in shown
     whole = invoke(*words, "--of", "total").stdout
     assert whole.startswith("force [")
     assert "spreading resistance included" in whole

@@ -224,7 +224,7 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose of persson"),
+        (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose from persson"),
         (("--theory", "gw,gw"), "each theory once"),
         (("--theory", ","), "each theory once"),
         (("--hurst", "0.8"), "--hurst belongs to --theory"),
@@ -471,6 +471,9 @@ def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, sur
     np.testing.assert_allclose(record["depth"], loop.loading.depth, rtol=1e-6)
     names = {each.name for each in (tmp_path / "out").iterdir()}
     assert {"curve.nc", "loop.nc", "loop.csv", "loop.png", "flattened.png", "flattened.npz"} <= names
+    assert "first_loading.png" in names
+    assert "curve.png" not in names
+    assert "first_loading.png, loop.nc" in answer.stderr
     flat = rc.read(tmp_path / "out" / "flattened.npz")
     np.testing.assert_allclose(flat.heights, loop.flattened.heights, rtol=0, atol=1e-15)
     assert "raised by" in flat.provenance[-2] + flat.provenance[-1]

@@ -50,12 +50,14 @@ def test_without_loads_it_goes_on_until_no_cell_is_in_contact(invoke, rough):
     record = json.loads(invoke(*words, "--json").stdout)
     curve = rc.detachment_curve(rc.press(rc.read(rough), 10e6, depth=1.5e-7), 10e-3)
     assert record["pull_off_force"] == curve.pull_off_force > 0
-    assert (record["control"], record["contact_area"]) == ("depth", [0.0])
+    assert (record["control"], len(record["contact_area"]), record["contact_area"][-1]) == ("depth", 3, 0.0)
     told = invoke(*words).stdout
+    rows = [line.split() for line in told.splitlines() if line.startswith(" ")]
+    assert len(rows) == 3  # start, pull-off and end
     last = min(curve.detachments, key=lambda event: event.force_before)
     assert last.force_before == -curve.pull_off_force
     force = quantity("pull_off_force", curve.pull_off_force)
-    assert f" {force} at a depth of {quantity('depth', last.depth)}\n" in told
+    assert f" {force} in tension at a depth of {quantity('depth', last.depth)}\n" in told
     for each in ("detachments", "work of adhesion", "10 mJ/m²"):
         assert each in told
 
@@ -102,7 +104,7 @@ def test_a_missed_tolerance_ends_with_its_status(invoke, rough, monkeypatch):
     assert answer.exit_code == 1
     assert json.loads(answer.stdout)["converged"] is False
     assert "4 of 4 loads missed the tolerance" in answer.stderr
-    assert "the preload missed" not in answer.stderr
+    assert "The preload missed" not in answer.stderr
 
 
 def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough, monkeypatch):
@@ -116,7 +118,7 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
     answer = invoke("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--json")
     assert answer.exit_code == 1
     assert json.loads(answer.stdout)["converged"] is False
-    assert "the preload missed the tolerance" in answer.stderr
+    assert "The preload missed the tolerance" in answer.stderr
 
 
 @pytest.mark.parametrize(

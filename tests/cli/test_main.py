@@ -194,6 +194,38 @@ from roughcontact.__main__ import run; run()
     assert (answer.returncode, answer.stdout, answer.stderr) == (-signal.SIGINT, b"", b"")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+@pytest.mark.parametrize("words", [["-m", "roughcontact"], ["roughcontact"]])
+def test_ctrl_c_while_the_package_is_imported_ends_the_program_without_a_word(words, tmp_path):
+    """Sent from `sitecustomize`, at the first module that the package imports."""
+    (tmp_path / "sitecustomize.py").write_text("""
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+class Watch:
+    def find_spec(self, name, *_):
+        if name == "roughcontact.late":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Watch())
+""")
+    (tmp_path / "roughcontact").write_text("from roughcontact.__main__ import run; run()")
+    (tmp_path / "mine.py").write_text("import roughcontact")
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    given = {"capture_output": True, "check": False, "timeout": 60, "env": os.environ | {"PYTHONPATH": path}}
+    words = [words[0] if len(words) == 2 else str(tmp_path / words[0]), *words[1:]]
+    answer = subprocess.run([sys.executable, *words], **given)
+    assert (answer.returncode, answer.stdout, answer.stderr) == (-signal.SIGINT, b"", b"")
+    other = subprocess.run([sys.executable, str(tmp_path / "mine.py")], **given)
+    assert b"KeyboardInterrupt" in other.stderr  # a script of a user keeps its handler
+
+
+@pytest.mark.parametrize("words", [(), ("surface",), ("press", "--help-all")])
+def test_flags_have_no_type_in_the_help(words):
+    help_of = words if "--help-all" in words else (*words, "--help")
+    answer = subprocess.run([*PROGRAM, *help_of], capture_output=True, encoding="utf-8", check=False)
+    assert "--help" in answer.stdout
+    assert "bool" not in answer.stdout.casefold()
+
+
 def test_help_waits_for_no_library_of_numerics():
     code = (
         "import sys; from roughcontact.cli.main import run; sys.argv[1:] = ['--help']\n"

@@ -368,7 +368,7 @@ def test_errors_are_told_in_units_that_suit(invoke, rough):
     assert unit == "MN/m"
     assert float(error) == pytest.approx(known["error"] * 1e-6, rel=0.05)
     assert float(value) == pytest.approx(known["value"] * 1e-6, abs=float(error) / 10)
-    assert "short cut-off   bias: Gaussian low-pass at" in told
+    assert "short cut-off     bias: Gaussian low-pass at" in told
     # A periodic map has no levelling, and stands for a joint: numbers per area.
     joint = invoke("press", rough, *FORCE, *MODULUS, "--errors", "--periodic").stdout.partition("errors at")[
         2
@@ -396,13 +396,14 @@ def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, r
     )
     assert f"sampling        {sentence}" in told
     assert "+- unknown" in told
-    assert "bias of size" not in told
+    assert "size of the map" not in told
     assert record["sources"]["sampling"] == {"kind": "unknown", "how": sentence}
     assert record["interfacial_stiffness"]["sampling"] is record["interfacial_stiffness"]["error"] is None
     assert record["bias_of_size"] == {}
     assert f"at 10 mN, {sentence}" in texts(drawn[0])
-    assert "sampling        order of magnitude: four free quarters" in known
-    assert "bias of size    interfacial stiffness per area K/A0 " in known
+    assert "sampling          order of magnitude: four free quarters" in known
+    changes = "size of the map   from the whole map to quarters of it, the numbers change: interfacial stiffness per"
+    assert changes in known
     assert "unknown" not in next(line for line in known.splitlines() if "mean gap" in line)
     number = numbers["interfacial_stiffness"]
     assert 0 < number["sampling"] <= number["error"]
@@ -439,10 +440,29 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
     assert "flattened.png" in answer.stderr
     told = invoke(*words, "--hardness", "5GPa", "--flow", "raised").stdout
     assert "residual depth" in told
+    lines = dict(line.split("   ", 1) for line in told.splitlines())
+    assert lines["load"].strip() == "force 200 mN, unloaded from 1 N"
+    elastic = rc.press(surface, 110e9, force=0.2)
+    assert record["without_plastic_flow"]["stiffness"] == pytest.approx(elastic.stiffness, rel=1e-6)
+    assert float(lines["stiffness without plastic flow"].split()[0]) == pytest.approx(
+        elastic.stiffness / 1e6, rel=1e-3
+    )
     assert "nothing flowed" in invoke(*words, "--hardness", "5000GPa").stderr
     assert "nothing flowed" not in answer.stderr
     first = invoke(*words[:3], "1N", *words[6:], "--hardness", "5GPa").stdout
     assert "stiffness on unloading" in first
+    assert not any(words in first for words in ("unloaded from", "without plastic flow"))
+
+
+def test_an_elastic_contact_of_named_metals_names_the_options_of_flow(invoke, rough):
+    words = ("press", rough, "--force", "1N", "--materials", "steel,aluminium")
+    note = invoke(*words).stderr
+    assert "of the contact area is above the hardness of aluminium, 1.05 GPa" in note
+    assert "Give --hardness 'aluminium', or unload the joint with 'roughcontact curve --loop'" in note
+    assert "above the hardness" in invoke("curve", *words[1:2], "--forces", "0.5N,1N", *words[4:]).stderr
+    for given in (("--hardness", "aluminium"), ("--after", "2N")):
+        assert "above the hardness" not in invoke(*words, *given).stderr
+    assert "above the hardness" not in invoke(*words[:4], "--modulus", "57GPa").stderr
 
 
 @pytest.mark.parametrize(

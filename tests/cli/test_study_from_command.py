@@ -133,7 +133,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
             ["job.toml", "--vary", "hurst=0.5"],
             "--vary: the job has no field 'hurst'; did you mean source.hurst",
         ),
-        (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose of source."),
+        (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose from source."),
         (["job.toml", "--vary", "source.seed=1,2"], "leave seed out"),
         (["job.toml", "--vary", "source.points=16,16"], "a case comes twice"),
         (["maps/press.toml", "--samples", "2"], "--samples: the source of this job is not random"),

@@ -373,6 +373,12 @@ def test_prepare_refuses_what_is_no_mask(invoke, spiky, tmp_path, text, words):
     assert (answer.exit_code, words in answer.stderr) == (2, True), answer.stderr
 
 
+def test_the_help_of_mask_begins_with_heights(invoke):
+    shown = " ".join(invoke("surface", "prepare", "--help-all").stdout.replace("│", " ").split())
+    assert "--mask above=3um " in shown
+    assert -1 < shown.find("heights beyond") < shown.find("box= or")
+
+
 @pytest.mark.parametrize("kind", ["missing", "filled"])
 def test_press_and_curve_leave_spikes_out_when_asked(invoke, spiky, kind):
     path, made = spiky

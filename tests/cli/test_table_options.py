@@ -65,7 +65,7 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     ("words", "message"),
     [
         (("--table", "abaqus"), "--table writes files: say where by --out"),
-        (("--table", "ansys", "--out", "OUT"), "--table: there is no table 'ansys'; choose of csv, abaqus"),
+        (("--table", "ansys", "--out", "OUT"), "--table: there is no table 'ansys'; choose from csv, abaqus"),
         (("--table", "csv,csv", "--out", "OUT"), "name each table once"),
         (("--table", ",", "--out", "OUT"), "name each table once"),
         (("--table-area", "1mm^2", "--out", "OUT"), "--table-area belongs to --table"),

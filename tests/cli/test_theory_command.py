@@ -39,7 +39,13 @@ def test_the_conductance_of_two_faces_is_printed(run):
     answer = run(JOINT)
     assert answer.exit_code == 0, answer.stderr
     assert "sigma 1.697 µm, mean absolute slope m 0.1697 (rms slope of a profile 0.2127)" in answer.stdout
-    assert "hardness              1.049 GPa, of aluminium" in answer.stdout
+    assert "hardness                 1.049 GPa, of aluminium" in answer.stdout
+    assert "thermal conductivities   167 and 16.2 W/(m K)" in answer.stdout
+    assert "resistivities" not in answer.stdout
+    electrical = run(
+        JOINT.replace("--conductivity aluminium,stainless-steel", "--resistivity 17nohm*m,copper")
+    )
+    assert "electrical resistivities   1.7e-08 and 1.678e-08 ohm m" in electrical.stdout
     assert "in vacuum: gas in the gap, films and radiation are not in it" in answer.stdout
     rows = [line.split() for line in answer.stdout.splitlines() if line.strip().startswith("cmy")]
     # By hand, 1.25 k m/sigma (P/H)^0.95 in kW/m2/K: 4.982, 22.98, 44.40.

@@ -18,15 +18,15 @@ JOB = ("press", "FILE", "--force", "1N", "--modulus", "1GPa")
         (("press",), "FILE is missing: write a line such as: roughcontact press part.x3p --force 10N"),
         (("surface", "make", "a.npz"), "--hurst: this option must be given; write --hurst 0.8"),
         (("study", "export", "results"), "--out: this option must be given; write --out FILE"),
-        (("pres",), "'roughcontact' has no command 'pres': did you mean 'press'? choose of"),
+        (("pres",), "'roughcontact' has no command 'pres': did you mean 'press'? choose from"),
         (("surface", "inof"), "'roughcontact surface' has no command 'inof': did you mean 'info'?"),
         (("-q", "press"), "-q: there is no such option; write it behind the name of a command"),
-        ((*JOB, "--format", "gif"), "--format: there is no 'gif' here; choose of png, pdf, svg"),
-        ((*JOB, "--progress", "bars"), "--progress: there is no 'bars' here; choose of auto, json, none"),
+        ((*JOB, "--format", "gif"), "--format: there is no 'gif' here; choose from png, pdf, svg"),
+        ((*JOB, "--progress", "bars"), "--progress: there is no 'bars' here; choose from auto, json, none"),
         ((*JOB, "-q", "-v"), "--quiet and --verbose exclude each other: give one of them"),
         (("serve", "--port", "80"), "--port: a port is a whole number from 1024 to 65535, not '80'; give one such"),
         (("study", "run", "s.toml", "--workers", "0"), "--workers: the number of workers is a whole number from 1"),
-        (("study", "run", "s.toml", "--executor", "gpu"), "--executor: there is no 'gpu' here; choose of serial"),
+        (("study", "run", "s.toml", "--executor", "gpu"), "--executor: there is no 'gpu' here; choose from serial"),
         (("study", "from", "j.toml", "--out", "s.toml", "--samples", "0"), "--samples: the number of samples is a"),
     ],
 )  # fmt: skip
@@ -64,7 +64,7 @@ def test_quiet_leaves_remarks_out_and_keeps_what_makes_a_number_wrong(invoke, ro
     assert quiet.stdout == told.stdout
     assert "the tilt is removed" in told.stderr
     assert "the tilt is removed" not in quiet.stderr
-    assert "of the reduced modulus: real bodies yield" in quiet.stderr
+    assert "% of the reduced modulus: real bodies yield" in quiet.stderr
 
 
 def test_verbose_says_what_is_done(invoke, rough):

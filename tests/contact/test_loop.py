@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -44,6 +45,17 @@ def test_its_branches_are_those_of_the_path(loop):
     assert loop.converged
     assert curve.hardness == loop.loading.hardness == HARDNESS
     assert loop.unloading.hardness == np.inf
+
+
+def test_its_notes_are_those_of_first_loading():
+    rough = rc.self_affine(rc.Grid((48, 48), 1e-6, periodic=True), 0.8, 3e-7, rng=np.random.default_rng(0))
+    loop = rc.loading_loop(rough, 1e11, hardness=5e9)
+    (note,) = loop.unloading.notes  # of its power law, which unloading does not follow
+    assert loop.notes == loop.loading.notes == ()
+    assert note not in loop._repr_html_()
+    doubtful = replace(loop, loading=loop.unloading)
+    assert doubtful.notes == (note,)
+    assert note in doubtful._repr_html_()
 
 
 def test_unloading_and_reloading_are_one_and_the_curve_closes(loop):

@@ -162,7 +162,9 @@ def test_the_budget_adds_it_to_the_error_and_keeps_the_bias_apart():
     printed = repr(budget).splitlines()
     assert printed[0].endswith("sampling")
     assert printed[-2] == f"sampling: order of magnitude: {found.source.how}"
-    assert printed[-1].startswith("bias of size: interfacial stiffness per area K/A0 ")
+    assert printed[-1].startswith(
+        "size of the map: from the whole map to quarters of it, the numbers change: "
+    )
     few = rc.error_budget(pressed(rough((48, 48)), 1e4))
     assert math.isnan(few["mean_gap"].error)
     assert repr(few).splitlines()[-1] == f"sampling: {few.sources[-1].how}"

@@ -42,7 +42,7 @@ def test_fortran_order_and_nan(put, npy):
         (np.zeros((0, 0)), "2 x 2"),
         (np.float64(3), "one number"),
         (np.full((2, 2), np.nan), "all heights are NaN"),
-        (np.array([[1.0, np.inf], [0, 0]]), "1 heights are infinite"),
+        (np.array([[1.0, np.inf], [0, 0]]), "1 height is infinite"),
         (np.array([[1.0, {}], [0, 0]], dtype=object), "not a whole NumPy array"),
         (np.zeros((2, 2), dtype=[("x", "f8")]), "type"),
     ],

@@ -99,7 +99,7 @@ def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):
         ("# only words\n", "holds no numbers"),
         (" \n", "holds no numbers"),
         ("1 2\n3 \0\n", "zero bytes"),
-        ("1 2\n3 inf\n", "1 heights are infinite"),
+        ("1 2\n3 inf\n", "1 height is infinite"),
         ("nan nan\nnan nan\n", "all heights are NaN"),
         ("".join(f"{k} {k * k}\n" for k in range(20)), "list of coordinates"),
         ("PK\x03\x04 not a text", "not a number"),

@@ -18,6 +18,7 @@ from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
+from roughcontact.page.jobs.surface_jobs import look, study
 from roughcontact.page.server.page_request import PageRequest
 from roughcontact.page.stopping import Stopped
 
@@ -233,6 +234,93 @@ def test_a_cut_is_a_line_of_the_solution(ask, file, axis):
     assert found["gap"] == solution.gap[line].tolist()
     assert found["before"] == (solution.depth - solution.problem.separation[line]).tolist()
     assert found["across"] == solution.problem.grid.coordinates[0][7]
+
+
+def test_a_spike_takes_no_room_in_the_distribution_of_the_pressure(ask, file):
+    """The bars hold what is in contact, less the part that is named."""
+    heights = rc.read(file.path).heights.copy()
+    heights[20, 30] += 2e-6
+    rc.write(rc.Surface(heights, rc.Grid((96, 96), 1e-6)), file.path)
+    [found] = of(ask(press, load={"pressure": "2 GPa"}), "pressures")
+    [header] = [
+        each for each in of(ask(press, load={"pressure": "2 GPa"}), "map") if each["map"] == "pressure"
+    ]
+    width = found["x"][1] - found["x"][0]
+    assert found["x"][-1] < 0.2 * header["ends"][1]
+    part = float(re.search(r"([\d.]+) % of the contact area", found["beyond"])[1]) / 100
+    [point] = [each["point"] for each in of(ask(press, load={"pressure": "2 GPa"}), "numbers")]
+    # The part is written with two digits.
+    assert sum(found["y"]) * width == pytest.approx((1 - part) * point["contact_fraction"], abs=5e-3 * part)
+
+
+def test_the_distribution_of_hertz_needs_no_end(ask):
+    ball = {"kind": "shape", "shape": "sphere", "radius": "5mm", "size": "0.2mm", "points": "64"}
+    [found] = of(ask(press, source=ball, preparation={}, load={"force": "1N"}), "pressures")
+    assert (found["beyond"], found["unit"]) == ("", "Pa")
+
+
+WAVY = {"kind": "self-affine", "hurst": "0.8", "rms": "0.2um", "size": "64um", "points": "64", "seed": "3"}
+
+
+@pytest.mark.parametrize(
+    ("profile", "body", "unit"), [("line", "line", "Pa"), ("winkler", "foundation", "N/m")]
+)
+def test_a_profile_is_a_map_of_one_row(ask, profile, body, unit):
+    parts = {"source": WAVY, "contact": {"profile": profile}}
+    [heights] = of(ask(look, **parts), "map")
+    assert (heights["cells"], heights["lengths"][1]) == ([1, 64], 64e-6)
+    [span] = of(ask(press, **parts), "span")
+    start = f"{span['pressure'][2]} {span['units']['pressure']}"
+    said = ask(press, load={"pressure": start}, **parts)
+    space = {}
+    exec(of(said, "numbers")[0]["python"], space)
+    solution = space["solution"]
+    assert solution.problem.geometry.value == body
+    assert 0 < solution.contact_fraction < 1
+    data = {header["map"]: (header, data) for header, data in said if header["type"] == "map"}
+    assert data["pressure"][0]["unit"] == of(said, "pressures")[0]["unit"] == unit
+    np.testing.assert_array_equal(np.frombuffer(data["gap"][1], "<f4"), solution.gap.astype("<f4"))
+    for axis in ("row", "column"):  # it has one line
+        [found] = of(ask(cut, {"axis": axis, "place": 8}, load={"pressure": start}, **parts), "cut")
+        assert (found["axis"], found["count"], found["across"], found["unit"]) == ("row", 1, None, unit)
+        assert found["gap"] == solution.gap.tolist()
+    facts = [name for name, *_ in of(ask(study, **parts), "roughness")[0]["facts"]]
+    assert facts[:2] == ["Rq", "Ra"]
+
+
+def test_the_curve_of_a_profile_has_its_units(ask):
+    said = ask(curve, source=WAVY, contact={"profile": "line"}, loads={"forces": "1N/mm:10N/mm:3"})
+    units = {each["name"]: each["unit"] for each in of(said, "loads")[0]["columns"]}
+    assert (units["force"], units["stiffness"], units["nominal_pressure"]) == ("N/m", "N/m²", "Pa")
+    assert len(of(said, "point")) == 3
+
+
+def test_a_state_of_surfaces_that_stick_is_that_of_the_library(ask):
+    said = ask(
+        curve,
+        job="adhesion press",
+        load={"depth": "20nm"},
+        preparation=SMALL,
+        bodies={"modulus": "1GPa"},
+        adhesion=ADHESION,
+    )
+    space = {}
+    exec(of(said, "stated")[0]["python"], space)
+    [point] = of(said, "point")
+    assert (point["depth"], point["force"]) == (2e-8, space["state"].force)
+    [(header, data)] = [(header, data) for header, data in said if header["type"] == "map"]
+    assert header["map"] == "traction"
+    assert header["ends"][0] < 0 < header["ends"][1]
+    np.testing.assert_array_equal(
+        np.frombuffer(data, "<f4").reshape(header["shape"]), space["state"].pressure.astype("<f4")
+    )
+
+
+def test_a_total_conductance_is_a_column(ask):
+    said = ask(curve, loads={"forces": "0.5 N"}, conduction={**CONDUCTION, "of": "total"})
+    names = [each["name"] for each in of(said, "loads")[0]["columns"]]
+    assert {"electrical_conductance", "thermal_conductance"} <= of(said, "point")[0].keys() & {*names}
+    assert "electrical_conductance_per_area" not in names
 
 
 PLASTIC = {"hardness": "1.5 GPa", "loop": True}

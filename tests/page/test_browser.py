@@ -336,7 +336,7 @@ def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
     tab.wait("() => document.getElementById('said').textContent.includes('A new one takes over')")
     # What is asked of a process before the server knows of its end is answered as above.
     assert psutil.wait_procs(killed, timeout=30)[1] == []
-    tab.page.get_by_role("button", name="Ask again").click()
+    tab.page.get_by_role("button", name="Compute again").click()
     tab.settled()
     assert tab.facts["surface"].startswith("1024 x 1024 cells")
     assert not tab.page.locator("#again").is_visible()
@@ -398,7 +398,7 @@ def test_an_address_without_its_key_opens_nothing(chromium, desk):
     context = chromium.new_context()
     page = context.new_page()
     assert page.goto(desk.origin).status == 403
-    assert "holds the key" in page.locator("body").inner_text()
+    assert "contains the key" in page.locator("body").inner_text()
     context.close()
 
 
@@ -535,6 +535,20 @@ def test_a_load_that_is_none_is_refused_beside_its_field(tab, part):
     assert "not a pressure" in tab.text("load_trouble")
 
 
+def test_a_load_that_is_none_can_be_corrected_after_another_preparation(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.fill("#load", "12 kg")
+    tab.page.keyboard.press("Enter")
+    tab.wait("() => document.getElementById('load').getAttribute('aria-invalid') === 'true'")
+    tab.page.select_option('[id="preparation.level"]', "quadratic")
+    tab.until(lambda: "--level quadratic" in tab.text("command"))
+    tab.page.fill("#load", "12 MPa", timeout=1000 * PATIENCE)  # it waits until the field is enabled
+    tab.page.keyboard.press("Enter")
+    tab.settled()
+    assert tab.facts["nominal pressure"] == "12 MPa"
+
+
 def test_undo_ends_at_the_first_surface(tab, part):
     assert tab.drop("part.npz", part)
     tab.settled()
@@ -608,11 +622,45 @@ def test_loads_without_a_unit_are_asked_about(tab, part):
     assert tab.page.locator(".trouble").count() == 0
 
 
+def test_a_profile_is_asked_how_it_is_pressed_and_has_no_second_direction(tab, tmp_path):
+    rc.write(rc.self_affine(rc.Grid(64, 1e-6), 0.8, 1e-7, np.random.default_rng(2)), tmp_path / "line.npz")
+    assert not tab.drop("line.npz", (tmp_path / "line.npz").read_bytes())
+    tab.until(lambda: "line or winkler" in tab.page.locator('[id="contact.profile_trouble"]').text_content())
+    for profile, unit in (("line", "Pa"), ("winkler", "N/m")):
+        tab.page.select_option('[id="contact.profile"]', profile)
+        tab.until(
+            lambda profile=profile: (
+                "roughcontact press line.npz" in tab.text("command")
+                and f"--profile {profile}" in tab.text("command")
+            )
+        )
+        tab.settled()
+        tab.until(lambda unit=unit: tab.page.input_value("#load").endswith(unit))
+        tab.until(lambda: not tab.page.locator("#cut_places").is_visible())
+    tab.page.select_option("#loads", "forces")
+    tab.page.locator("#start").click()
+    tab.wait("() => document.querySelectorAll('#points tbody tr').length === 12")
+    assert "--profile winkler" in tab.text("curve_command")
+
+
+def test_a_single_adhesive_state_has_a_map_of_its_traction(tab, part):
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    assert not tab.page.locator("#traction").is_visible()
+    tab.page.select_option("#kind", "adhesion press")
+    tab.until(lambda: "The load is the one above" in tab.text("kind_said"))
+    tab.page.fill('[id="adhesion.work"]', "1J/m^2")
+    tab.page.fill('[id="adhesion.range"]', "100nm")
+    tab.page.locator("#start").click()
+    tab.page.locator("#traction").click(timeout=1000 * PATIENCE)
+    tab.until(lambda: tab.text("low").startswith(("-", "≤ -")))
+
+
 # What reaches beyond the screen; the heights of the bars; whether a table scrolls with its first column in view.
 BEYOND = """() => [...document.querySelectorAll("body *")]
   .filter((each) => !each.closest(".table") && each.getBoundingClientRect().right > innerWidth)
   .map((each) => each.outerHTML)"""
-BARS = """() => [...document.querySelectorAll(".bar.load, #view > .bar, #curves > .bar")]
+BARS = """() => [...document.querySelectorAll(".bar.load, #view > .bar, #curves > .bar, #of_cut > .bar")]
   .map((each) => each.clientHeight)"""
 SCROLLED = """() => {
   const box = document.getElementById("points").parentElement;

@@ -1,5 +1,7 @@
 """What is wrong is said beside the field that mends it; what the page shows of a surface are the library's numbers."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -67,13 +69,21 @@ def test_a_study_shows_the_numbers_of_the_library(files):
     with pytest.warns(rc.SurfaceWarning):
         surface = rc.read(files["key"].path)
     surface = surface.despiked("filled").levelled("plane")
-    histogram = rc.height_histogram(surface, bins=80)
+    # Of 48 x 48 heights, Rice's rule makes 27 bars.
+    histogram = rc.height_histogram(surface, bins=27)
     assert heard["heights"]["x"] == histogram.centres.tolist()
     assert heard["heights"]["y"] == histogram.density.tolist()
     assert set(heard["spectrum"]["y"]) <= set(rc.power_spectrum(surface.filled(), per_decade=40).density)
     shown = {name: value for name, _, value in heard["roughness"]["facts"]}
     assert shown["Sku"] == f"{rc.areal_parameters(surface).Sku:.4g}"
     assert shown["rms slope"] == f"{rc.surface_moments(surface).rms_slope:.4g}"
+
+
+def test_a_spike_takes_no_room_in_the_distribution_and_is_named(files):
+    spiky = ordered(study, files, {})["heights"]
+    assert max(spiky["x"]) < 1e-6
+    assert re.fullmatch(r"Beyond the axis: 0\.04\d* % of the heights, .* µm\.", spiky["beyond"])
+    assert ordered(study, files, {"preparation": {"despike": "filled"}})["heights"]["beyond"] == ""
 
 
 def test_warnings_are_those_of_the_file_and_name_the_step_that_mends_them(files):

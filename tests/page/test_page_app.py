@@ -215,7 +215,7 @@ def test_a_disk_that_takes_nothing_is_said(server, tmp_path):
     (tmp_path / session).rmdir()
     [found] = asked(server, put(session))
     assert found.status == 507
-    assert "cannot keep the file" in found.json["message"]
+    assert "cannot store the file" in found.json["message"]
 
 
 @pytest.mark.parametrize(
@@ -289,6 +289,24 @@ def test_too_many_tabs_are_refused_until_one_has_long_been_silent(server):
     [found] = asked(server, post("/session"))
     assert found.status == 200
     assert server.sessions.known.keys() == {*keys[:3], *keys[4:], found.json["session"]}
+
+
+@pytest.mark.parametrize("comes_back", [True, False])
+def test_a_new_tab_waits_until_the_session_of_a_closed_one_ends(server, comes_back):
+    """The closed tab may only be loaded again, and then finds its session and its files."""
+    sessions, keys = server.sessions, [begun(server) for _ in range(MOST_SESSIONS)]
+    sessions.grace = 60.0 if comes_back else 0.0
+
+    async def opened():
+        sessions.leave(keys[3])
+        new = asyncio.create_task(sessions.begin())
+        await asyncio.sleep(0)
+        assert keys[3] in sessions.known
+        assert not comes_back or sessions.back(keys[3])
+        return await new
+
+    new = asyncio.run(opened())
+    assert sessions.known.keys() == ({*keys} if comes_back else {*keys, new} - {keys[3]})
 
 
 def test_a_session_of_which_nothing_is_heard_ends_and_leaves_no_file(server, tmp_path, monkeypatch):

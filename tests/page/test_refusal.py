@@ -62,6 +62,10 @@ def test_the_folder_of_the_server_stays_unsaid(tmp_path):
         ("short_cutoff 2 m is not below long_cutoff 1 m", "Short cutoff 2 m is not below Long cutoff 1 m"),
         ("give `hardness`, or `young2`", "give Hardness, or Young 2"),
         (
+            "Give hardness='gold', or unload the joint by loading_loop.",
+            "Give Hardness 'gold', or unload the joint by a loop of loads.",
+        ),
+        (
             "write above=3um; see my_file.x3p, read() or --download",
             "write above=3um; see my_file.x3p, read() or --download",
         ),

@@ -111,7 +111,7 @@ def test_a_path_is_no_file_of_a_session_nor_is_the_file_of_another(served):
     for name in (theirs, "/etc/passwd", f"../{other}/{theirs}/part.npy", "given", ""):
         end = last(served.request(mine, "look", {**LOOK, "source": {"kind": "file", "file": name}}))
         assert end["how"] == "refused"
-        assert end["message"].startswith(("The server has no such file any more.", "The name is empty."))
+        assert end["message"].startswith(("The server no longer has this file.", "The name is empty."))
     for session in (mine, other):
         served.ask("POST", f"/end?session={session}")
     before = monotonic() + PATIENCE

@@ -172,9 +172,9 @@ def test_what_a_file_leaves_open_is_asked_for(person, bare):
 def test_a_warning_is_mended_by_its_button_and_undone(person, part):
     person.open(part)
     before = person.command
-    person.page.get_by_role("button", name="Fill them smoothly").click()
+    person.page.get_by_role("button", name="Fill the spikes").click()
     assert "--despike filled" in person.command
-    assert "mended by the preparation" in person.text("warnings")
+    assert "corrected by the preparation" in person.text("warnings")
     person.page.keyboard.press("Control+z")
     assert person.command == before
     person.page.keyboard.press("Control+y")
@@ -258,11 +258,7 @@ def test_every_field_of_a_job_is_in_a_form(person, part):
     person.wait()
     for part_of_job in (Preparation, Bodies, AfterLoad, Contact, File):
         form = part_of_job.__name__.replace("AfterLoad", "Plastic").replace("File", "Source").lower()
-        names = [
-            each.name
-            for each, spec in specs(part_of_job)
-            if spec.option and each.name not in ("file", "profile")
-        ]
+        names = [each.name for each, spec in specs(part_of_job) if spec.option and each.name != "file"]
         assert len(names) > 2 or part_of_job is Contact
         for name in names:
             assert person.field(f"{form}.{name}").count() == 1, (form, name)

@@ -215,7 +215,17 @@ def test_facts_name_the_jumps_that_lost_most(loop):
     assert lines[-1][1] == f"{len(many) - 12} that lost less"
     assert jump_facts((), loop.geometry) == [("jumps", "none")]
     facts = dict(adhesive_curve_facts(loop))
-    assert facts["pull-off force"] == written(loop.pull_off_force, "N", digits=4)
+    assert facts["pull-off force"] == f"{written(loop.pull_off_force, 'N', digits=4)} in tension"
+
+
+def test_the_sign_of_a_tension_is_told_in_words(loop):
+    assert loop.jump_in_force == -loop.jumps[0].force_before > 0
+    facts = dict(adhesive_curve_facts(loop))
+    assert facts["jump-in force"] == f"{written(loop.jump_in_force, 'N', digits=4)} in tension"
+    pressed = replace(loop, jumps=(replace(loop.jumps[0], force_before=2e-9), *loop.jumps[1:]))
+    assert dict(adhesive_curve_facts(pressed))["jump-in force"] == "2 nN in compression"
+    none = replace(loop, jumps=tuple(jump for jump in loop.jumps if not jump.approach))
+    assert "jump-in force" not in dict(adhesive_curve_facts(none))
 
 
 def test_a_detachment_is_drawn_through_its_events():

@@ -109,6 +109,44 @@ def test_a_number_without_loads_stands_against_what_varies(averaged):
     assert axes.get_title() == "means and their standard errors"
 
 
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_marks_at_a_load_that_is_not_resolved_are_hollow(count):
+    """The load is resolved in `count` of three samples at H = 0.2, and in all at 0.8: half of them make a mark full."""
+    dims = ("hurst", "sample")
+    resolved = np.array([np.arange(3) < count, np.ones(3, dtype=bool)])
+    values = np.random.default_rng(2).lognormal(0, 0.1, (2, 3))
+    dataset = xarray.Dataset(
+        {
+            "stiffness": (dims, values),
+            "resolved": (dims, resolved),
+            "case_status": (dims, np.full((2, 3), "done")),
+        },
+        {"hurst": HURST},
+    )
+    found = averages(dataset, rng=1)
+    assert found["resolved_samples"].to_numpy().tolist() == [count, 3]
+    [axes] = study_figure(found, "stiffness", at="1 MPa").axes
+    hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
+    if count < 2:
+        [line] = hollow
+        np.testing.assert_array_equal(line.get_xydata(), [[HURST[0], values[0].mean()]])
+        assert [text.get_text() for text in axes.get_legend().get_texts()] == ["not resolved"]
+    else:
+        assert not hollow
+        assert axes.get_legend() is None
+    [(_, x, y, _)] = marks(axes)
+    np.testing.assert_array_equal(x, HURST)
+    np.testing.assert_array_equal(y, values.mean(axis=1))
+
+
+def test_curves_are_dotted_where_no_sample_is_resolved(averaged):
+    """Also where all samples agree, which an export states once."""
+    none = averaged.assign(resolved_samples=0 * averaged["resolved_samples"])
+    axes = study_figure(none, "dimensionless_stiffness").axes[0]
+    assert [line for line in means_drawn(axes) if len(line.get_xdata())] == []
+    assert len([line for line in axes.lines if line.get_linestyle() == ":"]) == 6
+
+
 def test_axes_name_the_units_of_the_study(averaged):
     """Newtons and metres of a study without numbers free of dimension, against lengths in micrometres."""
     renamed = averaged.rename(
@@ -205,10 +243,10 @@ def test_rows_are_groups_with_all_their_parameters(averaged):
 
 def test_what_cannot_be_drawn_is_refused(averaged):
     with pytest.raises(
-        ValueError, match="no 'stifness' differs between samples: choose of dimensionless_stiff"
+        ValueError, match="no 'stifness' differs between samples: choose from dimensionless_stiff"
     ):
         study_figure(averaged, "stifness")
-    with pytest.raises(ValueError, match="'sample' is no number that varies: choose of hurst, points"):
+    with pytest.raises(ValueError, match="'sample' is no number that varies: choose from hurst, points"):
         study_figure(averaged, "rms", "sample")
     with pytest.raises(ValueError, match="'pulled' lies along pull: choose one along the loads, or none"):
         study_figure(averaged, "pulled")

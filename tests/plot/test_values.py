@@ -299,7 +299,7 @@ def test_a_notebook_shows_a_detachment():
     assert "note" not in facts
     small = rc.detachment_curve(rc.press(pressed.problem.surface, 1e8, depth=2e-9), 10e-3)
     rows = shown(rc.detachment_curve(pressed, 10e-3, depths=[5e-9, -20e-9]))
-    told = f"{quantity('pull_off_force', off.pull_off_force)} at a depth of "
+    told = f"{quantity('pull_off_force', off.pull_off_force)} in tension at a depth of "
     assert ["pull-off force", told] in [[row[0], row[1].split("-")[0]] for row in rows]
     assert len(rows[-1]) == 6, "a table of the loads"
     assert [row[1] for row in shown(small) if row[0] == "note"] == list(small.notes)

@@ -61,7 +61,11 @@ TASKS = {  # what is done, and the tasks that count in it: how many, and of what
         lambda: rc.adhesive_curve(BALL, MODULUS, ADHESION, depths=[0.0, 1e-7]),
         [(2, "loads")],
     ),
-    "detachment": (lambda: list(rc.detachment_path(stuck(), 0.05)), [(1, "loads")]),
+    "detachment": (lambda: list(rc.detachment_path(stuck(), 0.05)), [(16, "cells")]),
+    "detachment by loads": (
+        lambda: list(rc.detachment_path(stuck(), 0.05, depths=[0.0, -1e-6])),
+        [(2, "loads"), (None, "cells")],
+    ),
     "sliding": (
         lambda: list(rc.slide_path(pressed(), RUBBER, friction=0.5, forces=[1e-4, 2e-4])),
         [(2, "loads")],

@@ -38,11 +38,6 @@ KINDS = {
 }
 # The variable that holds the answer, in the Python of a job.
 ANSWERS = {"press": "solution", "curve": "curve", "adhesion press": "state"}
-# A page presses maps, and shows no state of surfaces that stick by itself.
-PAGE = [
-    *(*KINDS["elastic"], *KINDS["under a hardness"]),
-    *("adhesive_curve", "adhesive_loop", "detachment"),
-]
 every_job = pytest.mark.parametrize("name", JOBS)
 
 
@@ -203,7 +198,7 @@ def on_the_page(name, home):
     return sent[-1][0], zipfile.ZipFile(BytesIO(packed[0])) if packed else None
 
 
-@pytest.mark.parametrize("name", PAGE)
+@every_job
 def test_the_page_gives_the_same_numbers(name, there):
     before = numbers(result_of(name, there))
     end, archive = on_the_page(name, there)
@@ -239,12 +234,6 @@ def test_the_recipe_in_what_the_page_gives_away_is_run(name, there):
     assert answer.exit_code == 0, answer.stderr
     again = numbers(_record_in(there / f"{name}-again"))
     assert differences(numbers(result_of(name, there)), again) == []
-
-
-@pytest.mark.parametrize(("name", "place"), [("adhesive_state", "job"), ("line_press", "contact.profile")])
-def test_the_page_refuses_what_it_cannot_show(name, place, there):
-    end, archive = on_the_page(name, there)
-    assert (end["how"], end["places"], archive) == ("refused", [place], None)
 
 
 @pytest.mark.parametrize("file", ["loop.nc", "curve.nc"])

@@ -100,7 +100,7 @@ ADHESION = [
     ),
     row(
         lambda: stuck(),
-        "give exactly one of depth, force, pressure and mean_gap, not none",
+        "give exactly one of depth, force, pressure and mean_gap: none is given",
         lambda: stuck(force=1e-9),
     ),
     row(
@@ -360,6 +360,11 @@ ANSWERS = [
         lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=MODULUS),
         "an operator is wanted, such as half_space(grid, modulus)",
         lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=rc.half_space(PLANE, MODULUS)),
+    ),
+    row(
+        lambda: rc.citations(1e-4),
+        "there are no references for 'float', which is not of this package: give an answer",
+        lambda: rc.citations(pressed()),
     ),
     row(
         lambda: rc.prescribed_displacement(

@@ -112,7 +112,7 @@ $ {CURVE} --depths 1nm,2nm --loop --hardness 1GPa
 
 BESIDE = f"""
 $ {TWO} --theory gravity
-! there is no theory 'gravity'; choose of persson, finite-size, gw
+! there is no theory 'gravity'; choose from persson, finite-size, gw
 > {TWO} --theory persson
 > {TWO} --theory finite-size
 > {TWO} --theory gw
@@ -144,7 +144,7 @@ $ {TWO} --table abaqus
 > {TWO} --table abaqus --out new
 
 $ {TWO} --table ansys --out new
-! there is no table 'ansys'; choose of csv, abaqus, abaqus-mm, lammps
+! there is no table 'ansys'; choose from csv, abaqus, abaqus-mm, lammps
 > {TWO} --table csv --out new
 > {TWO} --table abaqus --out new
 > {TWO} --table abaqus-mm --out new

@@ -20,6 +20,7 @@ def files(tmp_path):
     """Return files as the server keeps them."""
     surface = heights(rc.Grid((48, 48), 1e-6), seed=2)
     rc.write(surface, tmp_path / "part.npz")
+    rc.write(heights(rc.Grid(64, 1e-6), seed=2), tmp_path / "line.npz")
     np.save(tmp_path / "bare.npy", 1e9 * surface.heights)
     return {path.name: {"path": str(path), "name": path.name} for path in tmp_path.iterdir()}
 
@@ -42,6 +43,12 @@ def request(asks, changed=None, **parts):
 
 def of_file(name, preparation=None, **stated):
     return asked("look", {"kind": "file", "file": name, **stated}, preparation=preparation or {})
+
+
+def of_line(name, profile):
+    """Look at a profile: the page then asks with the bodies, of which this is one."""
+    source = {"kind": "file", "file": name}
+    return asked("look", source, job="curve", bodies=PRESSED["bodies"], contact={"profile": profile})
 
 
 def prepared(**steps):
@@ -74,7 +81,7 @@ SHEET = [
     row(request("look", {"rms": "much"}), "write a length such as 5um", request("look", {"rms": "5um"})),
     row(
         request("look", {"points": "5000"}),
-        "A surface has up to 4096 points a side here",
+        "A surface on the page has at most 4096 points a side",
         request("look", {"points": "64"}),
     ),
     row(request("look", {"points": "many"}), "Write 512 or 512x256", request("look", {"points": "32x16"})),
@@ -108,7 +115,17 @@ FILES = [
         "only 'heights' (48 x 48, no unit). Fill in Channel.",
         of_file("part.npz", channel="heights"),
     ),
-    row(of_file("gone.npz"), "The server has no such file any more. Drop it again", of_file("part.npz")),
+    row(
+        of_file("line.npz"),
+        "It is a profile of 64 heights. Choose line or winkler as Profile.",
+        *(of_line("line.npz", profile) for profile in ("line", "winkler")),
+    ),
+    row(
+        of_line("part.npz", "line"),
+        "It is a map of 48 x 48 heights, no profile. Choose \u2013 as Profile.",
+        of_file("part.npz"),
+    ),
+    row(of_file("gone.npz"), "The server no longer has this file. Drop it again", of_file("part.npz")),
 ]
 
 PREPARED = [
@@ -124,10 +141,12 @@ PREPARED = [
     row(prepared(downsample="40"), "give at most 24", prepared(downsample="24")),
     row(
         prepared(level="tilt"),
-        "Choose of none, mean, plane, quadratic",
+        "Choose from none, mean, plane, quadratic",
         *(prepared(level=level) for level in ("none", "mean", "plane", "quadratic")),
     ),
-    row(prepared(mask=["circle=3"]), "above=3um or below=-3um", prepared(mask=["above=3um", "below=-3um"])),
+    row(
+        prepared(mask=["circle=3"]), "above=3um, below=-3um, box", prepared(mask=["above=3um", "below=-3um"])
+    ),
     row(prepared(alias=True), "Give downsample too", prepared(alias=True, downsample="2")),
     row(prepared(window="hann", share="0.2"), "Give window tukey", prepared(window="tukey", share="0.2")),
     row(prepared(tip="1m"), "with its unit, such as 2um", prepared(tip="2um")),
@@ -159,11 +178,6 @@ LOADS = [
     row(press("0N"), "must be positive", press("1mN")),
     row(press("1,5N"), "write the decimal point as '.'", press("1.5N")),
     row(press("-1nm", "depth"), "Give 0 or more", press("0nm", "depth")),
-    row(
-        request("press", **{**PRESSED, "load": {"force": "1N/m"}}, contact={"profile": "line"}),
-        "A page presses maps. Press a profile by the command line",
-        request("press", **PRESSED),
-    ),
     row(press("1mN", "weight"), "There are force, pressure, depth", press("1mN")),
     row(
         press("1m", "depth", {"periodic": True}),

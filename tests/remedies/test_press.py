@@ -39,7 +39,7 @@ LOADS = [
     row(lambda: press(force="10N"), "force must be one number in SI units, not '10N'", press),
     row(lambda: press(force=np.nan), "force must be a number, not nan", press),
     row(lambda: press(force=[1e-4, 2e-4]), "force must be one number in SI units, not an array", press),
-    row(lambda: press(force=None), "give exactly one of force, depth and pressure, not none", press),
+    row(lambda: press(force=None), "give exactly one of force, depth and pressure: none is given", press),
     row(lambda: press(depth=1e-8), "depth and pressure, not force and depth", press, lambda: at(depth=1e-8)),
     row(lambda: at(pressure=-1.0), "pressure must be positive and finite [Pa]", lambda: at(pressure=1.0)),
     row(
@@ -119,14 +119,10 @@ BODIES = [
         lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
     ),
     row(
+        lambda: press(modulus=("steel", "cheese")),
+        "there is no material named 'cheese'; there are steel",
         lambda: press(modulus=("steel", "aluminium")),
-        "or use names: rc.reduced_modulus('steel', 'aluminium')",
-        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
-    ),
-    row(
         lambda: press(modulus=rc.handbook("steel")),
-        "give a number, or of materials rc.reduced_modulus('steel', 'aluminium')",
-        lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
     ),
     row(
         lambda: press(hardness="cheese"),

@@ -83,9 +83,18 @@ $ {FORCE} --modulus 0GPa
 > {FORCE} --modulus 1GPa
 
 $ {FORCE} --modulus 110
-! write 110GPa if this unit is meant, or 110Pa if it is so
+! write 110GPa if this unit is meant, or 110Pa if it is in Pa
 > {FORCE} --modulus 110GPa
 > {FORCE} --modulus 110Pa
+
+$ {FORCE} --modulus steel
+! --modulus: 'steel' is a name, and the reduced modulus is a number; name both bodies by --materials, such as
+> {FORCE} --materials steel,aluminium
+> {FORCE} --materials steel,rigid
+
+$ {FORCE} --young steel --poisson 0.3
+! --young: 'steel' is a name, and Young's modulus is a number; name both bodies by --materials, such as steel,aluminium
+> {FORCE} --materials steel,steel
 
 $ {FORCE} --modulus 1N
 ! '1N' is not a modulus; write a modulus such as 110GPa
@@ -191,7 +200,7 @@ $ {PRESS} --force 1mN --channel colour
 > {PRESS} --force 1mN --channel heights
 
 $ {PRESS} --force 1mN --level plan
-! there is no 'plan' here; did you mean 'plane'? choose of none, mean, plane, quadratic
+! there is no 'plan' here; did you mean 'plane'? choose from none, mean, plane, quadratic
 > {PRESS} --force 1mN --level plane
 > {PRESS} --force 1mN --level mean
 > {PRESS} --force 1mN --level none

@@ -49,7 +49,7 @@ FILES = [
     row(study('samples = "3"'), "samples: '3' should be a valid integer", study("samples = 3")),
     row(
         study(**CURVE | {"case": '"curv"'}),
-        "there is no case 'curv': did you mean 'curve'? It may be adhesion, asperities, cells, curve",
+        "there is no case 'curv': did you mean 'curve'? choose from adhesion, asperities, cells, curve",
         study(**CURVE),
     ),
     row(
@@ -66,6 +66,18 @@ FILES = [
         study(**CURVE | {"modulus": None}),
         "parameters.modulus: 'modulus' is missing; give modulus",
         study(**CURVE),
+    ),
+    *(
+        row(
+            study(**CURVE | {"modulus": f'"{text}"'}),
+            f"{text!r} is a name, and a reduced modulus is a number; write '{number} GPa', that of {bodies}",
+            study(**CURVE | {"modulus": f'"{number} GPa"'}),
+        )
+        for text, number, bodies in (
+            ("steel", "111.9", "steel and steel"),
+            ("steel, aluminium", "57.47", "steel and aluminium"),
+            ("rigid,steel", "223.8", "rigid and steel"),
+        )
     ),
     row(
         study(**CURVE, hardness='"1GPa"', relative_hardness="0.1"),
@@ -191,7 +203,7 @@ $ study plot done --out all.png --quantity weight
 > study plot done --out all.png --quantity force
 
 $ study table done --quantity weight
-! choose of force, stiffness, residual
+! choose from force, stiffness, residual
 > study table loads --quantity stiffness --at 0.01
 
 $ study table loads --quantity stiffness

@@ -55,7 +55,7 @@ $ {PREPARE} --crop a:b
 > surface prepare profile.txt new.npz --unit m --crop 0:32
 
 $ {PREPARE} --mask round
-! write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um
+! write above=3um, below=-3um, box=0:9,10:30 or ellipse=0:9,10:30
 > {PREPARE} --mask box=0:9,10:30
 > {PREPARE} --mask ellipse=0:9,10:30
 > {PREPARE} --mask above=3um
@@ -144,7 +144,7 @@ $ thesis fig1
 > thesis fig4
 
 $ thesis fig4 --scale huge
-! choose of small, thesis
+! choose from small, thesis
 > thesis fig4 --scale small
 > thesis fig4 --scale thesis
 """

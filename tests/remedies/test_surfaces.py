@@ -43,7 +43,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Grid((4, 4)),
-        "give exactly one of spacing and size, not none",
+        "give exactly one of spacing and size: none is given",
         lambda: rc.Grid((4, 4), spacing=1e-6),
         lambda: rc.Grid((4, 4), size=4e-6),
     ),
@@ -86,7 +86,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Surface(INFINITE, PLANE),
-        "heights are infinite: mark points without a measurement by NaN",
+        "height is infinite: mark points without a measurement by NaN",
         lambda: rc.Surface(np.where(np.isinf(INFINITE), np.nan, INFINITE), PLANE),
     ),
     row(

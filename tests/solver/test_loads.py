@@ -16,7 +16,7 @@ def test_the_name_of_an_argument_is_the_kind(name):
 def test_loads_are_given_or_not():
     assert Loads.given(forces=None, depths=None) is None
     assert Loads.given(forces=None, depths=[1.0]).kind == "depth"
-    with pytest.raises(ValueError, match="exactly one of forces and depths, not none"):
+    with pytest.raises(ValueError, match="exactly one of forces and depths: none is given"):
         Loads.of(forces=None, depths=None)
     with pytest.raises(ValueError, match="exactly one of forces and depths, not forces and depths"):
         Loads.given(forces=[1.0], depths=[1.0])

@@ -64,6 +64,33 @@ def test_loads_that_missed_their_tolerance_have_no_part():
     np.testing.assert_array_equal(found["rms_slope_count"], 4)  # no load, no status
 
 
+@pytest.mark.parametrize("own", [True, False])
+def test_it_counts_the_samples_and_the_forces_that_are_resolved(own):
+    """All samples resolve the last 12 forces; where each has its own, the first sample resolves one force less."""
+    dataset = exported()
+    resolved = np.arange(len(FORCE)) >= 12
+    if own:
+        dataset["resolved"] = dataset["dimensionless_stiffness"].dims, np.tile(resolved, (3, 2, 4, 1))
+        dataset["resolved"][:, :, 0, 12] = False
+        dataset["resolved"][:, :, 1, -1] = True
+        dataset["status"][:, :, 1, -1] = Status.STAGNATED.value
+    else:
+        dataset["resolved"] = "load", resolved
+    dataset["case_status"][1, 0, 2] = "failed"
+    found = averages(dataset, force_window(FORCE[8] * 0.999, 1.0), rng=rng())
+    counts = found["resolved_samples"].transpose("hurst", "points", "load")
+    expected = 4 * resolved
+    if own:
+        expected[[12, -1]] = 3
+    np.testing.assert_array_equal(counts[0, 0], expected)
+    np.testing.assert_array_equal(counts[1, 0], np.where(resolved, expected - 1, 0))
+    assert not [name for name in found if str(name).startswith("resolved_") and name != "resolved_samples"]
+    assert (
+        found["law_count"] == len(FORCE) - 8 - own
+    ).all()  # the last lacks more than a tenth of the samples
+    assert (found["law_resolved"] == 12 - own).all()
+
+
 def test_cases_that_failed_are_not_counted():
     dataset = exported()
     dataset["case_status"][1, 0, 2] = "failed"

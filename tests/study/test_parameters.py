@@ -64,7 +64,7 @@ def test_none_stays_where_it_is_allowed():
         (lambda: Square(size="1 N"), "size: '1 N' is not a length; write a length such as 5um"),
         (
             lambda: Square(sise=1),
-            "size: 'size' is missing; give size; sise: there is no 'sise': did you mean 'size'? It may be size",
+            "size: 'size' is missing; give size; sise: there is no 'sise': did you mean 'size'? choose from size",
         ),
     ],
 )

@@ -122,7 +122,7 @@ def test_the_room_opens_at_its_public_names():
     [
         (
             {"sample": 3},
-            "there is no 'sample': did you mean 'samples'? It may be case, files, folder, name",
+            "there is no 'sample': did you mean 'samples'? choose from case, files, folder, name",
         ),
         ({"samples": 0}, "samples: 0 should be greater than or equal to 1"),
         ({"samples": 2.5}, "samples: 2.5 should be a valid integer"),
@@ -148,7 +148,7 @@ def test_the_room_opens_at_its_public_names():
             {"parameters": {"hurts": 1}},
             "parameters.hurts: the case 'study.trial:CASE' has no parameter 'hurts'",
         ),
-        ({"parameters": {"hurts": 1}}, "did you mean 'hurst'? It may be end, hurst, label, points"),
+        ({"parameters": {"hurts": 1}}, "did you mean 'hurst'? choose from end, hurst, label, points"),
         ({"parameters": {"hurst": 4}}, "hurst: 4 should be less than or equal to 3"),
         ({"parameters": {"hurst": float("nan")}}, "hurst: nan should be a finite number"),
         ({"parameters": {"hurst": "rough"}}, "hurst: 'rough' should be a valid number"),

@@ -98,3 +98,19 @@ def test_measured_maps_end_clean(name, to):
     assert lost == (taken if to == "missing" else missing or 0)
     if missing is not None:
         assert taken == filled + missing
+
+
+@pytest.mark.parametrize(("height", "searches"), [(0.0, 1), (5e-6, 2)])
+def test_warnings_search_a_map_once_and_once_more_what_is_left_of_a_spiky_one(monkeypatch, height, searches):
+    from roughcontact.plot import preparation_warnings as warnings_of
+    from roughcontact.surface.preparation import despike
+
+    searched, heights = [], rough()
+    heights[5, 5] += height
+    for module in (warnings_of, despike):
+        monkeypatch.setattr(
+            module, "find_spikes", lambda surface: searched.append(surface) or rc.find_spikes(surface)
+        )
+    spikes, found = warnings_of.preparation_warnings(rc.Surface(heights, GRID))
+    assert len(searched) == searches
+    assert spikes.count == searches - 1 == sum(each.kind == "spikes" for each in found)

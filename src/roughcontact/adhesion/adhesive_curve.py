@@ -16,12 +16,19 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
 from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
-from roughcontact.adhesion.model_limits import HighestSummit, notes_on_loads, notes_on_model, notes_on_range
+from roughcontact.adhesion.model_limits import (
+    HighestSummit,
+    notes_on_loads,
+    notes_on_model,
+    notes_on_range,
+    notes_on_status,
+)
 from roughcontact.adhesion.quasi_static import Jump
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
 from roughcontact.labels.column import stored_in
+from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.records import records
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
@@ -239,15 +246,19 @@ class AdhesiveCurve:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences."""
+        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        return in_order(self._notes())
+
+    def _notes(self) -> Iterator[Note]:
         line = self.geometry is Geometry.LINE
         summit = HighestSummit(self.summit_radius, self.modulus, float(np.max(self.adhesion.work)), line)
-        notes = notes_on_model(summit, self.unresolved)
+        yield from notes_on_status(self.status, self.residual)
+        yield from notes_on_model(summit, self.unresolved)
         if not self.approach.all():
             retreat = np.flatnonzero(~self.approach)
             deepest = int(retreat[np.argmin(self.lowest_force[retreat])])
             begin = int(np.flatnonzero(self.approach[:deepest])[-1])
-            notes += notes_on_loads(
+            yield from notes_on_loads(
                 lowest=float(self.lowest_force[deepest]),
                 first=float(self.force[begin]),
                 last=float(self.force[deepest]),
@@ -255,13 +266,13 @@ class AdhesiveCurve:
                 control=self.control,
                 rel=FORCE_TOLERANCE,
             )
-            notes += notes_on_range(summit, self.adhesion)
+            yield from notes_on_range(summit, self.adhesion)
         if self.ambiguous:
-            notes += (
+            yield Note(
+                Rank.DOUBTFUL,
                 "A jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
                 "given.",
             )
-        return notes
 
     def __repr__(self) -> str:
         """Say what the path spans, not its numbers."""

@@ -14,7 +14,7 @@ from roughcontact.contact.problem import Body, separation_of
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.progress.events import task, tracked
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.loads import Loads
@@ -27,7 +27,7 @@ __all__ = ["adhesive_curve", "adhesive_path", "adhesive_state", "followed", "sta
 @numeric(modulus="Pa", depth="m", force=force_unit, pressure="Pa", mean_gap="m")
 def adhesive_state(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     adhesion: Adhesion,
     *,
     depth: float | None = None,
@@ -43,7 +43,7 @@ def adhesive_state(
     ----------
     surface : Surface or RadialProfile
         Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
@@ -89,7 +89,7 @@ def adhesive_state(
 @numeric(modulus="Pa", depths="m", forces=force_unit, pressures="Pa", mean_gaps="m")
 def adhesive_path(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     adhesion: Adhesion,
     *,
     depths: Sequence[float] | Array | None = None,
@@ -108,7 +108,7 @@ def adhesive_path(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
@@ -148,7 +148,7 @@ def adhesive_path(
 @numeric(modulus="Pa", depths="m", forces=force_unit, pressures="Pa", mean_gaps="m")
 def adhesive_curve(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     adhesion: Adhesion,
     *,
     depths: Sequence[float] | Array | None = None,
@@ -166,7 +166,7 @@ def adhesive_curve(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
@@ -210,7 +210,7 @@ def followed(states: Iterator[AdhesiveState], loads: Loads) -> Iterator[Adhesive
 @analysed_on_host
 def states_under(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     adhesion: Adhesion,
     loads: Loads,
     operator: Operator | None,

@@ -13,7 +13,7 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import REACH, Adhesion
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require, whole
@@ -27,7 +27,7 @@ MOST = 100  # as many points as on the approach, after which a retreat ends
 @numeric(modulus="Pa", depth="m")
 def adhesive_loop(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     adhesion: Adhesion,
     *,
     depth: float,
@@ -41,7 +41,7 @@ def adhesive_loop(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     adhesion : Adhesion
         Work, range and law.

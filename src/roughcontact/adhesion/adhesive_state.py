@@ -13,7 +13,7 @@ from roughcontact.adhesion.control_form import DepthControl, ForceControl
 from roughcontact.adhesion.elastic_form import ElasticForm
 from roughcontact.adhesion.gap_energy import GapEnergy, Point
 from roughcontact.adhesion.gradient_flow import detached
-from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model, notes_on_status
 from roughcontact.adhesion.quasi_static import Jump, PathPoint
 from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
@@ -22,6 +22,7 @@ from roughcontact.cached import cached_property
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
+from roughcontact.labels.note import in_order
 from roughcontact.solver.control import Status
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -151,8 +152,9 @@ class AdhesiveState:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences."""
-        return notes_on_model(self._summit, self.unresolved)
+        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        of_status = notes_on_status([self.status], [self.residual])
+        return in_order((*of_status, *notes_on_model(self._summit, self.unresolved)))
 
     @cached_property
     def displacement(self) -> Array:

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +28,7 @@ import numpy as np
 from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.halfspace.operators.operator import Operator, exact_of
+from roughcontact.progress.events import task
 from roughcontact.validation import Array, Mask
 
 __all__ = ["Detachment", "StuckContact", "mean_compliance"]
@@ -55,8 +57,8 @@ class Detachment:
     >>> import roughcontact as rc
     >>> rings = rc.RadialGrid.uniform(60, radius=6e-7)
     >>> ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
-    >>> (off,) = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3)
-    >>> first = off.detachments[0]
+    >>> start, pull_off, off = rc.detachment_path(rc.press(ball, 1e8, depth=2e-8), 10e-3)
+    >>> first = pull_off.detachments[0]
     >>> f"{first.cells} ring lets go at {first.depth * 1e9:.1f} nm", bool(off.contact.any())
     ('1 ring lets go at 3.0 nm', False)
     """
@@ -121,6 +123,7 @@ class StuckContact:
         self.areas, self.work = weights.ravel()[self.cells], np.ravel(work)[self.cells]
         self.compliance, self.shape = compliance, separation.shape
         self.inverse = np.linalg.inv(exact_of(operator).as_matrix(self.cells))  # E37
+        self.rigidity = np.diagonal(self.inverse).copy()
         self.base = -self.inverse @ separation.ravel()[self.cells]
         self.unit = self.inverse.sum(axis=1)
 
@@ -151,26 +154,36 @@ class StuckContact:
             pressure[self.cells] = self.base + depth * self.unit
         return pressure.reshape(self.shape), contact.reshape(self.shape)
 
+    def snapshot(self) -> StuckContact:
+        """Return the contact as it is now, without the matrix by which further cells would let go."""
+        now = copy(self)  # no array is changed in place
+        del now.inverse
+        return now
+
     def drawn_back(self, here: float, target: float, by_force: bool) -> Iterator[Detachment]:
-        """Let cells go on the way from a depth (or force) down to another; yield the events."""
-        while len(self.cells):
-            index, depth = self._next()
-            value = self.force(depth) if by_force else depth
-            if value < target:
-                return
-            value = min(here, value)
-            here = value
-            start = self.depth(value) if by_force else value
-            before, lost, count, end = self.force(start), 0.0, 0, start
-            while count == 0 or (len(self.cells) and depth >= end):
-                lost += self._let_go(index, end, by_force)
-                count += 1
-                if len(self.cells):
-                    end = self.depth(value) if by_force else value
-                    index, depth = self._next()
-            after = self.force(end) if len(self.cells) else 0.0
-            end = end if len(self.cells) or not by_force else math.nan
-            yield Detachment(start, end, before, after, count, lost)
+        """Let cells go on the way from a depth (or force) down to another; yield the events, report the cells."""
+        total = len(self.cells) if math.isinf(target) else None
+        with task("Letting cells go", total, "cells") as letting:
+            while len(self.cells):
+                index, depth = self._next()
+                value = self.force(depth) if by_force else depth
+                if value < target:
+                    return
+                value = min(here, value)
+                here = value
+                start = self.depth(value) if by_force else value
+                before, lost, count, end = self.force(start), 0.0, 0, start
+                while count == 0 or (len(self.cells) and depth >= end):
+                    lost += self._let_go(index, end, by_force)
+                    count += 1
+                    if letting is not None:
+                        letting.advance()
+                    if len(self.cells):
+                        end = self.depth(value) if by_force else value
+                        index, depth = self._next()
+                after = self.force(end) if len(self.cells) else 0.0
+                end = end if len(self.cells) or not by_force else math.nan
+                yield Detachment(start, end, before, after, count, lost)
 
     @property
     def strength(self) -> float:
@@ -179,7 +192,7 @@ class StuckContact:
 
     def _tensions(self) -> Array:
         """Return the tension at which each cell lets go [Pa]."""
-        compliance = 1 / np.diagonal(self.inverse) if self.compliance is None else self.compliance
+        compliance = 1 / self.rigidity if self.compliance is None else self.compliance
         return np.asarray(np.sqrt(2 * self.work / compliance))
 
     def _next(self) -> tuple[int, float]:
@@ -193,7 +206,7 @@ class StuckContact:
     def _let_go(self, index: int, depth: float, by_force: bool) -> float:
         """Free a cell; return the energy that is lost."""
         area, tension = self.areas[index], self.base[index] + depth * self.unit[index]
-        rigidity = self.inverse[index, index]
+        rigidity = self.rigidity[index]
         rest = rigidity - area * self.unit[index] ** 2 / self.stiffness if by_force else rigidity
         last = by_force and len(self.cells) == 1
         lost = math.inf if last else (0.5 * tension**2 / rest - self.work[index]) * area
@@ -202,6 +215,7 @@ class StuckContact:
         self.unit = self.unit - column * self.unit[index]
         kept = np.arange(len(self.cells)) != index
         self.inverse = (self.inverse - np.outer(column, self.inverse[index]))[np.ix_(kept, kept)]
+        self.rigidity = np.diagonal(self.inverse).copy()
         for name in ("cells", "areas", "work", "base", "unit"):
             setattr(self, name, getattr(self, name)[kept])
         return float(lost)

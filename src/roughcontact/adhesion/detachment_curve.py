@@ -12,13 +12,14 @@ import numpy as np
 from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
 from roughcontact.adhesion.detachment_path import force_unit_of, states_drawn_back
-from roughcontact.adhesion.detachment_state import DetachmentState
-from roughcontact.adhesion.model_limits import notes_on_loads
+from roughcontact.adhesion.detachment_state import DetachmentState, stuck_notes
+from roughcontact.adhesion.model_limits import notes_on_loads, notes_on_status
 from roughcontact.contact.solution import Solution
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import stored_in
+from roughcontact.labels.note import in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.solver.loads import Loads
@@ -63,7 +64,7 @@ class DetachmentCurve:
     preload_too_small : bool
         Whether the pull-off force may be larger after a larger preload, see `DetachmentState`.
     notes : tuple of str
-        What a reader of these numbers should know.
+        What a reader of these numbers should know; what makes a number wrong comes first.
     control : {"depth", "force"}
         What was prescribed.
     work : float or array, shape of the grid
@@ -188,7 +189,7 @@ def detachment_curve(
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
     depths, forces, pressures : array, shape (n,)
         At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
-        Without any, one point: that at which the last cell has let go.
+        Without any, three points: the preload, the largest tension, and where the last cell has let go.
 
     Returns
     -------
@@ -227,19 +228,20 @@ def collect_detachments(states: Iterable[DetachmentState], loads: Loads | None) 
         status.append(state.status)
     problem = state.problem
     control: Literal["depth", "force"] = "depth" if loads is None or loads.kind == "depth" else "force"
-    notes = state.notes
+    points = dict(zip(_POINTS, np.array(rows).T, strict=True))
+    notes = [*notes_on_status(status, points["residual"]), *stuck_notes(state)]
     if state.contact.any():
         unit = unit_of("force", state.geometry)
         lowest, last = state.lowest_force, state.force
         notes += notes_on_loads(lowest=lowest, first=math.inf, last=last, unit=unit, control=control)
     grid, surface = problem.grid, problem.surface
     return DetachmentCurve(
-        **dict(zip(_POINTS, np.array(rows).T, strict=True)),
+        **points,
         status=tuple(status),
         detachments=tuple(events),
         detached_at=tuple(detached_at),
         preload_too_small=state.preload_too_small,
-        notes=notes,
+        notes=in_order(notes),
         control=control,
         work=state.work,
         modulus=problem.modulus,

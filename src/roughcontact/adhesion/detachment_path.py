@@ -53,7 +53,8 @@ def detachment_path(
         Work of adhesion w [J/m^2]: what it takes to part a unit area.
     depths, forces, pressures : array, shape (n,)
         At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
-        Without any, one state: that in which the last cell has let go.
+        Without any, three states: that of the preload, that under the largest tension, and that in which the last cell
+        has let go.
 
     Yields
     ------
@@ -75,9 +76,9 @@ def detachment_path(
     >>> states = rc.detachment_path(pressed, 10e-3, depths=[1e-8, 0.0, -1e-8])
     >>> [f"{state.force * 1e9:.0f} nN on {state.contact.sum()} rings" for state in states]
     ['295 nN on 45 rings', '-423 nN on 40 rings', '0 nN on 0 rings']
-    >>> (off,) = rc.detachment_path(pressed, 10e-3)
-    >>> f"{off.pull_off_force * 1e9:.0f} nN"
-    '487 nN'
+    >>> start, pull_off, off = rc.detachment_path(pressed, 10e-3)
+    >>> f"{off.pull_off_force * 1e9:.0f} nN at {pull_off.depth * 1e9:.0f} nm, on {pull_off.contact.sum()} rings"
+    '487 nN at -3 nm, on 34 rings'
     """
     return states_drawn_back(solution, work, Loads.given(depths=depths, forces=forces, pressures=pressures))
 
@@ -85,7 +86,7 @@ def detachment_path(
 def states_drawn_back(
     solution: Solution, work: float | Array, loads: Loads | None
 ) -> Iterator[DetachmentState]:
-    """Yield the state at each load, see `detachment_path`; without loads, that after the last detachment.
+    """Yield the state at each load, see `detachment_path`; without loads, those of start, pull-off and end.
 
     Raises
     ------
@@ -130,7 +131,7 @@ def states_drawn_back(
             mean_compliance(problem.grid, problem.modulus),
         )
     states = _drawn_back(preload, float(energy) if energy.ndim == 0 else energy, stuck, loads)
-    return tracked(states, "Drawing back", "loads", 1 if loads is None else len(loads.values))
+    return states if loads is None else tracked(states, "Drawing back", "loads", len(loads.values))
 
 
 def _falling(loads: Loads, preload: Solution) -> Loads:
@@ -156,40 +157,61 @@ def _drawn_back(
     preload: Solution, work: float | Array, stuck: StuckContact, loads: Loads | None
 ) -> Iterator[DetachmentState]:
     by_force = loads is not None and loads.kind == "force"
-    goals = [-math.inf] if loads is None else loads.values.tolist()
     here = preload.force if by_force else preload.depth
-    lowest, area = math.inf, stuck.area
-    for goal in goals:
+    lowest, held = math.inf, stuck.snapshot()
+    if loads is None:
+        yield _state(preload, work, held, here, (), held.force(here), held)
+    for goal in [-math.inf] if loads is None else loads.values.tolist():
+        events: list[Detachment] = []
+        deepest, before = 0, stuck.snapshot()
         with one_blas_thread():
-            events: list[Detachment] = []
-            before = stuck.area
-            for event in tracked(stuck.drawn_back(here, goal, by_force), "Letting cells go", "events"):
+            for event in stuck.drawn_back(here, goal, by_force):
                 if event.force_before < lowest:
-                    lowest, area = event.force_before, before
+                    lowest, held, deepest = event.force_before, before, len(events)
                 events.append(event)
-                before = stuck.area
-            here = goal if loads is not None else events[-1].depth_after
-            depth = stuck.depth(here) if by_force else here
-            # Between events the force is linear in the depth and falls with it: it is lowest before one, or at the end.
-            if (force := stuck.force(depth)) < lowest:
-                lowest, area = force, before
-            pressure, contact = stuck.pressure(depth)
-            for array in (pressure, contact):
-                array.flags.writeable = False
-            residual = _residual(preload.problem, stuck, pressure, depth, goal if by_force else None)
-            state = DetachmentState(
-                preload,
-                work,
-                depth,
-                pressure,
-                contact,
-                stuck.stiffness,
-                residual,
-                tuple(events),
-                lowest,
-                area,
-            )
-        yield state
+                before = stuck.snapshot()
+        if loads is None:
+            here = events[deepest].depth
+            yield _state(preload, work, held, here, events[:deepest], lowest, held)
+            events = events[deepest:]
+            here = events[-1].depth_after
+        else:
+            here = goal
+        depth = stuck.depth(here) if by_force else here
+        # Between events the force is linear in the depth and falls with it: it is lowest before one, or at the end.
+        if (force := stuck.force(depth)) < lowest:
+            lowest, held = force, before
+        yield _state(preload, work, before, depth, events, lowest, held, goal if by_force else None)
+
+
+@one_blas_thread()
+def _state(
+    preload: Solution,
+    work: float | Array,
+    stuck: StuckContact,
+    depth: float,
+    events: Sequence[Detachment],
+    lowest: float,
+    held: StuckContact,
+    force: float | None = None,
+) -> DetachmentState:
+    """Return the state of a stuck contact, `held` being the contact under the lowest force."""
+    pressure, contact = stuck.pressure(depth)
+    for array in (pressure, contact):
+        array.flags.writeable = False
+    residual = _residual(preload.problem, stuck, pressure, depth, force)
+    return DetachmentState(
+        preload,
+        work,
+        depth,
+        pressure,
+        contact,
+        stuck.stiffness,
+        residual,
+        tuple(events),
+        lowest,
+        held.area,
+    )
 
 
 def _residual(

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from roughcontact import methods
 from roughcontact.adhesion.detachment import Detachment
-from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model
+from roughcontact.adhesion.model_limits import HighestSummit, highest_summit, notes_on_model, notes_on_status
 from roughcontact.cached import cached_property
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array, Mask
 
-__all__ = ["DetachmentState"]
+__all__ = ["DetachmentState", "stuck_notes"]
 
 # Of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On spheres
 # this part is one where the preload was too small; where it was just large enough, some cells have let go by then.
@@ -143,23 +145,8 @@ class DetachmentState:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences."""
-        notes = notes_on_model(self._summit)
-        if not self.preload_too_small:
-            return notes
-        part, force = self.lowest_force_area / self.solution.contact_area, self.solution.force
-        why = f"{100 * part:.0f} % of its contact still held under the largest tension"
-        if force < self.least_preload:
-            body = "cylinder" if self._summit.line else "sphere"
-            unit = unit_of("force", self.geometry)
-            why = (
-                f"under {force:.3g} {unit} the contact is smaller than that of Johnson, Kendall and Roberts at the "
-                f"pull-off, for which a {body} needs {self.least_preload:.3g} {unit}"
-            )
-        larger = (
-            "After a larger preload the pull-off force may be larger; press deeper until it stays the same."
-        )
-        return (*notes, f"The preload was too small: {why}. {larger}")
+        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        return in_order((*notes_on_status([self.status], [self.residual]), *stuck_notes(self)))
 
     @property
     def lost(self) -> float:
@@ -242,3 +229,27 @@ class DetachmentState:
             f"DetachmentState({self.status.value}, force {self.force:.4g}, depth {self.depth:.4g} m, "
             f"{int(np.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
         )
+
+
+def stuck_notes(state: DetachmentState) -> Iterator[Note]:
+    """Yield the notes that do not depend on the residual of this state."""
+    yield from notes_on_model(state._summit)
+    if not state.solution.status.converged:
+        text = f"The preload missed the tolerance, residual {state.solution.residual:.1e}: "
+        yield Note(Rank.WRONG, text + state.solution.status.message)
+    if not state.preload_too_small:
+        return
+    part, force = state.lowest_force_area / state.solution.contact_area, state.solution.force
+    why = f"{100 * part:.0f} % of its contact still held under the largest tension"
+    if force < state.least_preload:
+        body = "cylinder" if state._summit.line else "sphere"
+        unit = unit_of("force", state.geometry)
+        why = (
+            f"under {force:.3g} {unit} the contact is smaller than that of Johnson, Kendall and Roberts at the "
+            f"pull-off, for which a {body} needs {state.least_preload:.3g} {unit}"
+        )
+    yield Note(
+        Rank.DOUBTFUL,
+        f"The preload was too small: {why}. After a larger preload the pull-off force may be larger; press deeper "
+        "until it stays the same.",
+    )

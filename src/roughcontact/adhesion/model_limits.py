@@ -13,6 +13,7 @@ a0/16^(1/3). The first terms are Hertz's force. On that contact it is as large a
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -22,20 +23,23 @@ from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.grid import RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.note import Note, Rank
+from roughcontact.solver.control import Status
 from roughcontact.surface.generation.about_centre import RIM, squared
 from roughcontact.validation import Array
 
 __all__ = [
     *("SHALLOW", "SHORT_RANGE", "HighestSummit", "highest_summit"),
-    *("notes_on_loads", "notes_on_model", "notes_on_range"),
+    *("notes_on_loads", "notes_on_model", "notes_on_range", "notes_on_status"),
 ]
 
 # Of the radius: a contact up to it is small. At half the radius the force on a sphere (Sneddon, Int. J. Eng. Sci. 3, 47
 # (1965)) exceeds Hertz's, that on a paraboloid, by 2/5 (a/R)^2, a tenth.
 SHALLOW = 0.5
 NARROWEST = 2  # cells: the smallest distance over which a curvature is found
-# Of the radius: as far as a paraboloid is fitted. A sphere's least squares there give 0.85 of its radius.
+# Of the radius: as far as a paraboloid is fitted. By least squares there, a sphere's radius is too small by SPHERE.
 FITTED = 0.75
+SPHERE = 0.16
 # Tabor's number, below which the pull-off force of a sphere by Maugis' equations (`theory.maugis`) exceeds that of
 # Johnson, Kendall and Roberts by more than a tenth: lambda is 0.725 there, and 1.127 times Tabor's number.
 SHORT_RANGE = 0.64
@@ -123,52 +127,66 @@ def highest_summit(
         reach *= math.sqrt(2)
 
 
-def notes_on_model(summit: HighestSummit, unresolved: bool = False) -> tuple[str, ...]:
-    """Return where neither the grid nor linear elasticity describes these bodies."""
-    notes = []
+def notes_on_model(summit: HighestSummit, unresolved: bool = False) -> Iterator[Note]:
+    """Yield where neither the grid nor linear elasticity describes these bodies."""
     if unresolved:
-        notes.append(
+        yield Note(
+            Rank.WRONG,
             "Unresolved: the attraction varies from cell to cell beside a contact, so that the lattice traps every "
-            "state; what jumps and sticks here is the lattice, not the body."
+            "state; what jumps and sticks here is the lattice, not the body.",
         )
     if not summit.shallow:
         a, r = summit.unloaded_radius, summit.radius
-        notes.append(
+        yield Note(
+            Rank.DOUBTFUL,
             "The contact is not small against the body: without load, the contact of Johnson, Kendall and Roberts has "
             f"a radius of {a:.3g} m, {a / r:.2g} times the radius of the highest summit, {r:.3g} m (w/(E* R) is "
             f"{summit.work / (summit.modulus * r):.2g}). Linear elasticity of half-spaces is good up to {SHALLOW:g} "
-            "times that radius: take these numbers as orders of magnitude."
+            "times that radius: take these numbers as orders of magnitude. The radius is that of a paraboloid, fitted "
+            f"to the heights within {FITTED:g} times it (at least two cells) of the highest point: for a sphere it is "
+            f"up to {100 * SPHERE:.0f} % too small, and roughness changes it.",
         )
-    return tuple(notes)
+
+
+def notes_on_status(status: Sequence[Status], residual: Sequence[float] | Array) -> Iterator[Note]:
+    """Yield how many loads of a path missed the tolerance; of a single one by how much, and what to do."""
+    missed = [k for k, each in enumerate(status) if not each.converged]
+    if missed and len(status) == 1:
+        yield Note(Rank.WRONG, f"Residual {residual[0]:.1e}: {status[0].message}")
+    elif missed:
+        text = f"{len(missed)} of {len(status)} loads missed the tolerance: see their residual."
+        yield Note(Rank.WRONG, text)
 
 
 def notes_on_loads(
     *, lowest: float, first: float, last: float, unit: str, control: Literal["depth", "force"], rel: float = 0
-) -> tuple[str, ...]:
-    """Return whether the lowest force of a retreat is that of its first or its last load: no pull-off force."""
+) -> Iterator[Note]:
+    """Yield whether the lowest force of a retreat is that of its first or its last load: no pull-off force."""
+    force = f"its lowest force, {lowest:.3g} {unit} (tension is negative)"
     if lowest >= last - rel * abs(last):
-        return (
-            f"The retreat ends at its lowest force, {lowest:.3g} {unit}, with the surfaces still together: that is not "
-            f"their pull-off force. Continue to lower {control}s until they are apart.",
+        yield Note(
+            Rank.WRONG,
+            f"The retreat ends at {force}, with the surfaces still together: that is not their pull-off force. "
+            f"Continue to lower {control}s until they are apart.",
         )
-    if lowest >= first - rel * abs(first):
-        return (
-            f"The retreat begins at its lowest force, {lowest:.3g} {unit}, so that this force depends on where it "
-            "begins: it is not the pull-off force. Bring the surfaces closer before you draw them back.",
+    elif lowest >= first - rel * abs(first):
+        yield Note(
+            Rank.WRONG,
+            f"The retreat begins at {force}, so that this force depends on where it begins: it is not the pull-off "
+            "force. Bring the surfaces closer before you draw them back.",
         )
-    return ()
 
 
-def notes_on_range(summit: HighestSummit, adhesion: Adhesion) -> tuple[str, ...]:
-    """Return whether a pull-off force depends on the range of the attraction."""
+def notes_on_range(summit: HighestSummit, adhesion: Adhesion) -> Iterator[Note]:
+    """Yield whether a pull-off force depends on the range of the attraction."""
     number = adhesion.tabor(summit.radius, summit.modulus)
-    if summit.line or number >= SHORT_RANGE:
-        return ()
-    return (
-        f"The pull-off force depends on the range of {adhesion.range:.3g} m: Tabor's number of the highest summit is "
-        f"{number:.2g}, and below {SHORT_RANGE:g} a sphere's pull-off force exceeds the limit of a vanishing range by "
-        "more than a tenth. State the range with the force.",
-    )
+    if not summit.line and number < SHORT_RANGE:
+        yield Note(
+            Rank.LIMITED,
+            f"The pull-off force depends on the range of {adhesion.range:.3g} m: Tabor's number of the highest summit "
+            f"is {number:.2g}, and below {SHORT_RANGE:g} a sphere's pull-off force exceeds the limit of a vanishing "
+            "range by more than a tenth. State the range with the force.",
+        )
 
 
 def _radius(distances: Array, gaps: Array) -> float:

@@ -73,7 +73,7 @@ def late_group(
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
             if HELP_ALL not in ctx.meta:
-                self._summarised().format_help(ctx, formatter)
+                _without_types(self._summarised(), ctx).format_help(ctx, formatter)
                 return
             formatter.write_usage(ctx.command_path, "COMMAND ...")
             formatter.write_dl(list(self.every_command(ctx.command_path)), col_max=40)
@@ -115,11 +115,19 @@ class _Command(TyperCommand):
         if self.more and HELP_ALL not in ctx.meta:
             write_short_help(self, ctx, formatter, self.more)
         else:
-            super().format_help(ctx, formatter)
+            _without_types(super(), ctx).format_help(ctx, formatter)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         with in_our_words(ctx):
             return super().parse_args(ctx, args)
+
+
+def _without_types(command: Any, ctx: Any) -> Any:
+    """Return a command in whose help no flag has a type, which some versions of typer write as ``<bool>``."""
+    for each in command.get_params(ctx):
+        if getattr(each, "is_flag", False):
+            each.metavar = ""
+    return command
 
 
 def _imported(module: str, name: str) -> Any:

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from roughcontact.cli.error_object import emit_error, kind_of
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, TERMINATED
+from roughcontact.cli.json_answer import emit_error, kind_of
 from roughcontact.cli.verbosity import is_quiet
 from roughcontact.errors import InputError, correctable, joined
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
@@ -35,12 +35,13 @@ _WARNINGS = SurfaceWarning, MemoryWarning
 _OPTIONS = (
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
-    (re.compile(r"\b(channel|unit|size)=(?=['\d])"), r"--\1 "),
+    (re.compile(r"\b(channel|unit|size|hardness)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
     (re.compile(r"\b(despike|mask)e?d\(\)"), r"'surface prepare --\1'"),
     (re.compile(r"make the grid with periodic=True"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"\buse detachment_path\b"), "use 'roughcontact adhesion detach'"),
+    (re.compile(r"\bby loading_loop\b"), "with 'roughcontact curve --loop'"),
     (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
     (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),

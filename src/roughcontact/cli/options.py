@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
+from roughcontact.cli.cited import cited
 from roughcontact.cli.messages import UsageError, remark
 from roughcontact.cli.option_groups import argument, option
 from roughcontact.recipe.texts import Choice
 
-__all__ = ["FORMAT", "JSON", "OUT", "OUTPUT", "PICTURES", "Answer", "picture_ending"]
+__all__ = ["CITE", "FORMAT", "JSON", "OUT", "OUTPUT", "PICTURES", "Answer", "picture_ending"]
 
 _ANSWER = "Answer"
 PICTURES = ("png", "pdf", "svg")
@@ -26,6 +27,12 @@ OUTPUT = argument(
     "OUT",
 )
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
+CITE = option(
+    "After the answer, the papers behind it; with --out also as BibTeX, references.bib.",
+    default=False,
+    everyday=False,
+    rich_help_panel=_ANSWER,
+)
 JSON = option("One JSON object on standard output, in SI units.", default=False, rich_help_panel=_ANSWER)
 
 
@@ -37,13 +44,16 @@ class Answer:
     out: Path | None = OUT
     format: str | None = FORMAT
     json: bool = JSON
+    cite: bool = CITE
     is_kept: bool = True  # no option: of a result that is repeated, only the numbers are looked at
 
     def __post_init__(self) -> None:
         picture_ending(self.format, self.out)
 
-    def note_files(self, folder: Path | None, names: Sequence[str]) -> None:
-        """Say on standard error which files a folder holds now, if there is one that stays."""
+    def finish(self, folder: Path | None, names: Sequence[str], *found: Any) -> None:
+        """Cite what was found, if asked to; print which files a folder holds now, if there is one that stays."""
+        if self.cite:
+            names = (*names, *cited(folder, *found, as_json=self.json))
         if folder is not None and self.is_kept:
             remark(f"{', '.join(names[:-1])} and {names[-1]} are in {folder}")
 

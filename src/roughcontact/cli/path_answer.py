@@ -138,15 +138,14 @@ class PathAnswer:
             print_facts([("surface", size_of(self.surface.grid)), *self._pressed.facts(), *before])
             print_table(*load_table(found.to_dataset(), tuple(columns)))
             print_facts(after)
-        if missed := sum(not status.converged for status in found.status):
-            note(f"{missed} of {len(found)} loads missed the tolerance: see their residual")
         for line in found.notes:
             note(line)
 
     def end(self, folder: Path | None, total: int | None) -> None:
         """Note the files, and where a path of `total` loads was stopped; end with the status of the answer."""
         names = (f"{self.stem}.csv", f"{self.events}.csv", f"{self.stem}.json", f"{self.stem}.nc")
-        self.answer.note_files(folder, (*names, f"{self.stem}.{self.answer.ending}"))
+        files = (*names, f"{self.stem}.{self.answer.ending}")
+        self.answer.finish(folder, files, self.job, self.found, self.surface)
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
             note(

@@ -11,6 +11,7 @@ from roughcontact.errors import InputError
 
 if TYPE_CHECKING:
     from roughcontact.contact.loads.load_search import SurfaceKind
+    from roughcontact.materials import Modulus
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.plastic_asperities.plasticity import PlasticityIndex
 
@@ -39,7 +40,7 @@ class Pressed:
     softer: tuple[float, str] | None
 
     @classmethod
-    def of(cls, surface: Surface, modulus: float, softer: tuple[float, str] | None) -> Pressed:
+    def of(cls, surface: Surface, modulus: Modulus, softer: tuple[float, str] | None) -> Pressed:
         """Return what a surface is; say on standard error why a known hardness gives no index."""
         from roughcontact.arrays import is_numpy
         from roughcontact.contact.loads.load_search import SurfaceKind
@@ -81,14 +82,16 @@ class Pressed:
         }
 
 
-def _index(surface: Surface, modulus: float, hardness: float) -> PlasticityIndex | None:
+def _index(surface: Surface, modulus: Modulus, hardness: float) -> PlasticityIndex | None:
     """Return the index of the summits of a map; None, and why, where there is none."""
     import roughcontact as rc
+    from roughcontact.materials import as_modulus
 
     try:
         flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
         summits = rc.find_summits(flat)
-        return rc.theory.plasticity.summit_index(summits.height, summits.mean_curvature, modulus, hardness)
+        curvature, reduced = summits.mean_curvature, as_modulus(modulus)
+        return rc.theory.plasticity.summit_index(summits.height, curvature, reduced, hardness)
     except InputError as error:
         note(f"no plasticity index: {error}")
         return None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import typer
 
+from roughcontact.cli.json_answer import emit
 from roughcontact.late import LateMethod
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         quantity,
         size_of,
         solution_facts,
+        stiffness_facts,
         surface_facts,
         surface_record,
     )
@@ -27,8 +28,8 @@ else:  # late: the help and the completion of options do not wait for NumPy
     _HOMES = {
         "adhesive_facts": "adhesive_curve_facts adhesive_facts law_facts",
         "facts": (
-            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts surface_facts "
-            "surface_record"
+            "bend_words curve_facts load_table loop_facts quantity size_of solution_facts stiffness_facts "
+            "surface_facts surface_record"
         ),
     }
     for _home, _names in _HOMES.items():
@@ -48,15 +49,11 @@ __all__ = [
     "quantity",
     "size_of",
     "solution_facts",
+    "stiffness_facts",
     "surface_facts",
     "surface_record",
     "tell",
 ]
-
-
-def emit(record: Mapping[str, Any]) -> None:
-    """Print one JSON object on standard output."""
-    typer.echo(json.dumps(record, allow_nan=False, ensure_ascii=True))
 
 
 def print_facts(facts: Sequence[tuple[str, str]]) -> None:

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from roughcontact.cli.cited import cited
 from roughcontact.cli.commands import do
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import UsageError, note, remark, reported
 from roughcontact.cli.option_groups import PRINT, argument
-from roughcontact.cli.options import FORMAT, JSON, OUT, Answer
+from roughcontact.cli.options import CITE, FORMAT, JSON, OUT, Answer
 from roughcontact.cli.parsing.printed import print_job
 from roughcontact.cli.report import emit
 from roughcontact.errors import within
@@ -59,6 +60,7 @@ def run(
     format: str | None = FORMAT,
     printed: str | None = PRINT,
     json: bool = JSON,
+    cite: bool = CITE,
 ) -> None:
     """Do what a recipe says; of a result, do it once more and compare the numbers to the last digit.
 
@@ -68,14 +70,14 @@ def run(
         from roughcontact.recipe.written import read_job
 
         if printed is None:
-            _run(source, out, format, json=json)
+            _run(source, out, format, json=json, cite=cite)
         else:
             with within("recipe"):
                 job = read_job(source := _result_in(source))
             print_job(job, printed, recipe=str(source), as_json=json)
 
 
-def _run(source: Path, out: Path | None, format: str | None, *, json: bool) -> None:
+def _run(source: Path, out: Path | None, format: str | None, *, json: bool, cite: bool) -> None:
     from roughcontact.recipe.repeated import differences
     from roughcontact.recipe.written import read_job, require_same_files
 
@@ -89,16 +91,18 @@ def _run(source: Path, out: Path | None, format: str | None, *, json: bool) -> N
             remark(f"{folder} holds the answer of this job already, by this version: nothing is computed")
             if json:
                 emit(_numbers(_file(job, folder)))
+            if cite:
+                cited(folder, job, as_json=json)
             return
         _note_replaced(job, folder)
-        do(job, Answer(folder, format, json))
+        do(job, Answer(folder, format, json, cite))
         return
     with ExitStack() as stack:
         folder = out or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="roughcontact-")))
         end: typer.Exit | None = None
         try:
             with redirect_stdout(StringIO()) if json else nullcontext():
-                do(job, Answer(folder, format, json, is_kept=out is not None))
+                do(job, Answer(folder, format, json, cite, is_kept=out is not None))
         except typer.Exit as missed:
             end = missed
         before = _numbers(source)

@@ -16,7 +16,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.progress.events import tracked
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Solver
@@ -29,7 +29,7 @@ __all__ = ["loading_curve", "loading_path", "solutions_along", "suitable"]
 @numeric(modulus="Pa", forces=force_unit, depths="m", pressures="Pa", hardness="Pa")
 def loading_path(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     forces: Sequence[float] | Array | None = None,
     depths: Sequence[float] | Array | None = None,
@@ -48,7 +48,7 @@ def loading_path(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     forces, depths, pressures : array, shape (n,)
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
@@ -93,7 +93,7 @@ def loading_path(
 @numeric(modulus="Pa", forces=force_unit, depths="m", pressures="Pa", hardness="Pa")
 def loading_curve(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     forces: Sequence[float] | Array | None = None,
     depths: Sequence[float] | Array | None = None,
@@ -112,7 +112,7 @@ def loading_curve(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     forces, depths, pressures : array, shape (n,)
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
@@ -154,7 +154,7 @@ def loading_curve(
 
 def solutions_along(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     loads: Loads | None,
     operator: Operator | None = None,
     solver: Solver | None = None,
@@ -192,7 +192,7 @@ def solutions_along(
 
 def suitable(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     operator: Operator | None,
     hardness: Hardness | None,
 ) -> Loads:

@@ -19,7 +19,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit, unit_of
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.solver.control import Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require
@@ -99,6 +99,11 @@ class Loop:
         """Work of first loading [J]: the elastic energy at the largest load, and what is dissipated."""
         return float(self.loading.elastic_energy[-1]) + self.dissipated_work
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What makes first loading doubtful, in sentences: unloading follows no power law on any rough surface."""
+        return self.loading.notes
+
     def __repr__(self) -> str:
         """Say what the loop spans, not its numbers."""
         unit = unit_of("force", self.loading.geometry)
@@ -117,7 +122,7 @@ class Loop:
 @numeric(modulus="Pa", forces=force_unit, pressures="Pa", hardness="Pa")
 def loading_loop(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     hardness: Hardness,
     forces: Sequence[float] | Array | None = None,
@@ -133,7 +138,7 @@ def loading_loop(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     hardness : float, array, function, Material or str
         Pressure that no cell exceeds [Pa], see `press`: of the softer body.

@@ -11,6 +11,7 @@ from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.note import Note, Rank
+from roughcontact.materials import MATERIALS
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
 from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
@@ -18,6 +19,7 @@ from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 __all__ = ["notes_on"]
 
 STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
+ABOVE = 0.2  # of the contact, above the hardness: with less, area and stiffness change by less than a tenth
 BEYOND = 1e-3  # of the hardness, on unloading: more than what a tolerance leaves open
 EDGE = 0.01  # of the force, on the outermost cells: below, what lies beyond them changes no number by more
 
@@ -42,6 +44,7 @@ def notes_on(solution: Solution) -> Iterator[Note]:
             f"{yielding} of {in_contact} cells in contact are at the hardness: they are plastic, and the stiffness is "
             "that of the others.",
         )
+    yield from _of_hardness(solution)
     yield from _of_flow(solution)
     yield from _of_two_sides(solution, int(count(solution.touching)) if in_contact else 0)
     yield from _of_input(solution)
@@ -53,6 +56,24 @@ def notes_on(solution: Solution) -> Iterator[Note]:
             Rank.USUAL,
             f"Contact reaches the edge of the map, whose cells carry {100 * solution.edge_share:.2g} % of the force: "
             "what lies beyond it would carry load too.",
+        )
+
+
+def _of_hardness(solution: Solution) -> Iterator[Note]:
+    """Yield what is wrong with an elastic contact of a metal that would flow."""
+    problem, softer = solution.problem, solution.problem.softer
+    is_elastic = not problem.plastic and problem.flow is None and problem.geometry is not Geometry.FOUNDATION
+    if softer is None or not is_elastic or not solution.contact_area:
+        return
+    above = problem.measure.total(solution.pressure > softer.hardness) / solution.contact_area
+    if above >= ABOVE:
+        given = repr(softer.name) if softer.name in MATERIALS else f"{softer.hardness:.4g}"
+        yield Note(
+            Rank.WRONG,
+            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {softer.hardness / 1e9:.3g} GPa "
+            f"(the largest pressure is {solution.max_pressure / softer.hardness:.2g} times the hardness): "
+            f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given}, "
+            "or unload the joint by loading_loop.",
         )
 
 
@@ -99,8 +120,8 @@ def _of_input(solution: Solution) -> Iterator[Note]:
     if largest > STRAINED * modulus and not springs:
         yield Note(
             Rank.DOUBTFUL,
-            f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.2g} of the reduced modulus: real "
-            "bodies yield or break before, and the theory of small strains ends.",
+            f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.0%} of the reduced modulus: real bodies "
+            "yield or break at lower pressures, and the theory of small strains does not hold.",
         )
     if solution.depth > max(problem.grid.lengths):
         yield Note(
@@ -109,10 +130,13 @@ def _of_input(solution: Solution) -> Iterator[Note]:
         )
     if surface is not None and is_numpy(surface.heights):
         _, above = height_limits(surface.heights)
-        if far := int(np.count_nonzero(surface.heights > above)):
+        outlying = surface.heights > above
+        if far := int(np.count_nonzero(outlying)):
             stand = "1 point stands" if far == 1 else f"{far} points stand"
+            carry = "carries" if far == 1 else "carry"
+            borne = problem.measure.total(solution.pressure * outlying) / (solution.force or 1.0)
             yield Note(
                 Rank.DOUBTFUL,
-                f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all. Outliers of a measurement "
-                f"carry the load: take them out by masked(above={above:.6g}).",
+                f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all, and {carry} {borne:.0%} of "
+                f"the force. If they are faults of the measurement, take them out by masked(above={above:.6g}).",
             )

@@ -16,7 +16,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus, softer_of
 from roughcontact.progress.events import task
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Control, Depth, Solver, Start, State, Status
@@ -37,7 +37,7 @@ _DEFAULT = ActiveSet()
 @numeric(modulus="Pa", force=force_unit, depth="m", pressure="Pa", hardness="Pa")
 def press(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     force: float | None = None,
     depth: float | None = None,
@@ -55,7 +55,7 @@ def press(
     ----------
     surface : Surface or RadialProfile
         Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     force, depth, pressure : float
         Exactly one: normal force [N], indentation depth, the approach since first touch [m], or nominal pressure [Pa]
@@ -115,7 +115,7 @@ def grid_of(surface: Body) -> AnyGrid:
 
 def make_problem(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     control: Control,
     operator: Operator | None,
     *,
@@ -129,7 +129,8 @@ def make_problem(
     body = body_on(surface.grid, value, operator)
     separation, allowed = separation_of(surface), scalar(tolerance, "tolerance")
     strength, law = as_hardness(hardness, separation)
-    return ContactProblem(separation, body, control, allowed, surface, value, strength, law)
+    softer = softer_of(modulus)
+    return ContactProblem(separation, body, control, allowed, surface, value, strength, law, softer=softer)
 
 
 def solve(

@@ -17,6 +17,7 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.kernels import buffers
+from roughcontact.materials import Material
 from roughcontact.solver.control import Control, Depth, Force, Specification, checked_tolerance
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.projection import bearing_force
@@ -71,6 +72,8 @@ class ContactProblem:
         Work by which this rise lifted the force along the loads so far [J]; NaN if it is not known.
     flow : Flow, optional
         What flowed under larger loads; it is in the separation already.
+    softer : Material, optional
+        The softer body, if the bodies were given as materials; its hardness limits nothing here.
 
     Raises
     ------
@@ -99,6 +102,7 @@ class ContactProblem:
     rise: float = 0.0
     lifting: float = 0.0
     flow: Flow | None = None
+    softer: Material | None = None
     _memo: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:

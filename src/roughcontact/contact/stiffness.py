@@ -12,7 +12,7 @@ from roughcontact.contact.problem import ContactProblem
 from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator, exact_of, is_semidefinite, self_influence
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.control import Tangent, checked_tolerance
 from roughcontact.solver.inner_product import Measure
@@ -81,7 +81,7 @@ def frozen_contact(
 def contact_stiffness(
     mask: Mask,
     grid: AnyGrid,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     operator: Operator | None = None,
     tolerance: float = TOLERANCE,
@@ -94,7 +94,7 @@ def contact_stiffness(
         The cells in contact; ones and zeros will do. On arrays of other libraries the work is done where they live.
     grid : Grid or RadialGrid
         Free or periodic.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     operator : Operator, optional
         Another body than the half-space on the grid; of a line the stiffness is per unit length [N/m^2].

@@ -168,7 +168,7 @@ class ErrorBudget:
         return {**numbers, "sources": sources, "bias_of_size": bias, "notes": list(self.notes)}
 
     def facts(self) -> list[tuple[str, str]]:
-        """Return what each source is, and the bias of size, in words.
+        """Return what each source is, and how the numbers change with the size of the map, in words.
 
         Returns
         -------
@@ -177,10 +177,12 @@ class ErrorBudget:
         """
         facts = [(source.name, str(source)) for source in self.sources]
         if self.bias_of_size:
-            each = "; ".join(
-                f"{VARIABLES[name].label} {_percent(bias, '+')}" for name, bias in self.bias_of_size.items()
+            each = ", ".join(
+                f"{VARIABLES[name].label} by {_percent(bias, '+')}"
+                for name, bias in self.bias_of_size.items()
             )
-            facts.append(("bias of size", f"{each} (quarters against the map; no error, not subtracted)"))
+            words = f"from the whole map to quarters of it, the numbers change: {each}; not part of the error"
+            facts.append(("size of the map", words))
         return facts
 
     @property

@@ -14,7 +14,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.in_memory import analysed_on_host
@@ -33,7 +33,7 @@ __all__ = ["inputs_for", "loading_laws", "persson_pressures"]
 @analysed_on_host
 def loading_laws(
     surface: Surface,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     names: str | Sequence[str],
     **given: Unpack[laws.GivenValues],
 ) -> list[LoadingLaw]:
@@ -43,7 +43,7 @@ def loading_laws(
     ----------
     surface : Surface
         Without tilt, on a grid of two axes; missing points are filled for the spectrum.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
         Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others, in upper

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from roughcontact.errors import InputError
 from roughcontact.evaluation.conduction import Conductors
 from roughcontact.labels.labelled import variable
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.surface.generation.specification import SurfaceSpecification
 from roughcontact.theory import laws
 from roughcontact.theory.law import LoadingLaw
@@ -39,7 +39,7 @@ _PER_AREA = {
 @numeric(modulus="Pa", pressures="Pa", hardness="Pa", resistivities="ohm*m", conductivities="W/m/K")
 def theory_table(
     joint: SurfaceSpecification,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     names: str | Sequence[str],
     pressures: npt.ArrayLike,
     *,
@@ -53,7 +53,7 @@ def theory_table(
     ----------
     joint : SurfaceSpecification
         As `roughcontact.specified` returns it.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     names : str or sequence of str
         Laws of ``roughcontact.theory.laws.LAWS`` that need no size of the joint: ``"cmy"``, ``"mikic"``, ``"gw"``,
@@ -129,7 +129,7 @@ def _law(name: str, joint: SurfaceSpecification, modulus: float, hardness: float
     """Return a law of one square metre of a joint, whose forces are its pressures."""
     if name not in WITHOUT_SIZE:
         why = "needs the size of the joint" if name in laws.LAWS else "is not known"
-        raise InputError(f"the theory {name!r} {why}", f"choose of {', '.join(WITHOUT_SIZE)}", "names")
+        raise InputError(f"the theory {name!r} {why}", f"choose from {', '.join(WITHOUT_SIZE)}", "names")
     given: dict[str, Any] = {"area": 1.0, "moments": joint}
     if "spectrum" in laws.LAWS[name].needs:
         spectrum = joint.spectrum

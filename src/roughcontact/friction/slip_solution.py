@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from roughcontact import methods
@@ -13,6 +14,7 @@ from roughcontact.friction.slip_problem import Pull, Shift, SlipProblem
 from roughcontact.friction.tangential_stiffness import TangentialStiffness, frozen_shear
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
+from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.material import Solid
 from roughcontact.solver.control import Status
 from roughcontact.threads import one_blas_thread
@@ -155,27 +157,30 @@ class TangentialSolution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes on these numbers, in sentences."""
-        notes = []
+        """Notes on these numbers, in sentences, the most important first."""
+        return in_order(self._notes())
+
+    def _notes(self) -> Iterator[Note]:
         if not self.status.converged:
-            notes.append(f"Residual {self.residual:.1e}: {self.status.message}")
+            yield Note(Rank.WRONG, f"Residual {self.residual:.1e}: {self.status.message}")
         if not self.problem.pressed.status.converged:
-            notes.append("The pressure missed its tolerance.")
+            yield Note(Rank.WRONG, "The pressure missed its tolerance.")
         bodies = self.problem.bodies
         beta = dundurs_parameter(*((bodies,) if isinstance(bodies, Solid) else bodies))
         if abs(beta) > UNLIKE:
-            notes.append(
+            yield Note(
+                Rank.DOUBTFUL,
                 f"The bodies are unlike (Dundurs's parameter {beta:.2g}): the coupling of traction and "
-                "pressure is neglected."
+                "pressure is neglected.",
             )
         if self.sliding:
-            notes.append("Every cell slips: the bodies slide.")
+            text = "Every cell slips: the bodies slide."
             if self.status.converged and self.step_residual > self.problem.tolerance:
-                notes[-1] += (
+                text += (
                     " This is the steady slide, whose slip rate is opposed to the traction; the slip until "
                     f"then deviates by up to {self.step_residual:.1e} of the largest displacement."
                 )
-        return tuple(notes)
+            yield Note(Rank.LIMITED, text)
 
     def __repr__(self) -> str:
         """Return a summary without the fields."""

@@ -41,12 +41,16 @@ CONTACT_STIFFNESS = Column(
 LOWEST_FORCE = Column(
     "lowest_force", "N", "lowest force since the body is drawn back, between the loads and in jumps"
 )
-PULL_OFF = Column("pull_off_force", "N", "largest tension of the retreat, between the loads and in jumps")
+PULL_OFF = Column(
+    "pull_off_force", "N", "largest tension of the retreat, positive, between the loads and in jumps"
+)
 LOST = Column("lost_energy", "J", "energy lost in all jumps", "", "energy lost")
 MAX_TENSION = Column("max_tension", "Pa", "largest tension of a cell", "", "largest tension")
 UNRESOLVED = Column("unresolved", "", "attraction varies from cell to cell: states are those of the lattice")
 SUMMIT_RADIUS = Column(
-    "summit_radius", "m", "radius of the body at its highest summit, over the contact without load"
+    "summit_radius",
+    "m",
+    "radius of the paraboloid fitted to the highest summit, over the contact without load",
 )
 WORK_OF_ADHESION = Column(
     "work_of_adhesion", "J m-2", "work of adhesion, to part a unit area", "", "work of adhesion w"
@@ -74,7 +78,7 @@ ADHESIVE_CURVE: Table = {
         Column(
             "jump_in_force",
             "N",
-            "tension from which the body first jumped on the approach, negative where it was pressed",
+            "tension from which the body first jumped on the approach, positive; negative where it was pressed",
         ),
         LOST,
         UNRESOLVED,

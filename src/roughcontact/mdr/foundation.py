@@ -11,7 +11,7 @@ from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Capabilities
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.validation import Array
 
 __all__ = ["Foundation", "foundation"]
@@ -123,14 +123,14 @@ class Foundation:
         return Foundation(Grid(max(1, len(cells)), self.grid.spacing), self.modulus)
 
 
-def foundation(grid: Grid, modulus: float | Solid | tuple[Solid, Solid]) -> Foundation:
+def foundation(grid: Grid, modulus: Modulus) -> Foundation:
     """Return the Winkler foundation of the method of dimensionality reduction.
 
     Parameters
     ----------
     grid : Grid
         Of one axis; the springs are adjacent. Periodicity makes no difference.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
 
     Returns

@@ -13,7 +13,7 @@ from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = ["forms", "label_of", "names_of_fields"]
 
-_LEFT_OUT = ("file", "profile")  # a file is dropped, and what a page presses is a map
+_LEFT_OUT = "file"  # it is dropped
 _SHOWN = Theories  # of the parts of an answer, the one that a page shows
 
 
@@ -66,7 +66,7 @@ def _form(part: type[Any]) -> dict[str, Any]:
         "fields": [
             _field(each, spec, hints[each.name])
             for each, spec in specs(part)
-            if spec.option and each.name not in _LEFT_OUT
+            if spec.option and each.name != _LEFT_OUT
         ],
     }
 

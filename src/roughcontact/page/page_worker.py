@@ -80,7 +80,7 @@ def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping:
         cache.kept.clear()
         end |= {
             "how": "refused",
-            "message": "The memory does not suffice for that many points. Crop or Downsample the map.",
+            "message": "The map has too many points for the free memory. Crop or Downsample it.",
         }
     except Exception as error:
         from roughcontact.page.refusal import refusal

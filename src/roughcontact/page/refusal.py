@@ -19,7 +19,7 @@ __all__ = ["on_the_page", "refusal"]
 _ARGUMENTS = {
     "poisson_ratio": "Poisson",
     "young_modulus": "Young",
-    "contact.profile": "Profile",
+    "by loading_loop": "by a loop of loads",
 }
 _LACKING = {
     "unit": "Unit (of the heights)",
@@ -31,6 +31,7 @@ _ASIDE = re.compile(r" \(([^()]*--[^()]*)\)")  # a method and an option in brack
 _METHOD = re.compile(r"\b(\w+)\(\)(?: and (?=--))?")
 _FIELD = re.compile(r"`(\w+)`")
 _ARGUMENT = re.compile(r"\b(pass )?([a-z]+(?:_[a-z]+)*)= ?")
+_READER = re.compile(r"\bread(_line)?\b")
 _NAME = re.compile(r"\b[a-z]+2?_[a-z_]+\b")
 
 
@@ -73,9 +74,11 @@ def _fault(error: InputError) -> dict[str, Any]:
         message, fields = error.problem, [place.rpartition(".")[2] for place in places]
         if lacking := [_LACKING[name] for name in fields if name in _LACKING]:
             remedy = f"Fill in {' and '.join(lacking)}."
-        elif remedy is not None and "read_line" in remedy:
-            remedy = "The page presses maps: for a profile use roughcontact curve FILE --profile line."
-            return {"message": f"{_sentence(message)} {remedy}", "places": places}
+        elif remedy is not None and _READER.search(remedy):
+            remedy = (
+                "choose line or winkler as `profile`" if "line" in remedy else "choose \u2013 as `profile`"
+            )
+            places = ["contact.profile"]
     sentences = [_sentence(each) for each in (message, remedy) if each]
     return {"message": " ".join(sentences), "places": places}
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from roughcontact.adhesion.quasi_static import Jump
     from roughcontact.halfspace.operators.geometry import Geometry
 
-__all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts"]
+__all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts", "tension"]
 
 ADHESIVE_COLUMNS = names_of(shown_in("path", ADHESIVE_CURVE[("load",)]))
 _JUMPS = 12  # that are listed one by one: those that lost most
@@ -44,7 +44,8 @@ def law_facts(
         ("Irwin's length", f"{quantity('spacing', zone)}, {zone / max(spacing):.3g} cells"),
         (
             "radius of the highest summit",
-            f"{quantity('summit_radius', summit_radius)}, Tabor's number {adhesion.tabor(summit_radius, modulus):.2g}",
+            f"{quantity('summit_radius', summit_radius)} (fitted paraboloid), Tabor's number "
+            f"{adhesion.tabor(summit_radius, modulus):.2g}",
         ),
     ]
 
@@ -83,10 +84,10 @@ def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
     kind = loop.geometry
     facts = []
     if not math.isnan(loop.jump_in_force):
-        facts.append(("first jump in, from", f"{quantity('force', -loop.jump_in_force, kind)}"))
+        facts.append(("jump-in force", tension(loop.jump_in_force, kind)))
     if not loop.approach.all():
         words = "pull-off force" if loop.contact_area[-1] == 0 else "largest tension on retreat"
-        facts.append((words, quantity("pull_off_force", loop.pull_off_force, kind)))
+        facts.append((words, tension(loop.pull_off_force, kind)))
     lost = math.fsum(jump.lost for jump in loop.jumps if math.isfinite(jump.lost))
     facts.append(("energy lost in jumps", quantity("lost_energy", lost, kind)))
     return [
@@ -94,6 +95,11 @@ def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
         *jump_facts(loop.jumps, kind),
         ("largest certificate", f"{loop.residual.max():.1e}"),
     ]
+
+
+def tension(force: float, kind: Geometry) -> str:
+    """Return a force [N], positive in tension, without its sign and with the word for it."""
+    return f"{quantity('pull_off_force', abs(force), kind)} in {'compression' if force < 0 else 'tension'}"
 
 
 def jump_facts(jumps: Sequence[Jump], kind: Geometry) -> list[tuple[str, str]]:

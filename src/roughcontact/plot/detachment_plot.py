@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import names_of, shown_in
 from roughcontact.labels.variables import VARIABLES, unit_of
+from roughcontact.plot.adhesive_facts import tension
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
@@ -93,7 +94,7 @@ def detachment_facts(curve: DetachmentCurve) -> list[tuple[str, str]]:
     at = f" at a depth of {quantity('depth', depth)}" if force < 0 else ""
     return [
         *_of_the_bodies(curve.work, curve.modulus),
-        (_pull_off(curve), quantity("pull_off_force", curve.pull_off_force, kind) + at),
+        (_pull_off(curve), tension(curve.pull_off_force, kind) + at),
         (_count(len(curve.detachments), "detachment"), f"{quantity('lost_energy', curve.lost, kind)} lost"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
     ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from itertools import cycle
 from typing import Any
@@ -17,6 +16,7 @@ from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.drawing.usual_range import usual_range
+from roughcontact.plot.pressure_bars import fewer, pressure_bars
 from roughcontact.surface.analysis.histogram import height_histogram
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
@@ -28,8 +28,6 @@ Density = Callable[[Array], Array]
 
 _BARS: Any = {"fill": True, "color": "#0072b2", "alpha": 0.45}
 _LINES = ("#d55e00", "#009e73", "#cc79a7")
-_PART = 0.75  # of the axis of pressures, whose density falls off
-_EDGES = 0.1  # of the cells in contact, which may lie along the edges of spots
 _ABOVE = 1.25  # height of the axes over what is drawn: there the legend covers nothing
 
 
@@ -76,22 +74,17 @@ def pressure_distribution(
     ('pressure [MPa]', ['computed, 6.35 % in contact', 'Hertz'])
     """
     solution = solution.on_host()
-    grid, unit = solution.problem.grid, unit_of("pressure", solution.problem.geometry)
-    pressures = solution.pressure[solution.contact]
-    if not pressures.size:
+    unit = unit_of("pressure", solution.problem.geometry)
+    if not solution.contact.any():
         raise InputError("nothing is in contact: there is no pressure to show the distribution of")
     axes = axes_for(ax)
-    largest = float(pressures.max())
-    end = (usual_range(np.append(0.0, pressures), _PART, _EDGES) or (0.0, largest))[1]
+    bars = pressure_bars(solution, bins)
+    end = float(bars.edges[-1])
     x = scale(end, unit)
-    areas = np.broadcast_to(solution.problem.operator.weights, grid.shape)[solution.contact]
-    shares, edges = np.histogram(pressures, _fewer(bins, pressures), (0.0, end), weights=areas / grid.area)
-    density = shares / np.diff(edges)
     computed = f"computed, {100 * solution.contact_fraction:.3g} % in contact"
-    if end < largest:
-        beyond = 100 * float(areas[pressures > end].sum() / areas.sum())
-        computed += f",\n{beyond:.2g} % of it beyond, up to {written(largest, unit)}"
-    axes.stairs(density / x.factor, edges * x.factor, label=computed, **_BARS)
+    if bars.beyond:
+        computed += f",\n{100 * bars.beyond:.2g} % of it beyond, up to {written(bars.largest, unit)}"
+    axes.stairs(bars.density / x.factor, bars.edges * x.factor, label=computed, **_BARS)
     stress = np.linspace(0.0, end, 400)
     for (name, theory), colour in zip((theories or {}).items(), cycle(_LINES), strict=False):
         axes.plot(stress * x.factor, theory(stress) / x.factor, color=colour, linewidth=1.6, label=name)
@@ -133,7 +126,7 @@ def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int =
     axes = axes_for(ax)
     heights = surface.heights[surface.measured]
     heights = heights - heights.mean()
-    found = height_histogram(surface, bins=_fewer(bins, heights), ends=usual_range(heights))
+    found = height_histogram(surface, bins=fewer(bins, heights), ends=usual_range(heights))
     z = scale(float(np.abs(found.edges).max()), VARIABLES["heights"].unit)
     label = "heights"
     if beyond := 100 * (1 - float(found.count.sum()) / heights.size):
@@ -148,11 +141,6 @@ def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int =
     name = f"{VARIABLES['heights'].label} above the mean [{z.unit}]"
     _finish(axes, (float(edges[0]), float(edges[-1])), name, f"probability density [1/{z.unit}]")
     return axes
-
-
-def _fewer(bins: int, values: Array) -> int:
-    """Return the number of bars: `bins`, or those of Rice's rule where these are fewer."""
-    return min(bins, math.ceil(2 * math.cbrt(values.size)))
 
 
 def _finish(axes: Axes, limits: tuple[float, float], x: str, y: str) -> None:

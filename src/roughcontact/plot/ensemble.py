@@ -17,7 +17,7 @@ from roughcontact.plot.drawing.engineering_units import pretty
 from roughcontact.plot.drawing.ticks import TICK, label_axes
 from roughcontact.validation import Array
 
-__all__ = ["fitted_values", "mean_curves", "shades"]
+__all__ = ["fitted_values", "hollow_marks", "mean_curves", "shades"]
 
 # Colours that every eye tells apart; more groups than these take shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -101,6 +101,7 @@ def fitted_values(
     label: str = "",
     colour: str = _COLOURS[0],
     shift: float = 0.0,
+    resolved: xarray.DataArray | None = None,
 ) -> Axes:
     """Draw what `roughcontact.statistics.fit_power_laws` found against a parameter, with its intervals.
 
@@ -119,6 +120,8 @@ def fitted_values(
     colour : str
     shift : float
         Of the marks along the axis, so that several series do not hide one another.
+    resolved : DataArray of bool, optional
+        Marks outside it are hollow.
 
     Returns
     -------
@@ -155,8 +158,15 @@ def fitted_values(
     arms = np.nan_to_num(np.stack([y - low, high - y])[:, shown])
     style: Any = {"fmt": "o", "markersize": 4, "capsize": 2, "linewidth": 1.0, "color": colour, "zorder": 3}
     axes.errorbar(x[shown] + shift, y[shown], np.maximum(arms, 0.0), label=label or None, **style)
+    if resolved is not None and (hollow := shown & ~resolved.to_numpy()).any():
+        axes.plot(x[hollow] + shift, y[hollow], **hollow_marks(colour), zorder=4)
     label_axes(axes, _words(fits[along]), _words(fits[name]), grid=True)
     return axes
+
+
+def hollow_marks(colour: Any) -> dict[str, Any]:
+    """Return the style of marks whose loads are not resolved, as in the picture of a curve."""
+    return {"marker": "o", "markersize": 4, "linestyle": "", "color": colour, "markerfacecolor": "white"}
 
 
 def _curve(

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "column_facts", "curve_facts"),
-    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "surface_facts", "surface_record"),
+    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "stiffness_facts"),
+    *("surface_facts", "surface_record"),
 ]
 
 _SUITS: Mapping[str, Scale] = MappingProxyType({})  # units that suit the numbers
@@ -99,11 +100,20 @@ def _flow_facts(solution: Solution, units: Mapping[str, Scale]) -> list[tuple[st
     ]
     if solution.problem.flow is not None:  # unloaded: nothing flows
         return facts
-    columns = [each for each in POINTS if "stiffness" in each.name]
-    stiffness = [
-        (f"{label} on unloading", value) for label, value in column_facts(flattened, columns, kind, {}, units)
+    return [
+        *stiffness_facts(flattened, "on unloading", units),
+        ("plastic part of the contact", f"{part:.2%}"),
+        *facts,
     ]
-    return [*stiffness, ("plastic part of the contact", f"{part:.2%}"), *facts]
+
+
+def stiffness_facts(
+    solution: Solution, words: str, units: Mapping[str, Scale] = _SUITS
+) -> list[tuple[str, str]]:
+    """Return the stiffnesses of a state, line by line, with `words` after their names."""
+    columns = [each for each in POINTS if "stiffness" in each.name]
+    facts = column_facts(solution, columns, solution.problem.geometry, STATE_NAMES, units)
+    return [(f"{label} {words}", value) for label, value in facts]
 
 
 def loop_facts(loop: Loop) -> list[tuple[str, str]]:

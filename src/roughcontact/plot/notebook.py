@@ -82,7 +82,7 @@ def curve_html(curve: Curve) -> str:
     figure, axes = _figure()
     plot_curve(curve, axes, quantity="interfacial_stiffness_per_area" if joint else "stiffness")
     facts = [
-        *(("doubtful", note) for note in curve.notes),
+        *_noted(curve.notes, "doubtful"),
         ("loads", f"{len(curve)}, of which the grid resolves {int(curve.resolved.sum())}"),
         ("reduced modulus E*", quantity("modulus", curve.modulus)),
     ]
@@ -94,7 +94,7 @@ def loop_html(loop: Loop) -> str:
     """Return the numbers of a loop of loads beside force against depth."""
     figure, axes = _figure()
     plot_loop(loop, axes)
-    return _page("Loop", loop_facts(loop), figure)
+    return _page("Loop", [*_noted(loop.notes, "doubtful"), *loop_facts(loop)], figure)
 
 
 def state_html(state: AdhesiveState | DetachmentState) -> str:
@@ -123,9 +123,9 @@ def adhesive_curve_html(loop: AdhesiveCurve) -> str:
     return _page("Loop", facts, figure) + table
 
 
-def _noted(notes: Sequence[str]) -> list[tuple[str, str]]:
+def _noted(notes: Sequence[str], name: str = "note") -> list[tuple[str, str]]:
     """Return notes as facts."""
-    return [("note", line) for line in notes]
+    return [(name, line) for line in notes]
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughcontact.plot.facts import quantity
 from roughcontact.recipe.preparation import masks_named
+from roughcontact.surface.preparation.despike import without_spikes
 from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 from roughcontact.surface.preparation.polynomial import polynomial_trend
 from roughcontact.surface.preparation.spikes import find_spikes
@@ -55,7 +56,8 @@ class PreparationWarning:
 
 def preparation_warnings(surface: Surface) -> tuple[Spikes, list[PreparationWarning]]:
     """Return the spikes of a surface, and all that is suspicious with what to do about it."""
-    spikes, clean = find_spikes(surface), surface.despiked()
+    spikes = find_spikes(surface)
+    clean = without_spikes(surface, spikes)
     found = [*_spikes(spikes), *_far(clean), *_trends(clean), *_steps(surface), *_cells(surface)]
     return spikes, found
 

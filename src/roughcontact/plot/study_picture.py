@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from roughcontact.errors import InputError
 from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
-from roughcontact.plot.ensemble import fitted_values, mean_curves, shades
+from roughcontact.plot.ensemble import fitted_values, hollow_marks, mean_curves, shades
 from roughcontact.recipe.texts import choose
 from roughcontact.statistics.averages import combinations
 from roughcontact.validation import Array
@@ -28,7 +30,7 @@ _APART = 0.006  # of the axis, between the marks of series
 _FEW = 7  # lines that one panel holds with a legend
 _COLUMNS = 3  # of panels
 _VISIBLE = 0.01  # relative; closer curves coincide in a picture
-_MOST = 0.5  # of the samples: a mean counts as resolved where more are
+_MOST = 0.5  # of the samples: a mean counts as resolved where as many are
 
 
 def study_figure(
@@ -84,6 +86,8 @@ def study_figure(
             "along",
         )
     averaged = _in_engineering_units(averaged, quantity)
+    if "resolved_samples" in averaged:
+        averaged["resolved"] = averaged["resolved_samples"] >= _MOST * averaged["cases"]
     if points == ["load"]:
         return _curves(averaged, quantity, along, numbers)
     chosen = along or _most_values(numbers)
@@ -159,7 +163,7 @@ def _curves(
         _against(places[len(panels)], averaged, "exponent", along)
     for axes in places[count:]:
         axes.remove()
-    dotted = "; dotted: not resolved" if "resolved_mean" in averaged else ""
+    dotted = "; dotted: not resolved" if "resolved" in averaged else ""
     laws = ", power laws (dashed)" if there else ""
     figure.suptitle(f"means and their standard errors{laws}{dotted}", fontsize=TICK)
     return figure
@@ -221,7 +225,7 @@ def _draw_means(
         along_lines(f"{quantity}_mean").rename(quantity),
         axes,
         error=along_lines(f"{quantity}_standard_error"),
-        resolved=along_lines("resolved_mean") >= _MOST if "resolved_mean" in first else None,
+        resolved=along_lines("resolved") if "resolved" in first else None,
     )
 
 
@@ -235,12 +239,15 @@ def _draw_laws(axes: Axes, points: Iterable[xarray.Dataset]) -> None:
 
 def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) -> None:
     """Draw a number of every combination with its error against a parameter, one series for all else that varies."""
-    series: dict[str, list[tuple[float, float, float, float]]] = {}
+    series: dict[str, list[tuple[float, float, float, float, bool]]] = {}
     labels = parameter_labels(averaged)
     others = [name for name in labels if name != along]
+    marked = "resolved" in averaged and averaged["resolved"].dims == averaged["cases"].dims  # at one load
     for parameters, point in combinations(averaged):
         words = ", ".join(labels[name].value(parameters[name]) for name in others)
-        series.setdefault(words, []).append((float(parameters[along]), *_with_limits(point, quantity)))
+        resolved = not marked or bool(point["resolved"])
+        row = float(parameters[along]), *_with_limits(point, quantity), resolved
+        series.setdefault(words, []).append(row)
     chosen = labels[along].scale
     places = chosen.factor * np.array([row[0] for rows in series.values() for row in rows])
     wide = places.min() > 0 and places.max() >= _WIDE * places.min()
@@ -249,19 +256,24 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
     step = 0.0 if wide else _APART * float(np.ptp(places))
     attributes = averaged[quantity if quantity in averaged else f"{quantity}_mean"].attrs
     for k, ((label, rows), colour) in enumerate(zip(series.items(), shades(len(series)), strict=True)):
-        x, y, low, high = np.array(sorted(rows)).T
-        values = {quantity: y, f"{quantity}_low": low, f"{quantity}_high": high}
+        x, y, low, high, resolved = np.array(sorted(rows)).T
+        values = {quantity: y, f"{quantity}_low": low, f"{quantity}_high": high, "resolved": resolved == 1}
         data = {n: (along, v, attributes) for n, v in values.items()}
         fits = xarray.Dataset(data, {along: (along, chosen.factor * x, {"units": chosen.unit})})
-        fitted_values(fits, quantity, axes, along=along, label=label, colour=colour, shift=step * k)
+        style: dict[str, Any] = {"label": label, "colour": colour, "shift": step * k}
+        fitted_values(fits, quantity, axes, along=along, resolved=fits["resolved"], **style)
     axes.set_title(
         "95 % intervals" if f"{quantity}_low" in averaged else "means and their standard errors",
         fontsize=TICK,
     )
-    if len(series) > 1:
+    handles, _ = axes.get_legend_handles_labels()
+    if not all(row[-1] for rows in series.values() for row in rows):
+        handles.append(Line2D([], [], label="not resolved", **hollow_marks("black")))
+    if handles:
         title = ", ".join(labels[name].title for name in others)
         # Beside the axes, where it hides no mark.
         axes.legend(
+            handles=handles,
             title=title,
             fontsize=TICK,
             title_fontsize=TICK,

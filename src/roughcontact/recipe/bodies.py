@@ -83,17 +83,17 @@ class Bodies:
                 )
 
     def calls(self) -> Iterator[Call]:
-        """Yield the call that gives the reduced modulus."""
+        """Yield the call that gives the reduced modulus, or the materials, whose hardness a contact is judged by."""
+        function = ""
         if self.modulus is not None:
-            solids: list[Any] = [value_of(self, "modulus")]
+            given: list[Any] = [value_of(self, "modulus")]
         elif self.materials is not None:
-            names = [name for name in value_of(self, "materials") if name != RIGID]
-            solids = [Call("rc.handbook", (name,), attribute="solid") for name in names]
+            given = [tuple(name for name in value_of(self, "materials") if name != RIGID)]
         else:
             pairs = [("young", "poisson"), *([("young2", "poisson2")] if self.young2 is not None else [])]
-            solids = [Call("rc.Solid", tuple(value_of(self, name) for name in pair)) for pair in pairs]
-        function = "" if self.modulus is not None else "rc.reduced_modulus"
-        yield Call(function, tuple(solids), result="modulus", place="bodies")
+            given = [Call("rc.Solid", tuple(value_of(self, name) for name in pair)) for pair in pairs]
+            function = "rc.reduced_modulus"
+        yield Call(function, tuple(given), result="modulus", place="bodies")
 
     @property
     def softer(self) -> str | None:

@@ -16,7 +16,7 @@ from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 __all__ = ["Preparation", "Step", "masks_named"]
 
 _MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in what the library says
-_REGIONS = ("box", "ellipse", "above", "below")
+_REGIONS = ("above", "below", "box", "ellipse")
 _BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
 
 
@@ -59,7 +59,7 @@ def _mask(text: str) -> dict[str, Any]:
     found = re.fullmatch(rf"\s*(outside-)?({'|'.join(_REGIONS)})\s*=(.+)", text)
     if found is None:
         raise InputError(
-            f"{text!r} is no region", "write box=0:9,10:30, ellipse=0:9,10:30, above=3um or below=-3um"
+            f"{text!r} is no region", "write above=3um, below=-3um, box=0:9,10:30 or ellipse=0:9,10:30"
         )
     kind, value = found[2], found[3]
     region: Any = Amount(LENGTH, positive=False)(value) if kind in ("above", "below") else ranges(value)
@@ -109,10 +109,10 @@ class Preparation:
         everyday=True,
     )
     mask: tuple[str, ...] = _step(
-        "Take a region out, to missing points: box= or ellipse= of rows,columns; heights beyond above=3um or "
-        "below=-3um, which are counted when the form is gone. outside- in front takes out all but the region. May be "
-        "given again.",
-        "box=0:9,10:30",
+        "Take a region out, to missing points: heights beyond above=3um or below=-3um, which are counted when the form "
+        "is gone; box= or ellipse= of rows,columns, such as box=0:9,10:30. outside- in front takes out all but the "
+        "region. May be given again.",
+        "above=3um",
         "masked",
         "Masking",
         read=_mask,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
 from numbers import Integral, Real
-from typing import Any, get_args, get_type_hints
+from typing import Any, TypeVar, get_args, get_type_hints
 
 from roughcontact.errors import InputError, placed, together
 
@@ -20,8 +20,11 @@ __all__ = [
     "refused",
     "specs",
     "value_of",
+    "with_fields_of",
     "words_of",
 ]
+
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,18 @@ def specs(part: Any) -> Iterator[tuple[Field[Any], Spec]]:
     for each in fields(part):
         if (spec := each.metadata.get("spec")) is not None:
             yield each, spec
+
+
+def with_fields_of(other: Any) -> Callable[[type[_T]], type[_T]]:
+    """Return a decorator for a class before `dataclass`: the fields of another part are put before its own."""
+
+    def extended(kind: type[_T]) -> type[_T]:
+        for each in fields(other):
+            setattr(kind, each.name, field(default=each.default, metadata=each.metadata))
+        kind.__annotations__ = {each.name: each.type for each in fields(other)} | kind.__annotations__
+        return kind
+
+    return extended
 
 
 def given(part: Any) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from roughcontact.errors import InputError
 from roughcontact.files.quantity import LENGTH, Kind
 from roughcontact.recipe.grid_of_source import PERIODIC, POINTS, SEED, SIZE, grid_call
 from roughcontact.recipe.job_calls import Call, Name
-from roughcontact.recipe.recipe_fields import check, described, specs, value_of
+from roughcontact.recipe.recipe_fields import check, described, specs, value_of, with_fields_of
 from roughcontact.recipe.texts import Amount, PureNumber
 
 if TYPE_CHECKING:
@@ -44,52 +44,47 @@ _MEAN_SLOPE = _OfFaces(PureNumber(0, 100, "the slope", "0.12", ends=False))
 _EXPONENT = PureNumber(0, 1, "the Hurst exponent", "0.8")
 _BANDWIDTH = PureNumber(1.5, 1e9, "Nayak's parameter", "20", ends=False)
 
-_SIGMA = described(
-    "Rms height of both faces together, or that of each face (1um,2um).", "1.2um", read=_HEIGHT, everyday=True
-)
-_RA = described("Ra instead: of Gaussian heights sigma is 1.2533 Ra.", "1um", read=_HEIGHT, everyday=True)
-_RZ = described("Rz instead, which needs the ratio of Rz and Ra.", "6um", read=_HEIGHT)
-_RZ_OVER_RA = described("Ratio of Rz and Ra, as measured on such faces.", "6", read=_RATIO, needs="rz")
-_SLOPE = described(
-    "Mean absolute slope m of a profile, likewise: 0.80 of the rms slope of a profile (Rdq), 0.56 of that of a "
-    "surface (Sdq).",
-    "0.12",
-    read=_MEAN_SLOPE,
-    everyday=True,
-)
-_HURST = described(
-    "Hurst exponent. It settles the spectrum, with two numbers of slope, nayak and the lengths.",
-    "0.8",
-    read=_EXPONENT,
-    everyday=True,
-)
-_NAYAK = described("Nayak's parameter m0 m4/m2^2: the bandwidth.", "20", read=_BANDWIDTH)
-_ROLLOFF = described(
-    "Roll-off: the spectrum of longer waves is constant.", "100um", read=_WAVE, everyday=True
-)
-_CORRELATION = described(
-    "Lag at which the autocorrelation falls to 1/e, instead of rolloff.", "20um", read=_WAVE
-)
-_SHORT = described("Shorter waves are absent.", "5um", read=_WAVE)
-_ONE_OF = ("sigma", "ra", "rz")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpecifiedJoint:
     """A joint by its numbers: heights and slope, and what settles the bandwidth of the roughness."""
 
     TITLE: ClassVar = "Specification"
-    ONE_OF: ClassVar = _ONE_OF
-    sigma: str | None = _SIGMA
-    ra: str | None = _RA
-    rz: str | None = _RZ
-    rz_over_ra: str | None = _RZ_OVER_RA
-    slope: str | None = _SLOPE
-    hurst: str | None = _HURST
-    nayak: str | None = _NAYAK
-    rolloff: str | None = _ROLLOFF
-    correlation_length: str | None = _CORRELATION
-    short_cutoff: str | None = _SHORT
+    ONE_OF: ClassVar = ("sigma", "ra", "rz")
+    sigma: str | None = described(
+        "Rms height of both faces together, or that of each face (1um,2um).",
+        "1.2um",
+        read=_HEIGHT,
+        everyday=True,
+    )
+    ra: str | None = described(
+        "Ra instead: of Gaussian heights sigma is 1.2533 Ra.", "1um", read=_HEIGHT, everyday=True
+    )
+    rz: str | None = described("Rz instead, which needs the ratio of Rz and Ra.", "6um", read=_HEIGHT)
+    rz_over_ra: str | None = described(
+        "Ratio of Rz and Ra, as measured on such faces.", "6", read=_RATIO, needs="rz"
+    )
+    slope: str | None = described(
+        "Mean absolute slope m of a profile, likewise: 0.80 of the rms slope of a profile (Rdq), 0.56 of that of a "
+        "surface (Sdq).",
+        "0.12",
+        read=_MEAN_SLOPE,
+        everyday=True,
+    )
+    hurst: str | None = described(
+        "Hurst exponent. It settles the spectrum, with two numbers of slope, nayak and the lengths.",
+        "0.8",
+        read=_EXPONENT,
+        everyday=True,
+    )
+    nayak: str | None = described("Nayak's parameter m0 m4/m2^2: the bandwidth.", "20", read=_BANDWIDTH)
+    rolloff: str | None = described(
+        "Roll-off: the spectrum of longer waves is constant.", "100um", read=_WAVE, everyday=True
+    )
+    correlation_length: str | None = described(
+        "Lag at which the autocorrelation falls to 1/e, instead of rolloff.", "20um", read=_WAVE
+    )
+    short_cutoff: str | None = described("Shorter waves are absent.", "5um", read=_WAVE)
 
     def __post_init__(self) -> None:
         check(self)
@@ -97,22 +92,13 @@ class SpecifiedJoint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+@with_fields_of(SpecifiedJoint)
 class Specified:
     """A random surface that has the rms height and the slope of a specification."""
 
     KIND: ClassVar = "specified"
     TITLE: ClassVar = "Specified surface"
-    ONE_OF: ClassVar = _ONE_OF
-    sigma: str | None = _SIGMA
-    ra: str | None = _RA
-    rz: str | None = _RZ
-    rz_over_ra: str | None = _RZ_OVER_RA
-    slope: str | None = _SLOPE
-    hurst: str | None = _HURST
-    nayak: str | None = _NAYAK
-    rolloff: str | None = _ROLLOFF
-    correlation_length: str | None = _CORRELATION
-    short_cutoff: str | None = _SHORT
+    ONE_OF: ClassVar = SpecifiedJoint.ONE_OF
     size: str = SIZE
     points: str = POINTS
     seed: str = SEED

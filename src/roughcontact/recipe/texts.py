@@ -130,7 +130,9 @@ def choose(text: str, known: Sequence[str]) -> str:
     """Return what to write instead of a text that is none of some words: the nearest, and all of them."""
     near = difflib.get_close_matches(text, known, 1)
     return (
-        f"did you mean {near[0]!r}? choose of {', '.join(known)}" if near else f"choose of {', '.join(known)}"
+        f"did you mean {near[0]!r}? choose from {', '.join(known)}"
+        if near
+        else f"choose from {', '.join(known)}"
     )
 
 
@@ -161,6 +163,8 @@ class Likely:
         What a value beyond them is.
     meant : str
         The unit that was probably meant.
+    named : str
+        What to do where a name stands in place of the number.
     """
 
     amount: Amount
@@ -168,6 +172,7 @@ class Likely:
     high: float
     odd: str
     meant: str
+    named: str = ""
 
     @property
     def kind(self) -> Kind:
@@ -176,19 +181,24 @@ class Likely:
 
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
+        if self.named and text[:1].isalpha():
+            raise InputError(f"{text!r} is a name, and {self.amount.what} is a number", self.named)
         value = self.amount(text)
         if not self.low <= value <= self.high and not quantity.has_unit(text):
             bare, unit = text.strip(), self.kind.unit
             raise InputError(
                 f"{bare} without a unit is {bare} {unit}, {self.odd}",
-                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is so",
+                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is in {unit}",
             )
         return value
 
 
 def modulus(what: str, kind: Kind = MODULUS) -> Likely:
     """Return a reader of moduli and hardnesses [Pa]."""
-    return Likely(Amount(kind, what), _FOAM, math.inf, "softer than foam", "GPa")
+    named = (
+        "name both bodies by `materials`, such as steel,aluminium or steel,rigid" if kind is MODULUS else ""
+    )
+    return Likely(Amount(kind, what), _FOAM, math.inf, "softer than foam", "GPa", named)
 
 
 def known_material(text: str) -> Material | None:

@@ -86,7 +86,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
     if name is None:
         raise InputError("no job is named", f'write job = "press", or one of {", ".join(JOBS)}', "job")
     if not isinstance(name, str) or name not in JOBS:
-        raise InputError(f"there is no job {name!r}", f"choose of {', '.join(JOBS)}", "job")
+        raise InputError(f"there is no job {name!r}", f"choose from {', '.join(JOBS)}", "job")
     job: Job = _part(JOBS[name], values)
     return job
 
@@ -129,12 +129,12 @@ def field_at(plain: Mapping[str, Any], name: str) -> Spec:
         return found[name]
     inside = [each for each in found if each.startswith(f"{name}.")]
     if inside:
-        raise InputError(f"{name} is no single value", f"choose of {', '.join(inside)}", name)
+        raise InputError(f"{name} is no single value", f"choose from {', '.join(inside)}", name)
     last = name.rpartition(".")[2]
     near = [each for each in found if each.rpartition(".")[2] == last] or difflib.get_close_matches(
         name, found, 2
     )
-    remedy = f"did you mean {' or '.join(near)}?" if near else f"choose of {', '.join(found)}"
+    remedy = f"did you mean {' or '.join(near)}?" if near else f"choose from {', '.join(found)}"
     raise InputError(f"the job has no field {name!r}", remedy, name)
 
 
@@ -172,7 +172,7 @@ def _of_kind(members: list[Any], values: Any) -> Any:
     left = {name: value for name, value in values.items() if name != "kind"}
     kind = values.get("kind", File.KIND if "file" in values else None)
     if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(f"there is no kind {kind!r} of it", f"choose of {', '.join(kinds)}", "kind")
+        raise InputError(f"there is no kind {kind!r} of it", f"choose from {', '.join(kinds)}", "kind")
     return _part(kinds[kind], left)
 
 

@@ -77,7 +77,9 @@ def averages(
         ``NAME_mean``, ``NAME_standard_error`` and the other statistics of `summary`, for every number that varies
         between samples; constants are kept. For loading curves also the laws of `fit_power_laws`, with ``law_count``
         and ``law_samples`` as the numbers of forces and samples, and the attribute ``window``; without laws, the
-        attribute ``no_power_law`` holds the reason. ``cases`` counts the completed cases.
+        attribute ``no_power_law`` holds the reason. ``cases`` counts the completed cases, ``resolved_samples`` the
+        samples in which a load is resolved, and ``law_resolved`` the forces of a law that are resolved in at least
+        half of the samples.
 
     Raises
     ------
@@ -111,16 +113,23 @@ def averages(
     numbers = [
         str(name)
         for name, values in answered.data_vars.items()
-        if values.dtype.kind in "fiub" and (set(over) <= set(values.dims) or not set(over) & set(values.dims))
+        if values.dtype.kind in "fiub"
+        and name != "resolved"
+        and (set(over) <= set(values.dims) or not set(over) & set(values.dims))
     ]
     result = summary(answered, numbers, over)
     if "case_status" in dataset:
         result["cases"] = _done(dataset["case_status"], over)
+        if "resolved" in dataset:
+            result["resolved_samples"] = _resolved_samples(dataset, over)
     try:
-        laws = fit_power_laws(_on_common_forces(dataset, over), window, rng=rng, samples=over)
+        common = _on_common_forces(dataset, over)
+        laws = fit_power_laws(common, window, rng=rng, samples=over)
     except ValueError as error:
         return result.assign_attrs(no_power_law=str(error))
     laws = laws.rename(count="law_count", samples="law_samples")
+    if "resolved_samples" in result:
+        laws["law_resolved"] = _resolved_forces(common, laws, result["cases"], over)
     return result.assign(laws.data_vars).assign_attrs(window=laws.attrs["window"])
 
 
@@ -179,6 +188,27 @@ def _on_common_forces(dataset: xarray.Dataset, over: Sequence[str]) -> xarray.Da
         return dataset
     low, high = float(force.min("load").max()), float(force.max("load").min())
     return on_common(dataset, np.geomspace(low, high, dataset.sizes["load"])) if low < high else dataset
+
+
+def _resolved_samples(dataset: xarray.Dataset, over: Sequence[str]) -> xarray.DataArray:
+    """Return in how many samples each load is resolved, of those that met the tolerance."""
+    resolved = _answered(dataset, dataset["resolved"].astype(float)) == 1
+    counted = ((dataset["case_status"] == "done") & resolved).sum(over)
+    return counted.assign_attrs(long_name="samples in which the load is resolved", units="1")
+
+
+def _resolved_forces(
+    common: xarray.Dataset, laws: xarray.Dataset, cases: xarray.DataArray, over: Sequence[str]
+) -> xarray.DataArray:
+    """Return how many forces of each law are resolved in half of the samples or more."""
+    force = common["dimensionless_force"]
+    force = force.max([d for d in over if d in force.dims])
+    inside = (force >= laws["window_low"] * (1 - ROUNDING)) & (force <= laws["window_high"] * (1 + ROUNDING))
+    resolved = inside & (2 * _resolved_samples(common, over) >= cases)
+    counted = resolved.sum([d for d in resolved.dims if d not in cases.dims])
+    return counted.assign_attrs(
+        long_name="number of forces in the fit that half of the samples resolve", units="1"
+    )
 
 
 def _done(status: xarray.DataArray, over: Sequence[str]) -> xarray.DataArray:

@@ -15,9 +15,7 @@ FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this di
 # Change of the exponent from one end of the window to the other. The exponents 1/(1 + H) of surfaces with H = 0.5 and
 # 0.8 differ by 0.11: with such a bend, the exponent cannot distinguish two surfaces.
 BEND = 0.1
-CHANCE = (
-    0.00135  # probability of such a bend in each direction by chance: three standard errors of many points
-)
+CHANCE = 0.00135  # probability of a bend in one direction by chance: three standard errors
 ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, despite rounding
 
 

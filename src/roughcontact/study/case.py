@@ -16,7 +16,9 @@ from pydantic import BeforeValidator, Field, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
 from roughcontact.errors import InputError
-from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, Kind, parse
+from roughcontact.files.quantity import ENERGY_PER_AREA, FORCE, LENGTH, MODULUS, PRESSURE, Kind, parse
+from roughcontact.materials import reduced_modulus
+from roughcontact.recipe.texts import RIGID
 from roughcontact.study.checked import Checked
 from roughcontact.study.nested_names import at
 from roughcontact.study.study_errors import mistakes_of, refusal
@@ -31,6 +33,7 @@ __all__ = [
     "EnergyPerArea",
     "Force",
     "Length",
+    "Modulus",
     "Parameters",
     "Positive",
     "Pressure",
@@ -179,15 +182,37 @@ def _quantity(kind: Kind) -> BeforeValidator:
     return BeforeValidator(read)
 
 
+def _without_names(value: Any) -> Any:
+    """Refuse the names of materials with the number to write instead: a reduced modulus is that of two bodies."""
+    if isinstance(value, str) and value[:1].isalpha():
+        names = [part.strip() for part in value.split(",")][:2]
+        elastic = [name for name in (names * 2)[:2] if name != RIGID] or names
+        written = f"{reduced_modulus(*elastic) / 1e9:.4g} GPa"
+        raise InputError(
+            f"{value!r} is a name, and a reduced modulus is a number",
+            f"write {written!r}, that of {names[0]} and {names[-1]}",
+        )
+    return value
+
+
 Length = Annotated[float, _quantity(LENGTH)]
 Pressure = Annotated[float, _quantity(PRESSURE)]
+Modulus = Annotated[float, _quantity(MODULUS), BeforeValidator(_without_names)]
 Force = Annotated[float, _quantity(FORCE)]
 Area = Annotated[float, _quantity(Kind("an area", "m**2", "1mm**2"))]
 Stiffness = Annotated[float, _quantity(Kind("a stiffness", "N/m", "1MN/m"))]
 Energy = Annotated[float, _quantity(Kind("an energy", "J", "1mJ"))]
 EnergyPerArea = Annotated[float, _quantity(ENERGY_PER_AREA)]
 _UNITS = (
-    *((Length, "m"), (Area, "m2"), (Pressure, "Pa"), (Force, "N"), (Stiffness, "N m-1"), (Energy, "J")),
+    *(
+        (Length, "m"),
+        (Area, "m2"),
+        (Pressure, "Pa"),
+        (Modulus, "Pa"),
+        (Force, "N"),
+        (Stiffness, "N m-1"),
+        (Energy, "J"),
+    ),
     (EnergyPerArea, "J m-2"),
 )
 

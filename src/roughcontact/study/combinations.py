@@ -9,10 +9,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from roughcontact.errors import InputError, every
+from roughcontact.recipe.texts import choose
 from roughcontact.study.cases import find_case
 from roughcontact.study.nested_names import flat, merged
 from roughcontact.study.ranges import Range
-from roughcontact.study.study_errors import MOST_MISTAKES, StudyError, expected
+from roughcontact.study.study_errors import MOST_MISTAKES, StudyError
 from roughcontact.study.task import canonical
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def _misnamed(study: Study, model: type[Parameters]) -> Iterator[InputError]:
     for place, names in places.items():
         for name in sorted({name.partition(".")[0] for name in names} - known):
             if model.model_config.get("extra") != "allow":
-                words = f"the case {study.case!r} has no parameter {name!r}: {expected(name, known)}"
+                words = f"the case {study.case!r} has no parameter {name!r}: {choose(name, sorted(known))}"
                 yield InputError(words, None, f"{place}.{name}")
     for one, other in itertools.combinations(places, 2):
         for name in sorted(places[one] & places[other]):

@@ -6,11 +6,11 @@ import errno
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError, every, in_place, together
 from roughcontact.files.aside import WriteError
+from roughcontact.recipe.texts import choose
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -23,7 +23,6 @@ __all__ = [
         "StudyError",
         "computed_again",
         "disk_trouble",
-        "expected",
         "mistakes_of",
         "on_disk",
         "refusal",
@@ -103,13 +102,6 @@ def on_disk(folder: str | os.PathLike[str], what: str) -> Iterator[None]:
         raise disk_trouble(folder, what, error.__cause__ or error) from error
 
 
-def expected(name: str, known: Iterable[str]) -> str:
-    """Return what a misspelt `name` may have meant, and all that is known."""
-    known = sorted(known)
-    near = get_close_matches(name, known, n=1)
-    return (f"did you mean {near[0]!r}? " if near else "") + f"It may be {', '.join(known)}"
-
-
 def refusal(found: Sequence[InputError]) -> StudyError:
     """Return the error about all mistakes of a study, each with its place; at most the first `MOST_MISTAKES`."""
     shown = list(found[:MOST_MISTAKES])
@@ -140,7 +132,7 @@ def _mistakes(found: Mapping[str, Any], known: Iterable[str]) -> Iterator[InputE
             where = ".".join([*loc, *([each.place] if each.place else [])])
             yield InputError(each.message, each.remedy, where or None)
     elif found["type"] == "extra_forbidden":
-        yield InputError(f"there is no {place!r}: {expected(place, known)}", None, place)
+        yield InputError(f"there is no {place!r}: {choose(place, sorted(known))}", None, place)
     elif found["type"] == "missing":
         yield InputError(f"{place!r} is missing", f"give {loc[-1]}", place)
     else:

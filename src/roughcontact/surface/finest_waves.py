@@ -11,9 +11,7 @@ if TYPE_CHECKING:
 
 __all__ = ["is_rough_to_cells"]
 
-ROUGH = (
-    1.25  # exponent H of the heights from one cell to two: 2 for smooth heights, 1.4 for waves of five cells
-)
+ROUGH = 1.25  # H of the heights from one cell to two: 2 for smooth heights, 1.4 for waves of five cells
 
 
 def is_rough_to_cells(surface: Surface) -> bool:

@@ -41,7 +41,7 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
-            raise about("heights", f"must be real numbers [m], not of type {given.dtype}")
+            raise about("heights", f"must be real numbers [m], not of type {given.dtype.type.__name__}")
         own = np.array(given, dtype=np.float64)
         own.flags.writeable = False
     if tuple(own.shape) != shape:
@@ -80,8 +80,11 @@ def _check_range(heights: Array) -> None:
         )
     if math.isinf(highest) or math.isinf(lowest):
         count = int(xp.count_nonzero(xp.isinf(heights)))
+        many = "height is" if count == 1 else "heights are"
         raise InputError(
-            f"{count} heights are infinite", "mark points without a measurement by NaN", "heights"
+            f"{count} {many} infinite",
+            "mark points without a measurement by NaN",
+            "heights",
         )
     if highest > lowest:
         moderate(highest - lowest, "the range of the heights [m]")

@@ -12,8 +12,10 @@ import xarray
 import roughcontact as rc
 from roughcontact.recipe.written import from_plain
 from roughcontact.statistics.averages import averages
+from roughcontact.study.cases import CASES, find_case
 from roughcontact.study.cases.job_case import CASE, JobParameters
 from roughcontact.study.export import export
+from roughcontact.study.job_study import job_study
 from roughcontact.study.run import run
 from roughcontact.study.store import Store
 from roughcontact.study.study import Study
@@ -210,7 +212,7 @@ def test_all_mistakes_come_at_once_each_with_its_place():
 @pytest.mark.parametrize(
     ("parameters", "table", "place", "words"),
     [
-        (CURVE | {"job": "curv"}, {}, "parameters.job", "there is no job 'curv'; choose of"),
+        (CURVE | {"job": "curv"}, {}, "parameters.job", "there is no job 'curv'; choose from"),
         (
             {"job": "surface", "source": MADE},
             {},
@@ -296,12 +298,33 @@ def test_two_surfaces_are_drawn_one_after_the_other(tmp_path):
     np.testing.assert_array_equal(found["stiffness"].values.ravel(), curve.stiffness)
 
 
-def test_the_job_and_the_study_of_the_page_are_what_they_are_said_to_be():
-    page = (Path(__file__).parents[3] / "docs" / "how-to" / "studies.md").read_text(encoding="utf-8")
-    blocks = [tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL)]
-    [job] = [from_plain(each) for each in blocks if "job" in each]
-    [few] = [Study(**each) for each in blocks if each.get("case") == "job"]
-    level, _ = few.table.values()
-    assert (job.NAME, level, len(few.combinations())) == ("curve", ("plane", "quadratic"), 6)
-    assert few.combinations()[-1].recipe.preparation.level == "quadratic"
+def of_page(*place):
+    """Return the blocks of TOML of a page."""
+    page = Path(__file__).parents[3].joinpath("docs", *place).read_text(encoding="utf-8")
+    return [tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL)]
+
+
+def test_the_job_and_the_study_of_the_pages_are_what_they_are_said_to_be():
+    job, study_of_job = of_page("how-to", "studies.md")
+    heights = [f"{height}um" for height in ("0.2", "0.4", "0.6", "0.8", "1")]
+    vary = {"source.hurst": ["0.2", "0.4", "0.6", "0.8", "1"], "source.rms": heights}
+    made = job_study(from_plain(job), vary, samples=4, path=Path("design.toml"))
+    written = Study(**study_of_job)
+    assert (len(made.combinations()), made.samples, written.samples) == (25, 4, 4)
+    for one, other in zip(made.combinations(), written.combinations(), strict=True):
+        assert one.labelled()["source.rms"] == other.labelled()["source.rms"]
+        assert one.recipe.bodies == other.recipe.bodies
+        assert one.recipe.loads == other.recipe.loads
+    few = next(Study(**each) for each in of_page("reference", "study-files.md") if each.get("case") == "job")
+    assert [each.recipe.preparation.level for each in few.combinations()] == 3 * ["plane"] + 3 * ["quadratic"]
     assert few.combinations()[-1].recipe.source.hurst == "0.8"
+
+
+def test_the_page_names_every_parameter_of_every_case():
+    page = (
+        Path(__file__).parents[3].joinpath("docs", "reference", "study-files.md").read_text(encoding="utf-8")
+    )
+    for name in CASES:
+        assert f"| `{name}` |" in page
+        for field in find_case(name).parameters.model_fields:
+            assert f"`{field}`" in page, f"{name}: {field}"

@@ -70,7 +70,8 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
         print_facts([size, *pressed.facts(), *others])
     for line in state.notes:
         note(line)
-    answer.note_files(folder, ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}"))
+    files = ("adhesive_state.json", "adhesive_state.nc", f"adhesive_state.{answer.ending}")
+    answer.finish(folder, files, job, state)
     if not state.status.converged:
         raise typer.Exit(MISSED)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from roughcontact.cli.contact_of_job import best_state, contact_of
-from roughcontact.cli.messages import note
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output
 from roughcontact.cli.path_answer import PathAnswer, collected
@@ -41,7 +40,7 @@ def detach(job: DetachJob, *, answer: Answer) -> None:
 
     profile = job.contact.profile
     loads = Loads.given(**job.retreat.named(profile))
-    total = 1 if loads is None else loads.values.size
+    total = 3 if loads is None else loads.values.size
     with output(answer.out) as folder:
         known = contact_of(job)
         preload = best_state(next(job.calls()), known)
@@ -54,8 +53,6 @@ def detach(job: DetachJob, *, answer: Answer) -> None:
             control = f"drawn back from {name} = {value!r} {kinds_of(profile)[name].unit}"
             path.write(folder, control, _drawn)
     path.show(DETACHMENT_COLUMNS, (), detachment_facts(found))
-    if not preload.status.converged:
-        note("the preload missed the tolerance")
     path.end(folder, total)
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from roughcontact.evaluation.conduction import Conductors
 
-__all__ = ["EXAMPLES", "conductance", "conduction_facts", "conductors_of", "shown_columns"]
+__all__ = ["EXAMPLES", "conductance", "conduction_facts", "conductor_facts", "conductors_of", "shown_columns"]
 
 EXAMPLES = {
     "conductance": """
@@ -32,6 +32,10 @@ roughcontact conductance result --resistivity 17nohm*m --of total
 """,
 }
 
+_PROPERTIES = {
+    "resistivities": ("electrical resistivities", "ohm m"),
+    "conductivities": ("thermal conductivities", "W/(m K)"),
+}
 _CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
 
 
@@ -69,8 +73,8 @@ def conductance(file: Path = _CURVE, *, conduction: Conduction, answer: Answer) 
         emit(_record(found, names, path) | {"of": conduction.of})
     else:
         print_table(*load_table(found, names))
-        print_facts(conduction_facts(found, conduction.of))
-    answer.note_files(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"))
+        print_facts(conduction_facts(found, conductors, conduction.of))
+    answer.finish(folder, ("conductance.csv", "conductance.nc", f"conductance.{answer.ending}"), conductors)
 
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:
@@ -79,11 +83,19 @@ def shown_columns(dataset: xarray.Dataset) -> list[str]:
     return per_area or found
 
 
-def conduction_facts(dataset: xarray.Dataset, of: str) -> list[tuple[str, str]]:
-    """Return a line that says what conductance and resistance are of."""
+def conduction_facts(dataset: xarray.Dataset, conductors: Conductors, of: str) -> list[tuple[str, str]]:
+    """Return what the two bodies conduct, and what conductance and resistance are of, line by line."""
     from roughcontact.evaluation.conduction import part_words
 
-    return [("conductance of", part_words(dataset, of))]
+    return [*conductor_facts(conductors), ("conductance of", part_words(dataset, of))]
+
+
+def conductor_facts(conductors: Conductors) -> list[tuple[str, str]]:
+    """Return a line for each property of the two bodies that a conductance follows from."""
+    return [
+        (_PROPERTIES[name][0], f"{one:.4g} and {other:.4g} {_PROPERTIES[name][1]}")
+        for name, (one, other) in conductors.given().items()
+    ]
 
 
 def _conduction() -> tuple[tuple[str, ...], tuple[str, ...]]:

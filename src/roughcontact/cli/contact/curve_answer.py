@@ -98,6 +98,11 @@ class CurveAnswer:
         return units_of_job(self.job.units)
 
     @property
+    def picture(self) -> str:
+        """The name of its picture, without the ending: a loop has one of all branches beside it."""
+        return "curve" if self.loop is None else "first_loading"
+
+    @property
     def converged(self) -> bool:
         """Whether every load met the tolerance."""
         return all(status.converged for status in self.curve.status)
@@ -231,7 +236,10 @@ class CurveAnswer:
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
             write_csv(self.dataset, aside / "curve.csv")
-            save(self._figure(), aside / f"curve.{ending}")
+            figure = self._figure()
+            if self.loop is not None:
+                figure.suptitle("first loading")
+            save(figure, aside / f"{self.picture}.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
@@ -244,14 +252,16 @@ class CurveAnswer:
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
-            doubts = [("doubtful", worded(line)) for line in curve.notes]
+            doubts = [("doubtful", worded(line)) for line in (self.loop or curve).notes]
             report.print_facts(
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
             conducting = (
-                [] if self.conductors is None else conduction_facts(self.dataset, self.job.conduction.of)
+                []
+                if self.conductors is None
+                else conduction_facts(self.dataset, self.conductors, self.job.conduction.of)
             )
             local = exponents(curve, self.comparisons)
             report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.labels.note import Note
+    from roughcontact.materials import Modulus
     from roughcontact.solver.loads import Loads
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
@@ -137,7 +138,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json)
-    answer.note_files(folder, ("curve.csv", "curve.json", "curve.nc", f"curve.{answer.ending}", *more))
+    files = ("curve.csv", "curve.json", "curve.nc", f"{found.picture}.{answer.ending}", *more)
+    answer.finish(folder, files, job, computed, surface)
     if left.size or (plastic.loop and loop is None):
         raise typer.Exit(INTERRUPTED)
     if not found.converged:
@@ -154,7 +156,7 @@ def _shown(record: Mapping[str, Any], name: str, at: int) -> str:
 
 def _computed(
     surface: Surface,
-    modulus: float,
+    modulus: Modulus,
     loads: Loads,
     limits: dict[str, Any],
     stored: StoredLoads | None,
@@ -201,7 +203,7 @@ def _named_loads(job: CurveJob) -> Loads | None:
 
 
 def _suggested(
-    surface: Surface, modulus: float, pressed: Pressed, *, operator: Operator | None, hardness: float | None
+    surface: Surface, modulus: Modulus, pressed: Pressed, *, operator: Operator | None, hardness: float | None
 ) -> Loads:
     """Return the forces [N] that suit a surface, and say which they are."""
     from roughcontact.contact.loads.load_outlook import load_outlook
@@ -229,7 +231,7 @@ def _suggested(
     return loads
 
 
-def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operator | None) -> None:
+def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Operator | None) -> None:
     """Say before the work if the grid resolves none of the named loads, or too few for a power law."""
     from roughcontact.contact.loads.load_outlook import load_outlook
 
@@ -246,7 +248,7 @@ def _look_ahead(surface: Surface, modulus: float, loads: Loads, operator: Operat
 
 
 def _load(
-    surface: Surface, modulus: float, loads: Loads, limits: dict[str, Any], *, loop: bool
+    surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
 ) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 

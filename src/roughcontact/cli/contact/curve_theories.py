@@ -12,6 +12,7 @@ from roughcontact.errors import InputError
 if TYPE_CHECKING:
     from roughcontact.contact.compare import Comparison
     from roughcontact.contact.curve import Curve
+    from roughcontact.materials import Modulus
     from roughcontact.recipe.outputs import Theories
     from roughcontact.surface.surface import Surface
     from roughcontact.theory.law import LoadingLaw
@@ -47,7 +48,7 @@ class TheoriesOf:
     refused: Mapping[str, str]
 
 
-def theories_of(asked: Theories, surface: Surface, modulus: float, hardness: float | None) -> TheoriesOf:
+def theories_of(asked: Theories, surface: Surface, modulus: Modulus, hardness: float | None) -> TheoriesOf:
     """Return the theories that were asked for, as far as they apply to a surface.
 
     Raises

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,9 +18,10 @@ from roughcontact.cli.messages import UsageError, note, note_all
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.pressed import Pressed
-from roughcontact.cli.report import emit, print_facts, solution_facts
+from roughcontact.cli.report import emit, print_facts, solution_facts, stiffness_facts
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import PressJob
+from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
 
@@ -60,6 +62,11 @@ def press(job: PressJob, *, answer: Answer) -> None:
         require_errors(job.errors, surface)
         pressed = Pressed.of(surface, known["modulus"], softer_of(job))
         solution: Solution = best_state(next(job.calls()), known)
+        elastic: Solution | None = None
+        if job.plastic.after is not None:
+            elastic = best_state(next(replace(job, plastic=AfterLoad()).calls()), known)
+            if not elastic.status.converged:
+                note(f"without plastic flow, residual {elastic.residual:.1e}: {elastic.status.message}")
         if (job.plastic.after or job.plastic.flow == "raised") and not (
             solution.flow is not None and solution.flow.volume
         ):
@@ -67,7 +74,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
         errors = errors_of(job.errors, [solution])
         drawn: tuple[str, ...] = ()
         with task("Stiffness, spots and files"):
-            record = _record(solution, job, pressed)
+            record = _record(solution, job, pressed, elastic)
             if answer.json or answer.out is not None:
                 record["recipe"] = carried(job, answer.out)
             record["errors"] = errors[0].to_record() if errors else None
@@ -79,12 +86,15 @@ def press(job: PressJob, *, answer: Answer) -> None:
                 drawn += write_flattened(surface, solution.problem.flow, folder, answer.ending)
     per_area = job.load.pressure is not None or all(surface.grid.periodic)
     units = units_of_job(job.units)
-    _tell(solution, record, pressed, errors, units=units, json=answer.json, per_area=per_area)
+    facts, compared = pressed.facts(), []
+    if elastic is not None:
+        facts.append(("load", _unloaded(job)))
+        compared = stiffness_facts(elastic, "without plastic flow", units)
+    _tell(solution, record, facts, compared, errors, units=units, json=answer.json, per_area=per_area)
     pictures = (*(() if theory is None else ("distribution",)), *drawn)
-    answer.note_files(
-        folder, ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
-    )
-    if not solution.status.converged:
+    files = ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
+    answer.finish(folder, files, job, solution)
+    if not record["converged"]:
         raise typer.Exit(MISSED)
 
 
@@ -96,7 +106,16 @@ def _control(job: PressJob) -> str:
     return words if job.plastic.after is None else f"{words} after {loads[0]!r}"
 
 
-def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, Any]:
+def _unloaded(job: PressJob) -> str:
+    """Return the load, and the larger load before it."""
+    from roughcontact.plot.drawing.engineering_units import written
+
+    [(name, (first, last))] = job.loads().items()
+    unit = kinds_of(job.contact.profile)[name.removesuffix("s")].unit
+    return f"{name.removesuffix('s')} {written(last, unit)}, unloaded from {written(first, unit)}"
+
+
+def _record(solution: Solution, job: PressJob, pressed: Pressed, elastic: Solution | None) -> dict[str, Any]:
     from roughcontact.contact.dataset import solution_record
 
     surface = solution.problem.surface
@@ -107,8 +126,9 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed) -> dict[str, An
         "surface": history,
         **pressed.record(),
         **solution_record(solution),
+        "without_plastic_flow": None if elastic is None else solution_record(elastic),
         "tolerance": solution.problem.tolerance,
-        "converged": solution.status.converged,
+        "converged": all(each.status.converged for each in (solution, elastic) if each is not None),
     }
 
 
@@ -167,7 +187,8 @@ def _write(
 def _tell(
     solution: Solution,
     record: dict[str, Any],
-    pressed: Pressed,
+    facts: list[tuple[str, str]],
+    compared: list[tuple[str, str]],
     errors: tuple[LoadErrors, ...],
     *,
     units: Mapping[str, Scale],
@@ -180,7 +201,7 @@ def _tell(
         emit(record)
     else:
         size, *others = solution_facts(solution, units)
-        print_facts([size, *pressed.facts(), *others])
+        print_facts([size, *facts, *others, *compared])
         for each in errors:
             each.tell(units, patch=True, joint=per_area)
     note_all([*notes_on(solution), *notes_on_errors(errors)])

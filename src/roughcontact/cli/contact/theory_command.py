@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from roughcontact.cli import report
+from roughcontact.cli.cited import cited
+from roughcontact.cli.contact.conductance_command import conductor_facts, conductors_of
 from roughcontact.cli.contact_of_job import note_materials
 from roughcontact.cli.messages import note
-from roughcontact.cli.options import JSON, OUT, Answer
+from roughcontact.cli.options import CITE, JSON, OUT, Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.recipe.job_calls import performed
 from roughcontact.recipe.jobs import calls_of, known_names
@@ -47,6 +49,7 @@ class TableAnswer:
     PANEL: ClassVar = Answer.PANEL
     out: Path | None = OUT
     json: bool = JSON
+    cite: bool = CITE
     is_kept: bool = True  # no option, see `Answer`
 
 
@@ -79,8 +82,9 @@ def theory(job: TheoryJob, *, answer: TableAnswer) -> None:
     else:
         report.print_facts(_facts(job, known["joint"], table))
         _print(table)
+    more = cited(folder, job, as_json=answer.json) if answer.cite else ()
     if folder is not None and answer.is_kept:
-        note(f"theory.csv, theory.json and theory.nc are in {folder}")
+        note(f"{', '.join(('theory.csv', 'theory.json', *more))} and theory.nc are in {folder}")
 
 
 def _by_row(table: xarray.Dataset) -> xarray.Dataset:
@@ -106,8 +110,8 @@ def _facts(job: TheoryJob, joint: SurfaceSpecification, table: xarray.Dataset) -
     if "hardness" in table:
         of = f", of {job.bodies.softer}" if job.theories.hardness is None else ""
         facts.append(("hardness", report.quantity("hardness", float(table["hardness"])) + of))
-    if any("conductance" in str(name) for name in table):
-        facts.append(("conductance of", _VACUUM))
+    if (conductors := conductors_of(job.conduction)) is not None:
+        facts += [*conductor_facts(conductors), ("conductance of", _VACUUM)]
     return facts
 
 

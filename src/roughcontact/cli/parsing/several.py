@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import typer
 
 from roughcontact.cli.exits import INTERRUPTED, MISSED
+from roughcontact.cli.json_answer import emit, kept
 from roughcontact.cli.verbosity import is_quiet
 
 __all__ = ["Cells", "do_each"]
@@ -55,7 +53,7 @@ def do_each(
         if status == INTERRUPTED:
             break
     if given["json"]:
-        typer.echo(json.dumps([record for _, record, _ in answers], allow_nan=False, ensure_ascii=True))
+        emit([record for _, record, _ in answers])
     else:
         width = max(map(len, files))
         rows = [list(_row(file.ljust(width), record, status, cells)) for file, record, status in answers]
@@ -64,16 +62,17 @@ def do_each(
         raise typer.Exit(worst)
 
 
-def _answer(one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any]) -> tuple[dict[str, Any], int]:
+def _answer(
+    one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any]
+) -> tuple[Mapping[str, Any], int]:
     """Return what a command answers as plain values, and its status."""
     status = 0
-    with redirect_stdout(StringIO()) as printed:
+    with kept() as answers:
         try:
             one(given)
         except typer.Exit as end:
             status = end.exit_code
-    record: dict[str, Any] = json.loads(printed.getvalue())
-    return record, status
+    return answers[-1], status
 
 
 def _row(file: str, record: Mapping[str, Any], status: int, cells: Cells) -> Iterator[str]:

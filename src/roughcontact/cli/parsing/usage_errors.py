@@ -38,7 +38,7 @@ def in_our_words(context: Any = None) -> Iterator[None]:
 
 
 def no_such_command(context: Any, name: str, known: Iterable[str]) -> UsageError:
-    """Return the error about a command that there is not."""
+    """Return the error about a command that does not exist."""
     return UsageError(f"{context.command_path!r} has no command {name!r}", choose(name, tuple(known)))
 
 
@@ -73,7 +73,8 @@ def _instead(context: Any, option: str) -> str:
     if found := _elsewhere(context, option):
         return f"use {' or '.join(found)} for it"
     known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]
-    near = difflib.get_close_matches(option, known, 2)
+    words = {name.strip("-"): name for name in known}
+    near = [words[each] for each in difflib.get_close_matches(option.strip("-"), words, 2)]
     slip = difflib.get_close_matches(option, known, 1, cutoff=_SLIP)
     if not slip and (found := _elsewhere(context, option, anywhere=True)):
         return f"use {' or '.join(found)} for it"

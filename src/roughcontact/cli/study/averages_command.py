@@ -144,7 +144,7 @@ def plot(
         chosen = quantity or _first(averaged, () if load else (_STIFFNESS,))
         save(study_figure(averaged, chosen, along, at=_written_load(*load) if load else ""), out)
         if load is not None:
-            note_unresolved(averaged)
+            note_unresolved(averaged, chosen)
         elif chosen == _STIFFNESS:
             note_laws(averaged)
         if json:
@@ -197,7 +197,8 @@ def averaged_in(folder: Path, window: Window | None, load: tuple[str, float] | N
         require_results(folder, summary)
         dataset = export(store)
     if summary.failed or summary.left:
-        note(f"{summary.failed} cases failed and {summary.left} are left: they have no part in the averages")
+        without = f"{summary.failed} cases failed, {summary.left} are not computed"
+        note(f"{without}: the averages are of the other {summary.done}")
     if load is not None:
         name, value = load
         _require_between(dataset, name, value)
@@ -254,22 +255,22 @@ def _is_mean(name: str) -> bool:
 
 def resolved_in(averaged: xarray.Dataset) -> xarray.DataArray | None:
     """Return in how many samples of each combination the load is resolved; None where there is not one load each."""
-    if "resolved" in averaged:  # the same in all samples
-        found = averaged["cases"] * averaged["resolved"]
-    elif "resolved_mean" in averaged:
-        found = (averaged["resolved_mean"] * averaged["resolved_count"]).fillna(0).round()
-    else:
-        return None
-    return found.astype(int) if found.dims == averaged["cases"].dims else None
+    found = averaged.get("resolved_samples")
+    return found if found is not None and found.dims == averaged["cases"].dims else None
 
 
-def note_unresolved(averaged: xarray.Dataset) -> None:
-    """Print a note where means at one load contain samples in which it is not resolved."""
+def note_unresolved(averaged: xarray.Dataset, quantity: str) -> None:
+    """Print a note where means at one load contain samples in which it is not resolved, or lack samples."""
     resolved = resolved_in(averaged)
     if resolved is not None and bool((short := resolved < averaged["cases"]).any()):
         note(
             f"{'all' if bool(short.all()) else 'some'} means contain loads that are not resolved (column resolved of "
             "study table): compute more points or larger loads"
+        )
+    if bool((averaged[f"{quantity}_count"] < averaged["cases"]).any()):
+        note(
+            "the loads of some samples do not reach this load (column samples of study table): prescribe loads on both "
+            "sides of it"
         )
 
 

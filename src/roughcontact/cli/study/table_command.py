@@ -48,7 +48,7 @@ QUANTITIES = option(
 
 _LAW = ("exponent", "prefactor")
 _EQUAL = 1e-12  # of a mean: samples that differ by no more are equal
-_CERTIFICATES = ("residual", "stiffness_residual", "resolved")  # shown where they are asked for
+_CERTIFICATES = ("residual", "stiffness_residual")  # shown where they are asked for
 _MOST_DECIMALS = 5  # beyond these a power of ten is shorter
 
 
@@ -73,7 +73,7 @@ def table(
         if laws or (quantity is None and load is None):
             note_laws(averaged)
         if load is not None:
-            note_unresolved(averaged)
+            note_unresolved(averaged, names[0])
 
 
 def _quantities(
@@ -97,7 +97,7 @@ def _quantities(
         if name not in single:
             raise UsageError(
                 f"{name} lies along {_rest(averaged, name)}",
-                f"choose of {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
+                f"choose from {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
                 place="--quantity",
             )
     return names
@@ -134,7 +134,9 @@ def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[
             add(name, [_with_error(*pair) for pair in pairs])
         add("from F/(E* h L)", [_number(point["window_low"].item()) for _, point in points])
         add("to", [_number(point["window_high"].item()) for _, point in points])
-        add("loads", [str(int(point["law_count"])) for _, point in points])
+        for title, name in (("loads", "law_count"), ("resolved", "law_resolved")):
+            if name in averaged:
+                add(title, [str(int(point[name])) for _, point in points])
     for name in names:
         mean, error = averaged[f"{name}_mean"], averaged[f"{name}_standard_error"]
         chosen = scale(float(abs(mean).max()), mean.attrs.get("units", ""))

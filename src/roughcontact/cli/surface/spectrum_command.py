@@ -132,7 +132,7 @@ def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
         print_facts(_facts(surface, record))
     for line in record["notes"]:
         note(line)
-    answer.note_files(folder, ("spectrum.csv", "spectrum.nc", f"spectrum.{answer.ending}"))
+    answer.finish(folder, ("spectrum.csv", "spectrum.nc", f"spectrum.{answer.ending}"), surface, found)
 
 
 def _surface(source: File, fill: bool) -> Surface:

@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from roughcontact.cli.cited import cited
 from roughcontact.cli.contact_of_job import name_of, prepared
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import as_typed, plain, remark, reported
@@ -94,8 +95,10 @@ def info(source: File, *, answer: Answer) -> None:
                 with task("Drawing"):
                     _draw(surface, spikes, folder / f"surface.{answer.ending}")
         tell(record, [*facts, *(("suspicious", line) for line in lines), *mended], as_json=answer.json)
+        more = cited(folder, surface, as_json=answer.json) if answer.cite else ()
         if folder is not None:
-            remark(f"surface.{answer.ending} is in {folder}")
+            names = " and ".join((f"surface.{answer.ending}", *more))
+            remark(f"{names} {'are' if more else 'is'} in {folder}")
 
 
 def _require_memory(surface: Surface) -> None:

@@ -11,7 +11,7 @@ from roughcontact.contact.press import grid_of, make_problem, solve
 from roughcontact.contact.problem import Body, ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.operator import Operator
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.control import Control
 from roughcontact.solver.loads import Loads
@@ -45,7 +45,7 @@ class LoadOutlook:
 
 def load_outlook(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     loads: Loads,
     operator: Operator | None = None,
 ) -> LoadOutlook:
@@ -55,7 +55,7 @@ def load_outlook(
     ----------
     surface : Surface or RadialProfile
         Heights [m].
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     loads : Loads
         Strictly increasing forces or nominal pressures.

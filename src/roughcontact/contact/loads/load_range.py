@@ -20,7 +20,7 @@ from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.progress.events import task
 from roughcontact.solver.control import Force
 from roughcontact.statistics.fit_window import CELLS, DECADE, FULL_CONTACT_SHARE
@@ -74,7 +74,7 @@ class LoadRange:
 @numeric(modulus="Pa", hardness="Pa")
 def load_range(
     surface: Body,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     count: int = FORCES,
     operator: Operator | None = None,
@@ -94,7 +94,7 @@ def load_range(
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     count : int
         Number of forces.

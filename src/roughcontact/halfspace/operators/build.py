@@ -13,7 +13,7 @@ from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Operator, capabilities
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.validation import numeric, shown
 
 __all__ = ["body_on", "half_space", "ring", "singly_periodic"]
@@ -22,7 +22,7 @@ __all__ = ["body_on", "half_space", "ring", "singly_periodic"]
 @numeric(modulus="Pa")
 def half_space(
     grid: Grid,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     method: Literal["dense"] | Sum = "fft",
 ) -> Operator:
@@ -32,7 +32,7 @@ def half_space(
     ----------
     grid : Grid
         Free, periodic, or periodic along one axis (see `singly_periodic` for what its depths count from).
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     method : {"fft", "dense", "moving-grid", "multilevel"}
         How the sum over the n cells is done. By fast Fourier transforms; with the full matrix (8 n^2 bytes); and on a
@@ -84,7 +84,7 @@ def half_space(
 
 @numeric(modulus="Pa", reference_length="m")
 def singly_periodic(
-    grid: Grid, modulus: float | Solid | tuple[Solid, Solid], *, reference_length: float | None = None
+    grid: Grid, modulus: Modulus, *, reference_length: float | None = None
 ) -> InfluenceOperator:
     """Return the half-space under loads that repeat themselves along one axis and not along the other.
 
@@ -92,7 +92,7 @@ def singly_periodic(
     ----------
     grid : Grid
         Grid of two axes, periodic along one of them.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     reference_length : float, optional
         Distance from the row of loads at which its mean displacement vanishes [m]; by default the longest
@@ -142,7 +142,7 @@ def singly_periodic(
 
 
 @numeric(modulus="Pa")
-def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> DenseOperator:
+def ring(grid: RadialGrid, modulus: Modulus) -> DenseOperator:
     """Return the half-space under constant pressures on rings, wide or narrow, to twelve digits.
 
     Displacements are means over a ring, so that the map is symmetric under the areas of the rings and every
@@ -152,7 +152,7 @@ def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> Dens
     ----------
     grid : RadialGrid
         Rings of any widths.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
 
     Returns
@@ -179,9 +179,7 @@ def ring(grid: RadialGrid, modulus: float | Solid | tuple[Solid, Solid]) -> Dens
     return DenseOperator(grid, ring_matrix(grid.edges) / (math.pi * value), modulus=value)
 
 
-def body_on(
-    grid: AnyGrid, modulus: float | Solid | tuple[Solid, Solid], operator: Operator | None = None
-) -> Operator:
+def body_on(grid: AnyGrid, modulus: Modulus, operator: Operator | None = None) -> Operator:
     """Return `operator`, which must lie on `grid`; without one the half-space that the grid suggests.
 
     Raises

@@ -13,7 +13,8 @@ from roughcontact.halfspace.influence.layer_bases import Base, Bonded, Frictionl
 from roughcontact.halfspace.influence.layer_influence import LayerCells, LayerWaves, Stack, kernel_for
 from roughcontact.halfspace.influence.tables import Tables
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator
-from roughcontact.material import Solid, as_modulus
+from roughcontact.material import Solid
+from roughcontact.materials import as_modulus
 from roughcontact.validation import moderate, numeric
 
 __all__ = ["layer"]

@@ -15,7 +15,7 @@ from roughcontact.halfspace.operators.cell_list import CellsOperator
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.validation import Array, numeric
 
 __all__ = ["LineOperator", "line"]
@@ -90,7 +90,7 @@ class LineOperator:
 @numeric(modulus="Pa", reference_length="m")
 def line(
     grid: Grid,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     reference_length: float | None = None,
     method: Sum = "fft",
@@ -103,7 +103,7 @@ def line(
     ----------
     grid : Grid
         Grid of one axis, free or periodic.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     reference_length : float, optional
         Of a free line: distance from a load at which its displacement is zero [m]; by default the grid's length.

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.errors import InputError, about
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile
 from roughcontact.mdr.bodies.disc import sample_radii
 from roughcontact.mdr.bodies.indentation import Indentation
@@ -348,15 +348,15 @@ class Control:
         return a, np.concatenate([[0.0], self.level(a[1:])])
 
 
-def jkr(profile: Profile, modulus: float | Solid | tuple[Solid, Solid], work: float) -> JKRContact:
+def jkr(profile: Profile, modulus: Modulus, work: float) -> JKRContact:
     """Return the adhesive contact of a body of revolution with short-ranged attraction.
 
     Parameters
     ----------
     profile : Profile
         The body.
-    modulus : float, Solid or pair of Solids
-        Reduced modulus E* [Pa], or the solids.
+    modulus : float, Solid, Material, str, or a pair of bodies
+        Reduced modulus E* [Pa], or the bodies.
     work : float
         Work of adhesion w [J/m^2].
 

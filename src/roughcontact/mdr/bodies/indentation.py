@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.errors import InputError, about
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile, checked_profile, checked_radii
 from roughcontact.mdr.bodies.disc import disc_radius
 from roughcontact.mdr.bodies.recovery import pressure, spring_energy, surface_displacement
@@ -187,7 +187,7 @@ class IndentationCurve:
 
 def indent(
     profile: Profile,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     force: float | None = None,
     depth: float | None = None,
@@ -199,7 +199,7 @@ def indent(
     ----------
     profile : Profile
         The body.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     force, depth, contact_radius : float
         Give exactly one: normal force [N], approach since first touch [m], or radius of the contact [m].
@@ -235,7 +235,7 @@ def indent(
 
 def indentation_curve(
     profile: Profile,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     forces: Sequence[float] | Array | None = None,
     depths: Sequence[float] | Array | None = None,
@@ -249,7 +249,7 @@ def indentation_curve(
     ----------
     profile : Profile
         The body, see `roughcontact.mdr.indenter`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     forces : array, shape (n,), optional
         Normal forces [N], strictly increasing; exactly one of the three is given.

@@ -58,9 +58,7 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     if modes is not None:
         return square_sum(hurst + 1, modes) / line_sum(2 * hurst + 1, modes)
     exponent = hurst + 1
-    above = (
-        exponent - 1
-    )  # H after rounding in the exponent: both poles of zeta must be evaluated at the same H
+    above = exponent - 1  # H as rounded in the exponent: both poles of zeta need the same H
     if above <= 0:  # both sums diverge, in the ratio of their integrals
         return 4 * _side_integral(exponent)
     return 2 * float(zeta(1 + above) / zeta(1 + 2 * above)) * _dirichlet_beta(exponent)

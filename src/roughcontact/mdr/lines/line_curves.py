@@ -103,9 +103,7 @@ class LineCurves:
                 getattr(other, name) == getattr(first, name) for name in ("modulus", "spacing", "points")
             )
             if not (same and np.array_equal(getattr(other, common), getattr(first, common))):
-                raise InputError(
-                    "curves can only be joined if they have the same loads, modulus, spacing and points"
-                )
+                raise InputError("joined curves must have the same loads, modulus, spacing and points")
         found = "depth" if common == "force" else "force"
         names = (found, "springs", "elastic_energy", "rms")
         joined: dict[str, Any] = {name: np.concatenate([getattr(b, name) for b in batches]) for name in names}

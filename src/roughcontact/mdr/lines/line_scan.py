@@ -8,7 +8,7 @@ from typing import Literal
 
 from roughcontact.errors import InputError
 from roughcontact.grid import Grid
-from roughcontact.material import Solid
+from roughcontact.materials import Modulus
 from roughcontact.mdr.lines.equivalent_line import LineSpectrum, line_spectrum
 from roughcontact.mdr.lines.line_curves import LineCurves
 from roughcontact.mdr.lines.random_lines import rough_lines
@@ -97,7 +97,7 @@ def scan_spectrum(
 @numeric
 def scan_curves(
     scan: Surface,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     rng: RngLike,
     *,
     forces: Sequence[float] | Array,
@@ -110,7 +110,7 @@ def scan_curves(
     ----------
     scan : Surface
         On a grid of one axis.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa].
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the phases.

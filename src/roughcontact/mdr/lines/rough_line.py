@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.errors import InputError, about
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.mdr.lines.line_curves import LineCurves
 from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, require
 
@@ -25,7 +25,7 @@ BLOCK = 2**15
 def loading_curves(
     heights: Array,
     spacing: float,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     forces: Sequence[float] | Array | None = None,
     depths: Sequence[float] | Array | None = None,
@@ -39,7 +39,7 @@ def loading_curves(
         Heights [m], positive toward the foundation. Only their differences within a line matter.
     spacing : float
         Distance of the points [m], and the width of a spring.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa]; a spring has the stiffness ``E* spacing``.
     forces, depths : array, shape (loads,), optional
         Give exactly one, the same for every line: strictly increasing forces [N], or depths below first touch [m].

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from roughcontact.errors import InputError
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.indentation import indented
 from roughcontact.theory.tools.roots import bisect
@@ -62,7 +62,7 @@ class SlipHistory:
 @numeric
 def slip_history(
     profile: Profile,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     shear_modulus: float,
     friction: float,
     *,
@@ -78,7 +78,7 @@ def slip_history(
     ----------
     profile : Profile
         The body, see `roughcontact.mdr.indenter`.
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     shear_modulus : float
         Reduced shear modulus G* [Pa].

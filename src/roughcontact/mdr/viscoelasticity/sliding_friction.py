@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughcontact.errors import InputError, about
-from roughcontact.material import Solid, as_modulus
+from roughcontact.materials import Modulus, as_modulus
 from roughcontact.mdr.lines.rough_line import BLOCK, checked_lines, loading_curves
 from roughcontact.mdr.viscoelasticity.sliding_state import SlidingState, sliding_state
 from roughcontact.validation import Array, number, numeric, positive_scalar, require
@@ -69,7 +69,7 @@ class SlidingCurves:
 def sliding_friction(
     heights: Array,
     spacing: float,
-    modulus: float | Solid | tuple[Solid, Solid],
+    modulus: Modulus,
     *,
     relaxation_time: float,
     force: float,
@@ -83,7 +83,7 @@ def sliding_friction(
         Heights [m] of one period, linear between the points. The springs pass in the order of the points.
     spacing : float
         Distance of the points [m].
-    modulus : float, Solid or pair of Solids
+    modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* of the body at low speed [Pa]; 4 G for an incompressible body.
     relaxation_time : float
         Viscosity over shear modulus [s]: a spring of width dx carries ``E* dx (u + relaxation_time du/dt)``.

@@ -1,4 +1,4 @@
-"""What a page says of the two bodies: their reduced modulus, hardness and grades, and the same in other numbers."""
+"""What a page shows of the two bodies: their reduced modulus, hardness and grades, and the same in other numbers."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ __all__ = ["bodies"]
 
 def bodies(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send reduced modulus and hardness [Pa], lines about them, and what the other fields of the bodies would hold."""
-    from roughcontact.materials import handbook
+    from roughcontact.materials import as_modulus, handbook
 
     job = request.job
     assert isinstance(job, CurveJob)
     known = performed(job.bodies.calls(), known_names())
-    hardness = yields_at(job.bodies, job.plastic)
+    modulus, hardness = as_modulus(known["modulus"]), yields_at(job.bodies, job.plastic)
     names = [name for name in value_of(job.bodies, "materials") or () if name != RIGID]
     metals = {name: handbook(name) for name in names}
-    same: dict[str, str] = {"modulus": _gigapascals(known["modulus"])}
+    same: dict[str, str] = {"modulus": _gigapascals(modulus)}
     for which, metal in zip(("", "2"), map(handbook, names), strict=False):
         same[f"young{which}"] = _gigapascals(metal.solid.young_modulus)
         same[f"poisson{which}"] = f"{metal.solid.poisson_ratio:g}"
-    lines = [f"Reduced modulus E* {_pressure(known['modulus'])}"]
+    lines = [f"Reduced modulus E* {_pressure(modulus)}"]
     lines += [
         f"{metal.name}: {metal.grade}; E {_pressure(metal.solid.young_modulus)}, "
         f"\u03bd {metal.solid.poisson_ratio:g}, hardness {_pressure(metal.hardness)}"
@@ -40,7 +40,7 @@ def bodies(request: PageRequest, cache: SessionCache, send: Send) -> None:
     send(
         {
             "type": "bodies",
-            "modulus": known["modulus"],
+            "modulus": modulus,
             "hardness": hardness.value(known) if isinstance(hardness, Call) else hardness,
             "lines": lines,
             "same": same,

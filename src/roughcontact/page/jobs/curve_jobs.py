@@ -53,8 +53,6 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     reached, part = _as_far(job, path, done) if stopped else (job, {})
     if reached is not None:
         cache.keep_curve(reached, found)
-    import numpy as np
-
     answer = shown_curve(found)
     send(
         {
@@ -68,13 +66,8 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
             **answer.shown(),
         }
     )
-    if answer.heights is not None:
-        place: dict[str, Any] = {
-            "lengths": answer.heights.grid.lengths,
-            "periodic": list(answer.heights.grid.periodic),
-        }
-        field = answer.heights.heights - np.nanmean(answer.heights.heights)
-        send_map(send, "flattened", field, request.whole("pixels", 1024, 4096), unit="m", **place)
+    for name, field, grid, unit in answer.maps:
+        send_map(send, name, field, grid, request.whole("pixels", 1024, 4096), unit)
 
 
 def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:

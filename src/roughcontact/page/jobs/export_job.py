@@ -20,7 +20,7 @@ from roughcontact.page.jobs.shown_curve import shown_curve
 from roughcontact.page.server.page_request import PageRequest, Send
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
-from roughcontact.recipe.job_calls import Call, python_of
+from roughcontact.recipe.job_calls import Call, performed, python_of
 from roughcontact.recipe.jobs import calls_of, contact_calls, known_names
 from roughcontact.recipe.recipe_fields import given, value_of
 from roughcontact.recipe.source import File
@@ -111,7 +111,7 @@ def _load_files(request: PageRequest, cache: SessionCache) -> Writers:
     [(name, value)] = request.job.load.named(request.job.contact.profile).items()
     dataset = solution_dataset(solution)
     numbers = dataset[[name for name, values in dataset.items() if not values.dims]]
-    source = _provenance(request, cache, f"{name} = {value!r}", solution.problem.modulus)
+    source = _provenance(request, cache, f"{name} = {value!r}")
     return _writers(
         "pressure",
         dataset,
@@ -125,7 +125,7 @@ def _load_files(request: PageRequest, cache: SessionCache) -> Writers:
 
 def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
     found = cache.curve(request.job)
-    source = _provenance(request, cache, request.job.NAME, getattr(found, "loading", found).modulus)
+    source = _provenance(request, cache, request.job.NAME)
     stem = request.job.NAME.replace(" ", "-")
     if (figure := shown_curve(found).figure) is not None:
         record = found.to_record()
@@ -170,13 +170,14 @@ def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, A
     return dataset, record, drawn
 
 
-def _provenance(request: PageRequest, cache: SessionCache, control: str, modulus: float) -> Mapping[str, Any]:
+def _provenance(request: PageRequest, cache: SessionCache, control: str) -> Mapping[str, Any]:
     from roughcontact.files.provenance import provenance
 
     command = request.statement["command"]
     job: Any = request.job  # of a kind that presses
     given: dict[str, Any] = {"control": control, "command": command, "recipe": request.recipe}
     tolerance = value_of(job.contact, "tolerance")
+    modulus = performed(job.bodies.calls(), known_names())["modulus"]
     return provenance(cache.surface(job), modulus=modulus, tolerance=tolerance, **given)
 
 
@@ -189,7 +190,7 @@ def _writers(
     table: str = "",
     numbers: Any = None,
 ) -> Writers:
-    """Return how an answer is written in every form; of one state the table holds the numbers alone."""
+    """Return how an answer is written in every form; of one state the table holds the numbers only."""
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.canvas import save
 

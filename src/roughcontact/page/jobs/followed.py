@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.errors import InputError, within
+from roughcontact.errors import within
 from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
+    from roughcontact.materials import Modulus
     from roughcontact.solver.loads import Loads
 
 __all__ = ["Followed", "collected", "follow", "up_to_path"]
@@ -54,12 +56,6 @@ def collected(followed: Followed) -> Any:
 def follow(calls: Iterable[Call], known: dict[str, Any]) -> Followed:
     """Perform calls up to the one that follows loads, and return the states that it follows."""
     *before, last = up_to_path(calls)
-    if last.function not in _FOLLOWED:
-        raise InputError(
-            "a page shows no single state of surfaces that stick",
-            "take an adhesion curve that ends there",
-            "job",
-        )
     for call in before:
         perform(call, known)
     with within(last.place):
@@ -75,7 +71,7 @@ def up_to_path(calls: Iterable[Call]) -> Iterator[Call]:
             return
 
 
-def _curve(surface: Any, modulus: float, **named: Any) -> Followed:
+def _curve(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.curve import collect
 
@@ -84,7 +80,7 @@ def _curve(surface: Any, modulus: float, **named: Any) -> Followed:
     return Followed(states, loads, collect, count=len(loads.values), notes=notes)
 
 
-def _loop(surface: Any, modulus: float, **named: Any) -> Followed:
+def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.loop import BRANCHES, collect_loop, loads_of_loop
 
@@ -98,7 +94,7 @@ def _loop(surface: Any, modulus: float, **named: Any) -> Followed:
     )
 
 
-def _rising(surface: Any, modulus: float, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
+def _rising(surface: Any, modulus: Modulus, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
     """Return the loads that are named; otherwise name forces that suit the surface, with what is known of them."""
     import roughcontact as rc
     from roughcontact.solver.loads import Loads
@@ -111,7 +107,7 @@ def _rising(surface: Any, modulus: float, named: dict[str, Any]) -> tuple[Loads,
     return Loads("force", found.forces), found.notes
 
 
-def _adhesive_curve(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+def _adhesive_curve(surface: Any, modulus: Modulus, adhesion: Any, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.adhesive_curve import collect_states
     from roughcontact.solver.loads import Loads
@@ -122,7 +118,7 @@ def _adhesive_curve(surface: Any, modulus: float, adhesion: Any, **named: Any) -
 
 
 def _adhesive_loop(
-    surface: Any, modulus: float, adhesion: Any, *, depth: float, points: int, **named: Any
+    surface: Any, modulus: Modulus, adhesion: Any, *, depth: float, points: int, **named: Any
 ) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.adhesive_curve import collect_states
@@ -141,6 +137,21 @@ def _ways(loads: Loads) -> list[str]:
     return ["approach" if grows else "retreat" for grows in approaches(loads.approach)]
 
 
+def _adhesive_state(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+    import roughcontact as rc
+    from roughcontact.solver.loads import Loads
+
+    def states() -> Iterator[Any]:
+        try:
+            state = rc.adhesive_state(surface, modulus, adhesion, **named)
+        except rc.ConvergenceError as error:
+            state = error.solution
+        yield state
+
+    loads = Loads.of(**{name: named.get(name) for name in ("force", "pressure", "depth", "mean_gap")})
+    return Followed(states(), loads, lambda path: next(iter(path)), count=1)
+
+
 def _detachment(solution: Any, work: float, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.adhesion.detachment_curve import collect_detachments
@@ -148,8 +159,9 @@ def _detachment(solution: Any, work: float, **named: Any) -> Followed:
 
     loads = Loads.given(**named)
     states = rc.detachment_path(solution, work, **named)
-    shown = Loads.of(depth=0.0) if loads is None else loads
-    return Followed(states, shown, lambda path: collect_detachments(path, loads), count=len(shown.values))
+    shown, parts = (Loads.of(depths=[0.0] * 3), False) if loads is None else (loads, True)
+    collect = partial(collect_detachments, loads=loads)
+    return Followed(states, shown, collect, count=len(shown.values), parts=parts)
 
 
 _FOLLOWED: dict[str, Callable[..., Followed]] = {
@@ -158,4 +170,5 @@ _FOLLOWED: dict[str, Callable[..., Followed]] = {
     "rc.adhesive_curve": _adhesive_curve,
     "rc.adhesive_loop": _adhesive_loop,
     "rc.detachment_curve": _detachment,
+    "rc.adhesive_state": _adhesive_state,
 }

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from roughcontact.labels.labelled import plain_values
+from roughcontact.labels.variables import unit_of
 from roughcontact.page.jobs.curve_point import point_of
 from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
+from roughcontact.recipe.contact import Contact
 from roughcontact.recipe.elastic_jobs import PressJob
+from roughcontact.recipe.prescribed_loads import kinds_of
 
 if TYPE_CHECKING:
     from roughcontact.contact.solution import Solution
@@ -19,27 +22,29 @@ __all__ = ["cut", "press"]
 
 def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the maps of pressure and gap, then numbers, notes and the distribution of the pressure."""
-    import numpy as np
-
+    from roughcontact.plot.drawing.engineering_units import pretty, written
     from roughcontact.plot.facts import solution_facts
+    from roughcontact.plot.pressure_bars import pressure_bars
 
-    send({"type": "span", **cache.span(request.job)})
+    profile = getattr(request.job, "contact", Contact()).profile
+    units = {name: kind.unit for name, kind in kinds_of(profile).items()}
+    send({"type": "span", "units": units, **cache.span(request.job)})
     if not isinstance(request.job, PressJob):  # the page does not know yet which loads suit the surface
         return
     solution = cache.solution(request.job)
-    grid = solution.problem.grid
+    problem = solution.problem
+    grid, unit = problem.grid, pretty(unit_of("pressure", problem.geometry))
     most = request.whole("pixels", 1024, 4096)
-    place: dict[str, Any] = {"lengths": grid.lengths, "periodic": list(grid.periodic)}
-    send_map(send, "pressure", solution.pressure, most, unit="Pa", **place)
-    send_map(send, "gap", solution.gap, most, lowest=True, unit="m", **place)
-    highest = np.unravel_index(int(solution.pressure.argmax()), grid.shape)
+    send_map(send, "pressure", solution.pressure, grid, most, unit)
+    send_map(send, "gap", solution.gap, grid, most, "m", lowest=True)
+    highest = divmod(int(solution.pressure.argmax()), grid.shape[-1])
     send(
         {
             "type": "state",
             "force": solution.force,
             "pressure": solution.nominal_pressure,
             "depth": solution.depth,
-            "highest": [int(index) for index in highest],
+            "highest": highest,
             "warning": _warning(solution),
         }
     )
@@ -53,20 +58,34 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
         }
     )
     if solution.contact.any():
-        density, edges = solution.pressure_histogram(60)
-        centres = (edges[1:] + edges[:-1]) / 2
-        send({"type": "pressures", "x": centres.tolist(), "y": density.tolist()})
+        bars = pressure_bars(solution)
+        part = f"{100 * bars.beyond:.2g} % of the contact area, up to {written(bars.largest, unit)}"
+        send(
+            {
+                "type": "pressures",
+                "x": ((bars.edges[1:] + bars.edges[:-1]) / 2).tolist(),
+                "y": bars.density.tolist(),
+                "unit": unit,
+                "beyond": f"Beyond the axis: {part}." if bars.beyond else "",
+            }
+        )
 
 
 def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send one row or column: the surface before the load and under it, and the pressure."""
     import numpy as np
 
+    from roughcontact.plot.drawing.engineering_units import pretty
+
     solution = cache.solution(request.job)
-    problem, along_row = solution.problem, request.more.get("axis") != "column"
-    count = problem.grid.shape[0 if along_row else 1]
+    problem = solution.problem
+    *across, x = problem.grid.coordinates
+    along_row = not across or request.more.get("axis") != "column"
+    if not along_row:
+        [x], across = across, [x]
+    count = across[0].size if across else 1
     at = min(request.whole("place", 1, count), count) - 1
-    line = (at, slice(None)) if along_row else (slice(None), at)
+    line = () if not across else (at, slice(None)) if along_row else (slice(None), at)
     gap = solution.gap[line]
     send(
         {
@@ -74,8 +93,8 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "axis": "row" if along_row else "column",
             "place": at,
             "count": count,
-            "x": problem.grid.coordinates[1 if along_row else 0].tolist(),
-            "across": float(problem.grid.coordinates[0 if along_row else 1][at]),
+            "x": x.tolist(),
+            "across": float(across[0][at]) if across else None,
             # The flat lies at 0, in both.
             "before": plain_values(
                 np.where(problem.measured[line], solution.depth - problem.separation[line], np.nan)
@@ -83,16 +102,15 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "under": plain_values(-gap),
             "gap": plain_values(gap),
             "pressure": plain_values(solution.pressure[line]),
+            "unit": pretty(unit_of("pressure", problem.geometry)),
         }
     )
 
 
 def _warning(solution: Solution) -> str:
-    """Return in one sentence what to do about a load whose numbers are not to be relied upon; else nothing."""
+    """Return one sentence with a remedy if the numbers of a load are not reliable; otherwise an empty text."""
     if not solution.status.converged:
-        return "The solver has missed its tolerance: take another load, or filter the shortest waves."
+        return "The solver missed its tolerance: take another load, or filter the shortest waves."
     if solution.contact.any() and not solution.resolved_from_below:
-        return (
-            "So few cells bear this load that the grid sets the stiffness: take a larger load or a finer map."
-        )
+        return "Too few cells carry this load, so the stiffness depends on the grid: take a larger load or a finer map."
     return ""

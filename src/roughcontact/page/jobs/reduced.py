@@ -1,4 +1,4 @@
-"""Maps for a screen: at most so many cells a side, and no peak lost."""
+"""Maps for a screen: at most n cells a side, and no peak lost."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class UploadedFile:
 
 @dataclass(frozen=True, slots=True)
 class SessionCache:
-    """What was computed last, by the calls that compute it; all of it can be computed again."""
+    """What was computed last, by the calls that compute it; each answer can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
 
@@ -54,7 +54,7 @@ class SessionCache:
                 and max(points(job.source.points)) > _MOST_POINTS
             ):
                 raise InputError(
-                    f"a surface has up to {_MOST_POINTS} points a side here, not {job.source.points}",
+                    f"a surface on the page has at most {_MOST_POINTS} points a side, not {job.source.points}",
                     "give fewer, or use the command line",
                     "source.points",
                 )
@@ -112,13 +112,17 @@ class SessionCache:
 
         return self._once("solution", _key([*surface_calls(job), *contact_calls(job)]), pressed)
 
-    def span(self, job: Job) -> dict[str, tuple[float, float, float]]:
+    def span(self, job: Any) -> dict[str, tuple[float, float, float]]:
         """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
+        from roughcontact.materials import as_modulus
+
         surface, bodies = self.surface(job), getattr(job, "bodies", None)
         if bodies is None:
             return {}
         slope = self._once("slope", _key(surface_calls(job)), lambda: _slope(surface))
-        stress, height = performed(bodies.calls(), known_names())["modulus"] * slope, surface.rms
+        modulus, height = as_modulus(performed(bodies.calls(), known_names())["modulus"]), surface.rms
+        # A spring bears a force per length, the modulus times its depth.
+        stress = modulus * (height if job.contact.profile == "winkler" else slope)
         if not (stress > 0 and height > 0):
             return {}
         pressures = (1e-6 * stress, 2 * stress, 1e-2 * stress)

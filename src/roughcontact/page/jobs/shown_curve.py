@@ -1,4 +1,4 @@
-"""What is shown and written of curves of every kind: of rising loads, of a loop, of surfaces that stick."""
+"""What is shown and written of curves of every kind, and of one state of surfaces that stick."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughcontact.errors import InputError
+from roughcontact.labels.variables import unit_of
 from roughcontact.page.refusal import on_the_page
+from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+    from roughcontact.adhesion.adhesive_state import AdhesiveState
     from roughcontact.adhesion.detachment_curve import DetachmentCurve
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
@@ -31,16 +34,16 @@ class ShownCurve:
 
     Parameters
     ----------
-    curve : Curve, Loop, AdhesiveCurve or DetachmentCurve
+    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve or AdhesiveState
     facts : list of (str, str)
-        What is worth telling of it as a whole.
+        Facts about it as a whole: labels and values.
     figure : function
         Draws it; of a curve of rising loads, which has theories, None.
     notes : list of str
     more : dict
         What its chart has besides the points: a power law, or lines of force against depth.
-    heights : Surface, RadialProfile or None
-        The surface after the loads, where it has flowed.
+    maps : list of (str, array, Grid, str)
+        Fields beside those of the load: name, values, cells, unit.
     """
 
     curve: Any
@@ -48,7 +51,7 @@ class ShownCurve:
     figure: Callable[[], Figure] | None = None
     notes: Sequence[str] = ()
     more: dict[str, Any] = field(default_factory=dict)
-    heights: Any = None
+    maps: Sequence[tuple[str, Array, Any, str]] = ()
 
     def shown(self) -> dict[str, Any]:
         """Return what a page shows of it, as plain values."""
@@ -83,7 +86,10 @@ def _of_loop(loop: Loop) -> ShownCurve:
     from roughcontact.plot.facts import loop_facts
     from roughcontact.plot.loops import loop_figure
 
-    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), heights=loop.flattened)
+    after: Any = loop.flattened
+    heights = after.heights - np.nanmean(after.heights)
+    maps = [("flattened", heights, after.grid, "m")]
+    return ShownCurve(loop, loop_facts(loop), lambda: loop_figure(loop), loop.notes, maps=maps)
 
 
 def _of_path(path: AdhesiveCurve) -> ShownCurve:
@@ -123,11 +129,22 @@ def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
     return ShownCurve(curve, detachment_facts(curve), drawn, curve.notes, {"lines": lines})
 
 
+def _of_state(state: AdhesiveState) -> ShownCurve:
+    from roughcontact.plot.adhesive_facts import adhesive_facts
+    from roughcontact.plot.drawing.engineering_units import pretty
+    from roughcontact.plot.tension import state_figure
+
+    unit = pretty(unit_of("pressure", state.geometry))
+    maps = [("traction", state.pressure, state.problem.operator.grid, unit)]
+    return ShownCurve(state, adhesive_facts(state), lambda: state_figure(state), state.notes, maps=maps)
+
+
 _SHOWN: dict[str, Callable[[Any], ShownCurve]] = {
     "Curve": _of_curve,
     "Loop": _of_loop,
     "AdhesiveCurve": _of_path,
     "DetachmentCurve": _of_detachment,
+    "AdhesiveState": _of_state,
 }
 
 

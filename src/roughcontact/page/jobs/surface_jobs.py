@@ -36,10 +36,22 @@ _AREAL = (
     ("Sdq", "root mean square gradient", ""),
     ("Sdr", "developed interfacial area ratio", ""),
 )
+# For a profile, parameters of ISO 21920-2.
+_PROFILE = (
+    ("Rq", "root mean square height", "m"),
+    ("Ra", "arithmetic mean height", "m"),
+    ("Rz", "maximum height", "m"),
+    ("Rp", "mean peak height", "m"),
+    ("Rv", "mean pit depth", "m"),
+    ("Rt", "total height", "m"),
+    ("Rsk", "skewness", ""),
+    ("Rku", "kurtosis", ""),
+    ("Rdq", "root mean square gradient", ""),
+)
 
 
 def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send what the file holds, the heights after their preparation, and what is worth telling of them."""
+    """Send what the file holds, the heights after their preparation, and facts about them."""
     import numpy as np
 
     source = request.job.source
@@ -48,13 +60,13 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
     raw, warned = cache.read(request.job)
     surface = cache.surface(request.job)
     heights = surface.heights - np.nanmean(surface.heights)
-    send_map(send, "heights", heights, request.whole("pixels", 1024, 4096), **_place(surface))
+    send_map(send, "heights", heights, surface.grid, request.whole("pixels", 1024, 4096), "m")
     send(
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
             "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
-            "raw": {**_place(raw), "shape": raw.grid.shape},
+            "raw": {"lengths": raw.grid.lengths, "shape": raw.grid.shape},
             **request.statement,
         }
     )
@@ -65,22 +77,30 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
     import numpy as np
 
     import roughcontact as rc
+    from roughcontact.plot.drawing.usual_range import usual_range
+    from roughcontact.plot.pressure_bars import fewer
 
     surface = cache.surface(request.job)
     rough = surface.rms > 0
     if rough:
-        histogram = rc.height_histogram(surface, bins=80)
+        heights = surface.heights[surface.measured]
+        heights = heights - heights.mean()
+        histogram = rc.height_histogram(surface, bins=fewer(80, heights), ends=usual_range(heights))
+        beyond = 1 - float(histogram.count.sum()) / heights.size
+        ends = " to ".join(written(float(end), "m") for end in (heights.min(), heights.max()))
         send(
             {
                 "type": "heights",
                 "x": histogram.centres.tolist(),
                 "y": histogram.density.tolist(),
                 "normal": histogram.gaussian(histogram.centres).tolist(),
+                "beyond": f"Beyond the axis: {100 * beyond:.2g} % of the heights, {ends}." if beyond else "",
             }
         )
     warned = [each | {"remedy": on_the_page(each["remedy"])} for each in cache.warnings(request.job)]
     send({"type": "warnings", "warnings": warned})
-    send({"type": "spikes", "places": cache.spikes(request.job).places[:_MOST_SPIKES].tolist()})
+    places = cache.spikes(request.job).places[:_MOST_SPIKES]
+    send({"type": "spikes", "places": [[0, *place][-2:] for place in places.tolist()]})
     if rough:
         spectrum = rc.power_spectrum(surface.filled(), per_decade=40)
         there = spectrum.density > 0
@@ -90,7 +110,7 @@ def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 "type": "spectrum",
                 "x": spectrum.wavenumber[there][thin].tolist(),
                 "y": spectrum.density[there][thin].tolist(),
-                "band": [float(spectrum.q_min), float(spectrum.q_max)],
+                "unit": "m⁴" if surface.grid.ndim == 2 else "m³",
             }
         )
         send({"type": "roughness", "facts": _roughness(surface)})
@@ -108,17 +128,16 @@ def _channels(source: File) -> list[dict[str, Any]]:
     return found
 
 
-def _place(surface: Surface) -> dict[str, Any]:
-    return {"lengths": surface.grid.lengths, "periodic": list(surface.grid.periodic), "unit": "m"}
-
-
 def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
     """Return what is shown of the roughness: symbol or name, what it means, and its value."""
     import roughcontact as rc
 
-    parameters, moments = rc.areal_parameters(surface), rc.surface_moments(surface)
+    areal = surface.grid.ndim == 2
+    parameters: Any = rc.areal_parameters(surface) if areal else rc.profile_parameters(surface.filled())
+    moments = rc.surface_moments(surface)
     facts = [
-        (name, words, written(float(getattr(parameters, name)), unit, 4)) for name, words, unit in _AREAL
+        (name, words, written(float(getattr(parameters, name)), unit, 4))
+        for name, words, unit in (_AREAL if areal else _PROFILE)
     ]
     facts.append(("rms slope", "from the moment m2", written(moments.rms_slope, "", 4)))
     facts.append(("rms curvature", "from the moment m4", written(moments.rms_curvature, "m-1", 4)))

@@ -83,7 +83,7 @@ class Guard:
         if (entered and self.entered(query)) or self._has_cookie(given.get("cookie", [])):
             return None
         return Refused(
-            403, "Open the address that roughcontact serve has printed: it holds the key to this page."
+            403, "Open the address that roughcontact serve printed: it contains the key of this page."
         )
 
     def entered(self, query: str) -> bool:

@@ -56,7 +56,7 @@ class PageServer:
         before = request.query_params.get("again", "")
         key = before if self.sessions.back(before) else await self.sessions.begin()
         if key is None:
-            words = f"{MOST_SESSIONS} tabs are open already, each with processes that compute: close one."
+            words = f"{MOST_SESSIONS} tabs are open, which is the most: close one."
             return _refusal(503, words)
         file = self.sessions.given
         given = None if file is None else {"file": GIVEN, "name": file.name}
@@ -70,7 +70,7 @@ class PageServer:
         async def endpoint(request: Request) -> ASGIApp:
             session = self.sessions.find(request.query_params.get("session", ""))
             if session is None:
-                return _refusal(410, "The server does not know this tab: load the page again.")
+                return _refusal(410, "The session of this tab has ended: load the page again.")
             return await answer(session, request)
 
         return endpoint
@@ -89,7 +89,7 @@ class PageServer:
         except ClientDisconnect:
             return Response(status_code=400)
         except OSError as error:
-            return _refusal(507, f"The server cannot keep the file: {error.strerror or error}.")
+            return _refusal(507, f"The server cannot store the file: {error.strerror or error}.")
         session.files[key] = file
         return JSONResponse({"file": key, "name": file.name})
 
@@ -99,10 +99,10 @@ class PageServer:
         async for part in request.stream():
             body += part
             if len(body) > _LONGEST_REQUEST:
-                return _refusal(413, "No request is that long.")
+                return _refusal(413, "The request is longer than 1 MB.")
         asked = _asked(body)
         if asked is None:
-            return _refusal(400, "A request is an object of JSON.")
+            return _refusal(400, "A request must be an object of JSON.")
         return _Streamed(session.perform(asked), self.closing)
 
     async def stop(self, session: Session, request: Request) -> Response:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.errors import InputError
 from roughcontact.files.fingerprint import fingerprint
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
-from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
 from roughcontact.recipe.source import File
@@ -20,11 +19,15 @@ from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
-__all__ = ["PageJob", "PageRequest", "Send", "send_map"]
+if TYPE_CHECKING:
+    from roughcontact.grid import AnyGrid
+
+__all__ = ["PageJob", "PageRequest", "Send", "send_map", "sides"]
 
 _PART_OF_COLOURS = (
     0.8  # where nearly all heights would have less, the colours end before the highest and the lowest
 )
+_BAND = 0.12  # height of the band of a profile, over its length
 
 
 class Send(Protocol):
@@ -68,17 +71,16 @@ class PageRequest:
 
         def known(file: File) -> UploadedFile:
             if file.file not in files:
-                raise InputError("the server has no such file any more", "drop it again", "source.file")
+                raise InputError("the server no longer has this file", "drop it again", "source.file")
             return files[file.file]
 
         job = from_plain(plain)
         if isinstance(job, TheoryJob):
             raise InputError(
-                "a page shows maps", "run a job of theories by the command roughcontact run", "job"
+                "the page shows surfaces, and a job of theories has none",
+                "use the command roughcontact run",
+                "job",
             )
-        job = _explicit(job)
-        if not isinstance(job, SurfaceJob) and job.contact.profile is not None:
-            raise InputError("a page presses maps", "press a profile by the command line", "contact.profile")
         beside = None if more.get("beside") is None else cls.of(more["beside"], files, {})
         return cls(
             with_files(job, lambda file: replace(file, file=str(known(file).path))),
@@ -114,19 +116,21 @@ class PageRequest:
 PageJob = Callable[[PageRequest, SessionCache, Send], None]
 
 
-def _explicit(job: JobOfHeights) -> JobOfHeights:
-    """Return a job that says how its heights are levelled: a page shows the heights that it presses."""
-    if job.preparation.level is not None:
-        return job
-    return replace(job, preparation=replace(job.preparation, level="none"))
+def sides(grid: AnyGrid) -> tuple[float, ...]:
+    """Return the sides of the map of a grid [m]: that of a profile is a band."""
+    lengths = tuple(grid.lengths)
+    return lengths if len(lengths) == 2 else (_BAND * lengths[0], *lengths)
 
 
-def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = False, **more: Any) -> None:
+def send_map(
+    send: Send, name: str, field: Array, grid: AnyGrid, most: int, unit: str, *, lowest: bool = False
+) -> None:
     """Send a map in single precision, no side longer than `most`, its highest values kept, or its `lowest`."""
     import numpy as np
 
     from roughcontact.plot.drawing.usual_range import usual_range
 
+    field = np.atleast_2d(field)
     factor = factor_for(field.shape, most)
     seen = np.ascontiguousarray(as_seen(field, factor, lowest=lowest), dtype="<f4")
     known = seen[~np.isnan(seen)]
@@ -140,5 +144,7 @@ def send_map(send: Send, name: str, field: Array, most: int, *, lowest: bool = F
         "factor": factor,
         "ends": ends,
         "colours": colours,
+        "lengths": sides(grid),
+        "unit": unit,
     }
-    send({**header, **more}, seen.tobytes())
+    send(header, seen.tobytes())

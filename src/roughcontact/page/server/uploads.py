@@ -20,7 +20,7 @@ _TOGETHER = (
 )  # bytes of all that a tab has dropped: where temporary files lie in memory, it is limited
 _TOO_LARGE = (
     f"The file is larger than {LARGEST // 2**20} MB",
-    "crop it where it was measured, or use the command line.",
+    "crop it in the program that wrote it, or use the command line.",
 )
 _LONGEST = 120  # bytes of a name
 _PATIENCE = 60.0  # seconds in which something of the file must come
@@ -52,7 +52,7 @@ async def store(
         raise TooLargeError(*_TOO_LARGE)
     if sum(each.stat().st_size for each in folder.glob("*/*")) > _TOGETHER - LARGEST:
         raise TooLargeError(
-            "This tab holds many large files already", "load the page again, and drop this one."
+            "This tab holds many large files already", "load the page again, then drop this file."
         )
     key = secrets.token_hex(8)
     place = folder / key
@@ -81,7 +81,7 @@ async def _steady(parts: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
         except StopAsyncIteration:
             return
         except TimeoutError:
-            raise TooSlowError("The file no longer comes", "drop it again.") from None
+            raise TooSlowError("The upload has stopped", "drop the file again.") from None
         yield part
 
 

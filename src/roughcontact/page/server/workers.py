@@ -30,10 +30,10 @@ GIVEN = "given"  # what the page calls the file of the command line
 _DELAY = 3.0  # seconds before the next reserve is started: the first answer comes first
 _GRACE = 0.15  # seconds in which a cancelled request may end; its process is killed afterwards
 _DIED = (
-    "The process that computes was ended from outside, or ran out of memory. A new one takes over: press Ask again, or "
-    "Start for a curve."
+    "The computing process was killed, or it ran out of memory. A new one takes over: press Compute again, or Start "
+    "for a curve."
 )
-_NOT_STARTED = "The process that computes did not start: see what it wrote where the server runs."
+_NOT_STARTED = "The computing process did not start: read its messages in the terminal of roughcontact serve."
 
 
 @dataclass(slots=True, eq=False)
@@ -257,6 +257,9 @@ class Sessions:
         """Open a session and return its key; None if there are too many."""
         if len(self.known) >= MOST_SESSIONS:
             await self._end_silent(self.room)
+        leaving = [each.leaving for each in self.known.values() if each.leaving is not None]
+        if len(self.known) >= MOST_SESSIONS and leaving:
+            await asyncio.wait(leaving, return_when=asyncio.FIRST_COMPLETED)
         if len(self.known) >= MOST_SESSIONS:
             return None
         key = secrets.token_hex(16)
@@ -301,9 +304,7 @@ class Sessions:
 
     async def _end_silent(self, limit: float) -> None:
         before = monotonic() - limit
-        for key in [
-            key for key, each in self.known.items() if each.leaving or (each.heard < before and not each.busy)
-        ]:
+        for key in [key for key, each in self.known.items() if each.heard < before and not each.busy]:
             await self.end(key)
 
     def _prepare(self) -> asyncio.Task[_Worker]:

@@ -4,13 +4,19 @@ import { digits, scaleFor } from "./words.js";
 
 /* global uPlot */
 
-// Of a logarithmic axis the decades alone have lines: all of them would be a band of ink.
-const decades = (_, splits) => splits.map((at) => (Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-6 ? at : null));
+// Only the decades of a logarithmic axis have lines: all lines would be a band of ink.
+const decade = (at) => at !== null && Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-6;
+const decades = (_, splits) => splits.map((at) => (decade(at) ? at : null));
+// Where labels of all decades would overlap, every second or third decade has one.
+function labelled(ticks, log, most) {
+  const every = log ? Math.ceil(ticks.filter(decade).length / most) : 1;
+  return every > 1 ? ticks.map((at) => (decade(at) && Math.round(Math.log10(at)) % every === 0 ? at : null)) : ticks;
+}
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const shown = new Set();
 
 // Series: { label, x, y, kind: "line" | "points" | "rings" | "mark" | "area", colour, dash, gaps }. Axes: { label, unit, log };
-// `y.per` stands for a density over x. `clicked(x)` and `hovered(k)` tell of places in the units of the series.
+// `y.per` stands for a density over x, `beyond` is a line about what lies outside. `clicked(x)` and `hovered(k)` get places in the units of the series.
 export function chart(root, spec) {
   root.spec = spec;
   if (!shown.has(root)) {
@@ -48,7 +54,7 @@ function redraw() {
 }
 
 function draw(root) {
-  const { x, y, series, zero = false, height = 0, label = "", count = null } = root.spec;
+  const { x, y, series, zero = false, height = 0, label = "", count = null, beyond = "" } = root.spec;
   if (root.plot) root.plot.destroy();
   root.plot = null;
   const width = root.clientWidth;
@@ -61,7 +67,8 @@ function draw(root) {
   const em = 0.8 * parseFloat(getComputedStyle(document.documentElement).fontSize);
   const font = `${em}px system-ui, sans-serif`;
   const ratio = { ink: css("--ink-soft"), grid: css("--line-soft") };
-  const axis = (of, scale) => ({
+  const tall = height || Math.min(Math.max(220, 0.5 * width), 560);
+  const axis = (of, scale, most) => ({
     label: of.label + (scale.unit ? ` [${scale.unit}]` : ""),
     labelFont: font,
     font,
@@ -70,13 +77,13 @@ function draw(root) {
     labelGap: 2,
     grid: { stroke: ratio.grid, width: 1, ...(of.log ? { filter: decades } : {}) },
     ticks: { stroke: ratio.grid, width: 1, size: 4 },
-    values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : digits(tick, 3))),
+    values: (_, ticks) => labelled(ticks, of.log, most).map((tick) => (tick === null ? "" : digits(tick, 3))),
   });
   const readout = Object.assign(document.createElement("p"), { className: "readout" });
   const units = { x: scaleX.unit, y: scaleY.unit };
   const options = {
     width,
-    height: height || Math.min(Math.max(220, 0.5 * width), 560),
+    height: tall,
     padding: [10, 22, 0, 0],
     legend: { show: false },
     cursor: { drag: { x: false, y: false }, points: { size: 8 } },
@@ -85,14 +92,15 @@ function draw(root) {
       y: y.log ? { distr: 3 } : { range: (_, low, high) => (zero ? [Math.min(0, low), high * 1.05 || 1] : uPlot.rangeNum(...apart(low, high), 0.1, true)) },
     },
     axes: [
-      { ...axis(x, scaleX), size: 2.5 * em },
-      { ...axis(y, scaleY), size: (_, ticks) => 14 + 0.58 * em * Math.max(2, ...(ticks || []).map((each) => each.length)) },
+      { ...axis(x, scaleX, width / (5 * em)), size: 2.5 * em },
+      { ...axis(y, scaleY, tall / (3 * em)), size: (_, ticks) => 14 + 0.58 * em * Math.max(2, ...(ticks || []).map((each) => each.length)) },
     ],
     series: [{}, ...series.map(drawn)],
     hooks: { setCursor: [(plot) => pointed(root, plot, readout, units)] },
   };
   root.plot = new uPlot(options, [xs, ...columns], root);
   if (series.length > 1) root.append(legend(series));
+  if (beyond) root.append(Object.assign(document.createElement("p"), { className: "beyond", textContent: beyond }));
   root.append(readout);
   root.setAttribute("role", "img");
   root.setAttribute("aria-label", `${label || y.label}: ${y.label} against ${x.label}, ${count ?? xs.length} points`);
@@ -102,7 +110,7 @@ function draw(root) {
   });
 }
 
-// The ends of an axis: values that differ by rounding alone have no ticks between them.
+// The ends of an axis: values that differ only by rounding have no ticks between them.
 function apart(low, high) {
   const size = Math.max(Math.abs(low), Math.abs(high));
   return high - low > 1e-6 * size ? [low, high] : [low - (0.05 * size || 1), high + (0.05 * size || 1)];

@@ -21,7 +21,7 @@ export function comparison({ recipe, jobOf, map, failed, changed, curveFacts }) 
   let asked = null; // of the kept surface: { load, sent }
   let current = null;
 
-  // Press the kept surface by the load of the other one; the newest load alone counts.
+  // Press the kept surface by the load of the other one; only the newest load counts.
   async function follow() {
     const { load } = recipe.now;
     if (!kept || asked || !load || JSON.stringify(load) === kept.answered) return;

@@ -8,5 +8,5 @@ export function dragged(part, before, raw, cells) {
     const step = Math.max(1, Math.round((high - low) / cells[axis]));
     const [a, b] = [part[2 * axis], part[2 * axis + 1]];
     return `${low + a * step}:${Math.min(low + b * step, high)}`;
-  }).join(",");
+  }).slice(-raw.length).join(",");
 }

@@ -46,6 +46,6 @@ export function curveTable(root, { columns, points }, current, chosen) {
   }
   const top = document.createElement("thead");
   top.append(head);
-  root.replaceChildren(...(clickable ? [element("caption", "A row shows its contact.")] : []), top, body);
+  root.replaceChildren(...(clickable ? [element("caption", "Choose a force to show its contact.")] : []), top, body);
   if (focused >= 0) body.querySelectorAll("button")[focused]?.focus({ preventScroll: true });
 }

@@ -3,10 +3,9 @@
 import { chart, clear } from "./charts.js";
 import { curveTable } from "./curve_table.js";
 import { form, rest } from "./form.js";
-import { UNITS } from "./load_bar.js";
 import { facts, list } from "./numbers.js";
 import { progressBar } from "./progress.js";
-import { jobOf } from "./recipe.js";
+import { jobOf, profileOf } from "./recipe.js";
 import { statement } from "./statement.js";
 import { theoryList } from "./theory_list.js";
 import { trouble } from "./trouble.js";
@@ -20,7 +19,7 @@ const COLOURS = { unloading: "--second", reloading: "--third", retreat: "--secon
 const DASHES = { jump: [3, 3], "pull-off force": [8, 4] };
 const by = (id) => document.getElementById(id);
 
-export function curveView({ recipe, forms, known, usual, failed, ended, flattened }) {
+export function curveView({ recipe, forms, known, load, failed, ended, mapped }) {
   let running = null;
   let current = null; // { job, columns, points, end }
   let kept = null;
@@ -40,7 +39,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
   function wanted() {
     const { theories: _, ...job } = jobOf(recipe.now.kind, recipe.now, forms);
     const { materials } = job.bodies;
-    if (job.conduction && !Object.keys(job.conduction).length && materials && !materials.includes("rigid")) {
+    if (job.conduction && !Object.keys(job.conduction).length && materials && !materials.includes("rigid") && !profileOf(job)) {
       job.conduction = { resistivity: materials, conductivity: materials };
     }
     return job;
@@ -70,7 +69,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
       const field = run === current && trouble("curve", end);
       if (field) say("");
       else if (run === current && end.message) say(end.message);
-      else if (run === current && end.how === "stopped") say("Stopped before there was an answer.");
+      else if (run === current && end.how === "stopped") say("Stopped before the first point.");
     } catch (error) {
       failed(error);
     }
@@ -81,7 +80,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
 
   function heard(run, header, data) {
     if (header.type === "progress") return run.columns.length || search.heard(header);
-    if (header.type === "map") flattened(header, data);
+    if (header.type === "map") mapped(header, data);
     else if (header.type === "stated") {
       command(header.command);
       python(header.python);
@@ -112,7 +111,7 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
     if (!done) return;
     const open = run.points.filter((each) => !each.resolved).length;
     const stopped = run.end && run.end.stopped ? "Stopped: " : "";
-    say(`${stopped}${done}${run.count ? ` of ${run.count}` : ""} points${open ? `, ${open} of them not resolved by the grid (open circles)` : ""}.`);
+    say(run.count === 1 ? "" : `${stopped}${done}${run.count ? ` of ${run.count}` : ""} points${open ? `, ${open} of them not resolved by the grid (open circles)` : ""}.`);
   }
 
   // The quantities that can be shown: by usage the stiffness, of a loop the depth, of surfaces that stick the force.
@@ -210,29 +209,29 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
 
   function choose(point) {
     const control = controlOf(current);
-    recipe.change((next) => (next.load = { [control]: loadText(point.load, UNITS[control], 6) }));
+    recipe.change((next) => (next.load = { [control]: loadText(point.load, load.unit(control), 6) }));
   }
 
   // Loads of a range that suits the surface, as the command line takes them.
   function range(name) {
     const control = name.slice(0, -1);
-    if (!usual(control)) return undefined;
-    const [, high, start] = usual(control);
-    return [start / 30, Math.min(30 * start, high)].map((end) => loadText(end, UNITS[control], 1)).join(":") + ":12";
+    if (!load.usual(control)) return undefined;
+    const [, high, start] = load.usual(control);
+    return [start / 30, Math.min(30 * start, high)].map((end) => loadText(end, load.unit(control), 1)).join(":") + ":12";
   }
 
   function show() {
     const { kind } = recipe.now;
     if (own.kind !== kind) {
-      const parts = Object.entries(forms.jobs[kind]).filter(([part]) => part !== "theories").map(([part, all]) => [part, rest(all, forms.jobs.press[part])]);
+      const parts = Object.entries(forms.jobs[kind]).filter(([part]) => part !== "theories" && part !== "load").map(([part, all]) => [part, rest(all, forms.jobs.press[part])]);
       own = { kind, parts: parts.filter(([, { fields }]) => fields.length).map(([part, some]) => ({ part, ...some, ...form(recipe, part, some, { usual: kind === "curve" ? range : undefined, alone: true }) })) };
       by("curve_forms").replaceChildren(...own.parts.map(({ root }) => root));
       by("kind").value = kind;
     }
     const { after } = recipe.now.plastic || {};
-    by("kind_said").textContent = forms.about[kind] + (after && kind === "curve" ? " It begins with the fresh surface: After is about the load above; for a curve of unloading check Loop." : "");
+    by("kind_said").textContent = forms.about[kind] + ("load" in forms.jobs[kind] ? " The load is the one above." : "") + (after && kind === "curve" ? " The curve starts with the fresh surface: After applies to the load above only. For unloading, check Loop." : "");
     for (const each of own.parts) each.show();
-    const ready = Boolean(usual("force") && recipe.now.load);
+    const ready = Boolean(load.usual("force") && recipe.now.load);
     [by("start").disabled, by("stop").disabled] = [Boolean(running) || !ready, !running];
     by("progress").hidden = !running;
     by("of_curve").hidden = !current || !current.columns.length;
@@ -245,10 +244,10 @@ export function curveView({ recipe, forms, known, usual, failed, ended, flattene
     theories.forget();
     clear(by("curve"));
     for (const id of ["curve_facts", "curve_notes", "points"]) by(id).replaceChildren();
-    say("Start presses the surface by one load after the other.");
+    say("Press Start to compute the curve.");
   }
 
-  for (const [name, parts] of Object.entries(forms.jobs)) if (["loads", "turn", "retreat"].some((part) => part in parts)) by("kind").add(new Option(name));
+  for (const name of Object.keys(forms.jobs)) if (name !== "surface" && name !== "press") by("kind").add(new Option(name));
   by("kind").onchange = ({ target }) => recipe.change((next) => Object.assign(next, { kind: target.value, loads: {} }));
   by("start").onclick = start;
   by("stop").onclick = () => running && running.sent.stop().catch(failed);

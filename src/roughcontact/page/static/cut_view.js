@@ -53,7 +53,8 @@ export function cutView(map, ask) {
       const [gap, under] = [header.gap, header.under].map((line) => line.map((value) => (value !== null && Math.abs(value) < ROUNDING ? 0 : value)));
       by("cut_place").max = header.count;
       put(by("cut_place"), header.place + 1);
-      by("cut_at").textContent = `${header.axis === "row" ? "y" : "x"} = ${written(header.across, "m", 3)}`;
+      by("cut_at").textContent = header.across === null ? "" : `${header.axis === "row" ? "y" : "x"} = ${written(header.across, "m", 3)}`;
+      by("cut_places").hidden = header.across === null; // a profile has one row
       const line = (y, label, colour, more) => ({ x: header.x, y, label, kind: "line", gaps: true, colour, ...more });
       chart(by("cut"), {
         x: { label: header.axis === "row" ? "x" : "y", unit: "m" },
@@ -64,7 +65,7 @@ export function cutView(map, ask) {
           line(under, "deformed surface", "--accent"),
           line(header.x.map(() => 0), "flat body", "--second", { silent: true }),
         ],
-        more: (k) => `gap ${written(gap[k], "m", 3)}   pressure ${written(header.pressure[k], "Pa", 3)}`,
+        more: (k) => `gap ${written(gap[k], "m", 3)}   pressure ${written(header.pressure[k], header.unit, 3)}`,
         hovered: (k) => map.mark(k === null ? null : header.axis === "row" ? { row: header.place, column: k } : { row: k, column: header.place }),
       });
     },

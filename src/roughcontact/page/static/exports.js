@@ -20,7 +20,7 @@ export function exports(root, { load, curve, source, say, failed }) {
     if (!source()) return say("There is nothing to export yet: drop a file, or choose an example.");
     // What is under the hand is known in front; the curve behind.
     const queue = kind === "zip" || of === "curve" ? "back" : "front";
-    if (of === "curve" && !curve()) return say("There is no curve to export yet: start it.");
+    if (of === "curve" && !curve()) return say("There is no curve to export yet: press Start.");
     const [job, beside] = of === "curve" ? [curve()] : [load(), kind === "zip" ? curve() : null];
     const sent = request(queue, "export", job, { kind, beside }, (header, data) => {
       if (header.type === "progress" && header.state === "started") say(`${header.task} …`);

@@ -1,4 +1,4 @@
-// The form of a part of a job, made of what the server tells of its fields: those that most need first, the others folded.
+// The form of a part of a job, made from the server's description of its fields: those that most users need first, the others folded.
 
 import { put } from "./typing.js";
 

@@ -3,12 +3,12 @@
 import { put } from "./typing.js";
 import { loadText, loadValue } from "./words.js";
 
-export const UNITS = { pressure: "Pa", force: "N", depth: "m" };
 const STEPS = 200;
 const by = (id) => document.getElementById(id);
 
 export function loadBar(recipe) {
   let spans = null;
+  let units = {}; // of the loads: on a profile others than on a map
   let state = null; // the loads of the last answer, each in its own words
   let dragged = null;
   let automatic = ""; // the load that this page has chosen, as long as nobody has chosen another
@@ -22,7 +22,7 @@ export function loadBar(recipe) {
     by("control").value = control;
     put(by("load"), text);
     by("slider").setAttribute("aria-valuetext", text);
-    const value = loadValue(text, UNITS[control]);
+    const value = loadValue(text, units[control]);
     if (!spans || !(value > 0) || dragged) return;
     const [low, high] = spans[control];
     by("slider").value = String((STEPS * Math.log(value / low)) / Math.log(high / low));
@@ -31,12 +31,12 @@ export function loadBar(recipe) {
   by("control").onchange = ({ target: { value: control } }) => {
     if (!spans) return;
     // The same state in other words, where it is known.
-    const text = state ? loadText(state[control], UNITS[control], 4) : loadText(spans[control][2], UNITS[control]);
+    const text = state ? loadText(state[control], units[control], 4) : loadText(spans[control][2], units[control]);
     recipe.change((next) => (next.load = { [control]: text }));
   };
   by("load").onchange = ({ target }) => {
     // A number alone has the unit of what stood there before.
-    const [unit] = /[a-zµ].*$/i.exec(Object.values(recipe.now.load)[0]) || [UNITS[by("control").value]];
+    const [unit] = /[a-zµ].*$/i.exec(Object.values(recipe.now.load)[0]) || [units[by("control").value]];
     const text = /^\s*[\d.]+(e[+-]?\d+)?\s*$/i.test(target.value) ? `${target.value.trim()} ${unit}` : target.value;
     recipe.change((next) => (next.load = { [by("control").value]: text }));
     show();
@@ -45,7 +45,7 @@ export function loadBar(recipe) {
     dragged = dragged || structuredClone(recipe.now);
     const { value: control } = by("control");
     const [low, high] = spans[control];
-    const text = loadText(low * (high / low) ** (target.value / STEPS), UNITS[control]);
+    const text = loadText(low * (high / low) ** (target.value / STEPS), units[control]);
     recipe.change((next) => (next.load = { [control]: text }), false);
   };
   by("slider").onchange = () => {
@@ -63,10 +63,11 @@ export function loadBar(recipe) {
       return Boolean(spans && recipe.now.load);
     },
     // Between which loads the slider goes; without any the surface is flat.
-    spanned({ pressure, force, depth }) {
+    spanned({ pressure, force, depth, units: all }) {
+      units = all;
       spans = pressure ? { pressure, force, depth } : null;
       if (spans && (!recipe.now.load || renewed)) {
-        automatic = loadText(pressure[2], "Pa");
+        automatic = loadText(pressure[2], units.pressure);
         recipe.change((next) => (next.load = { pressure: automatic }), false);
       }
       renewed = false;
@@ -79,6 +80,7 @@ export function loadBar(recipe) {
       spans = state = null;
       renewed ||= another && JSON.stringify(recipe.now.load) === JSON.stringify({ pressure: automatic });
     },
+    unit: (control) => units[control],
     usual: (control) => spans && spans[control],
   };
 }

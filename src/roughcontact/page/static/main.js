@@ -1,4 +1,4 @@
-// The page: what the user does changes the recipe, and the recipe says what is to be computed.
+// The page: the user changes the recipe, and the page computes what the recipe asks for.
 
 import { comparison } from "./comparison.js";
 import { dragged } from "./crop.js";
@@ -10,7 +10,7 @@ import { loadBar } from "./load_bar.js";
 import { mapView } from "./map.js";
 import { element, list, numbersView } from "./numbers.js";
 import { progressBar } from "./progress.js";
-import { examplesOf, fresh, history, jobOf, partsOf, titleOf } from "./recipe.js";
+import { examplesOf, fresh, history, jobOf, partsOf, profileOf, titleOf } from "./recipe.js";
 import { shortcuts } from "./shortcuts.js";
 import { surfaceView } from "./surface_view.js";
 import { trouble } from "./trouble.js";
@@ -20,13 +20,14 @@ import { written } from "./words.js";
 
 const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
 const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
+const LATER = ["flattened", "traction"]; // maps that a curve gives
 const LULL = 250; // milliseconds without another wish, before what takes longer is begun
 const BLANK = { kind: "example", example: "ground" }; // stands for a surface in questions that are about none
 const by = (id) => document.getElementById(id);
 let largest = Infinity;
 let front = null;
 let lull = null;
-let forms = null; // what the server tells of the fields
+let forms = null; // the fields as the server describes them
 let curve = null;
 let raw = null; // the surface before its preparation
 let same = {}; // the bodies in other words
@@ -44,7 +45,7 @@ const map = mapView(by("map"), { root: by("scale"), canvas: by("strip"), low: by
     by("crop").click();
     recipe.change(({ preparation }) => (preparation.crop = dragged(part, preparation.crop, raw.shape, map.state.fields.heights.cells)));
   },
-  small: () => say("A crop holds at least 4 × 4 cells: drag further, or type rows and columns under Preparation."),
+  small: () => say("A crop needs at least 4 × 4 cells: drag over more cells, or type the rows and columns under Preparation."),
   cut: (axis, place) => cut.at(axis, place),
 });
 const recipe = history(changed);
@@ -59,22 +60,26 @@ const JOBS = { look: "surface", study: "surface", bodies: "curve", press: "press
 function asked(question) {
   const { now } = recipe;
   if (question === "bodies") return { job: "curve", source: BLANK, bodies: now.bodies, plastic: jobOf("curve", now, forms).plastic };
-  if (question === "press" && !now.load) return { job: "curve", source: now.source, preparation: now.preparation, bodies: now.bodies };
+  if (question === "press" ? !load.ready : JOBS[question] === "surface" && profileOf(now)) {
+    const { source, preparation, bodies, contact } = jobOf("curve", now, forms);
+    return { job: "curve", source, preparation, bodies, contact };
+  }
   return jobOf(JOBS[question], now, forms);
 }
 
 function changed(now, before) {
   const differs = (name) => JSON.stringify(now[name]) !== JSON.stringify(before[name]);
-  if (differs("source") || differs("preparation")) {
+  const other = differs("source") || profileOf(now) !== profileOf(before);
+  if (other || differs("preparation")) {
     wanted.look = wanted.study = Boolean(now.source);
     surfaceCard.wait();
     map.spikes([]);
-    map.clear("pressure", "gap", ...(differs("source") ? ["heights"] : []));
-    load.forget(differs("source"));
+    map.clear("pressure", "gap", ...(other ? ["heights"] : []));
+    load.forget(other);
     cut.forget();
-    numbers.forget(differs("source"));
+    numbers.forget(other);
   }
-  if (differs("source")) {
+  if (other) {
     surfaceCard.forget();
     place.of(titleOf(now.source, names, examples));
     by("keep").disabled = true;
@@ -83,7 +88,7 @@ function changed(now, before) {
   if (differs("bodies") || differs("plastic")) wanted.bodies = true;
   if (differs("kind") || partsOf("press", forms).some((part) => part !== "load" && differs(part))) {
     curve.forget();
-    map.clear("flattened");
+    map.clear(...LATER);
   }
   if (pressed) wanted.press = Boolean(now.source);
   show();
@@ -103,7 +108,7 @@ function show() {
   }
   const [control = "pressure"] = Object.keys(recipe.now.load || {});
   shown.plastic.hint("after", forms.jobs.press.load.fields.find(({ name }) => name === control).example);
-  by("flattened").hidden = !map.has("flattened");
+  for (const name of LATER) by(name).hidden = !map.has(name);
   for (const part of ["source", "preparation", "bodies", "plastic", "contact"]) if (shown[part]) shown[part].show();
   for (const each of [surfaceCard, load, curve]) each.show();
 }
@@ -114,7 +119,7 @@ function failed(error) {
 
 function ended(end, job) {
   const field = trouble(job, end);
-  // A file that leaves something open asks for it.
+  // The first field that a file needs gets the focus.
   if (field && field.id.startsWith("source.") && document.activeElement === document.body) field.focus();
   if (end.message) say(field === by("load") ? "" : end.message);
   by("again").hidden = end.how !== "died";
@@ -157,6 +162,7 @@ async function perform(job) {
   if (!more) return pump();
   const basis = () => JSON.stringify(asked(job));
   const before = basis();
+  const answers = asked(job).job; // of a press the loads that suit come first, and then the contact
   const sent = request("front", job, asked(job), more, (header, data) => {
     // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
     if ((wanted.look && JOBS[job] === "press") || (before !== basis() && !load.dragged)) return;
@@ -173,12 +179,13 @@ async function perform(job) {
   front = null;
   working.end();
   ended(end, job);
+  if (JOBS[job] === "press" || job === "look") by("numbers").classList.toggle("stale", !["done", "stopped"].includes(end.how));
   if (job === "look" && end.how !== "done" && !wanted.look) {
     wanted.press = wanted.study = false;
     surfaceCard.refused();
   }
   if (job === "look" && end.message && !map.has("heights")) place.refused(end, titleOf(recipe.now.source, names, examples));
-  if (job === "press" && end.how === "done" && recipe.now.load) wanted.cut = true;
+  if (job === "press" && end.how === "done" && load.ready) wanted[answers === "press" ? "cut" : "press"] = true;
   if (job === "study" && !wanted.study) {
     if (end.how === "stopped") wanted.study = true;
     else surfaceCard.done();
@@ -194,7 +201,7 @@ function heard(header, data) {
   else if (header.type === "bodies") told(header);
   else if (["warnings", "heights", "spectrum", "roughness"].includes(header.type)) surfaceCard.study(header);
   else if (header.type === "spikes") map.spikes(header.places);
-  else if (header.type === "span") load.spanned(header) || say("The surface is flat: there is no scale of loads.");
+  else if (header.type === "span") load.spanned(header) || say("The surface is flat, so the page cannot choose a load: open a rough surface.");
   else if (header.type === "state") { load.answered(header); cut.answered(header); say(header.warning); }
   else if (header.type === "numbers") answered(header);
   else if (header.type === "pressures") numbers.pressures(header);
@@ -211,12 +218,12 @@ function answered(header) {
 
 function surface(header) {
   raw = header.raw;
-  shown.source.hint("size", raw.lengths.map((side) => written(side, "m", 4)).join(" x "));
+  shown.source.hint("size", [...new Set(raw.lengths.map((side) => written(side, "m", 4)))].join(" x "));
   surfaceCard.surface(header);
 }
 
 function channels(found) {
-  const shownAs = ({ name, is_height }) => [name, is_height ? name : `${name} (no heights)`];
+  const shownAs = ({ name, is_height }) => [name, is_height ? name : `${name} (not heights)`];
   shown.source.offer("channel", found.map(shownAs));
   const { unit } = found.find(({ name }) => name === recipe.now.source.channel) || found.find(({ is_height }) => is_height) || {};
   shown.source.hint("unit", typeof unit === "number" ? `${unit} m` : unit);
@@ -228,7 +235,7 @@ function told(header) {
 }
 
 async function opened(file) {
-  if (file.size > largest) return say(`The file is larger than ${Math.round(largest / 2 ** 20)} MB.`);
+  if (file.size > largest) return say(`The file is larger than ${Math.round(largest / 2 ** 20)} MB: use the command line.`);
   say(`Reading ${file.name} …`);
   try {
     given(await upload(file));
@@ -266,7 +273,7 @@ function listen() {
   by("colours").onchange = ({ target }) => { map.state.colours = target.value; map.paint(); compare.show(); };
   [by("undo").onclick, by("redo").onclick, by("again").onclick] = [recipe.undo, recipe.redo, again];
   by("keep").onclick = () => compare.keep(curve.kept);
-  exports(by("export"), { load: () => (recipe.now.load ? asked("press") : asked("look")), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
+  exports(by("export"), { load: () => asked(load.ready ? "press" : "look"), curve: () => curve.job(), source: () => recipe.now.source, say, failed });
   helpLine(by("help"));
   shortcuts({ ...recipe, leave: () => map.state.mode === "crop" && by("crop").click() });
   new MutationObserver(() => { map.paint(); compare.show(); }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
@@ -303,9 +310,9 @@ try {
   examples = examplesOf(forms);
   place = welcome(examples.slice(0, 4), (each) => source(each.source));
   groups();
-  curve = curveView({ recipe, forms, known: begun.theories, usual: load.usual, failed, ended: compare.show, flattened: (header, data) => { map.set("flattened", header, data); show(); } });
+  curve = curveView({ recipe, forms, known: begun.theories, load, failed, ended: compare.show, mapped: (header, data) => { map.set(header.map, header, data); show(); } });
   listen();
-  document.querySelector("main").inert = false; // before, nobody would answer
+  document.querySelector("main").inert = false; // before, no handler answers
   show();
   pump();
   const before = goesOn(kept, begun.files);

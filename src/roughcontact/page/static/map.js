@@ -31,7 +31,7 @@ export function mapView(canvas, bar, heard) {
     return { x: (canvas.width - w) / 2, y: (canvas.height - h) / 2, w, h };
   }
 
-  // The ends of the colours: those of another map too, where both are to be compared.
+  // The ends of the colours: those of both maps in a comparison.
   function ends(field) {
     const own = ownEnds(field);
     const other = state.beside && state.beside.ends(kind());
@@ -42,7 +42,7 @@ export function mapView(canvas, bar, heard) {
   function ownEnds(field) {
     const [low, most] = field.colours;
     const beyond = most < field.ends[1];
-    if (["heights", "flattened"].includes(kind())) return { low, high: most, below: low > field.ends[0], beyond };
+    if (["heights", "flattened", "traction"].includes(kind())) return { low, high: most, below: low > field.ends[0], beyond };
     if (kind() === "gap") return { low: 0, high: Math.max(most, 1e-300), beyond };
     const some = [];
     const stride = Math.max(1, Math.floor(field.values.length / 250000));
@@ -146,8 +146,10 @@ export function mapView(canvas, bar, heard) {
   }
 
   function drawCut(at, field) {
+    if (state.mark) ring(at, field, state.mark, "#fff");
     const row = state.axis === "row";
     const count = field.cells[row ? 0 : 1];
+    if (count === 1) return; // the cut is the whole profile
     const along = ((state.place + 0.5) / count) * (row ? at.h : at.w);
     for (const [width, colour] of [[4, "rgba(0,0,0,.55)"], [2, "#fff"]]) {
       context.beginPath();
@@ -164,7 +166,6 @@ export function mapView(canvas, bar, heard) {
       context.stroke();
     }
     context.setLineDash([]);
-    if (state.mark) ring(at, field, state.mark, "#fff");
   }
 
   function ring(at, field, { row, column }, colour) {
@@ -241,7 +242,7 @@ export function mapView(canvas, bar, heard) {
     if (!drag) return;
     const rows = [drag.first.row, drag.last.row].sort((a, b) => a - b);
     const columns = [drag.first.column, drag.last.column].sort((a, b) => a - b);
-    if (rows[1] - rows[0] >= 3 && columns[1] - columns[0] >= 3) {
+    if ((rows[1] - rows[0] >= 3 || shown().cells[0] === 1) && columns[1] - columns[0] >= 3) {
       heard.crop([rows[0], rows[1] + 1, columns[0], columns[1] + 1]);
     } else heard.small();
   });

@@ -14,10 +14,11 @@ export function numbersView() {
       command(header.command);
       python(header.python);
     },
-    pressures({ x, y }) {
+    pressures({ x, y, unit, beyond }) {
       chart(by("pressures"), {
-        x: { label: "pressure", unit: "Pa" },
+        x: { label: "pressure", unit },
         y: { label: "density", per: true },
+        beyond,
         zero: true,
         height: 180,
         series: [{ x, y, label: "density", kind: "area", colour: "--accent" }],

@@ -76,8 +76,12 @@ export function jobOf(name, state, { jobs }) {
     const given = Object.entries(state[part] || {}).filter(([field]) => fields.some((each) => each.name === field));
     job[part] = Object.fromEntries(given);
   }
+  job.preparation.level ??= "none"; // a page shows the heights that it presses
   return job;
 }
+
+// How a state presses a profile; none where it presses a map.
+export const profileOf = ({ contact }) => (contact || {}).profile;
 
 // The parts of a state on which an answer of a kind depends.
 export const partsOf = (name, { jobs }) => ["source", ...Object.keys(jobs[name])];

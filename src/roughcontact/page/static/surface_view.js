@@ -1,4 +1,4 @@
-// What the surface holds: what is doubtful about it, its size, the distribution of its heights, its spectrum, its roughness.
+// Properties of the surface: warnings about it, its size, the distribution of its heights, its spectrum, its roughness.
 
 import { chart, clear } from "./charts.js";
 import { facts as listed, list } from "./numbers.js";
@@ -7,12 +7,12 @@ import { written } from "./words.js";
 const by = (id) => document.getElementById(id);
 // What the button beside a warning says, by the step that mends it.
 const MEND = {
-  despike: "Fill them smoothly",
+  despike: "Fill the spikes",
   level: "Remove the plane",
   form: "Remove a quadratic form",
-  crop: "Keep the larger side",
-  fill: "Fill them in",
-  mask: "Take them out",
+  crop: "Crop to the larger part",
+  fill: "Fill the missing points",
+  mask: "Mask these points",
 };
 
 function element(kind, text, more = {}) {
@@ -39,7 +39,7 @@ export function surfaceView(recipe) {
       const done = step !== null && mended(step);
       line.className = done && !left ? "mended" : "";
       line.append(element("strong", kind), element("span", step ? words : `${words}; ${remedy}`));
-      if (done) line.append(element("em", left ? "some are left after the preparation" : "mended by the preparation"));
+      if (done) line.append(element("em", left ? "the preparation leaves some" : "corrected by the preparation"));
       else if (step) line.append(element("button", MEND[step[0]], { type: "button", onclick: () => mend(step) }));
       return line;
     }));
@@ -83,7 +83,7 @@ export function surfaceView(recipe) {
     refused: () => by("surface").setAttribute("aria-busy", "false"),
     channels(found) {
       table(by("channels"), ["Channel", "Points", "Unit", "Size"], found.map(({ name, shape, unit, size, is_height }) => [
-        is_height ? name : `${name} (no heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
+        is_height ? name : `${name} (not heights)`, shape.join(" × "), unit === null ? "not stated" : String(unit),
         size === null ? "not stated" : size.map((side) => written(side, "m", 3)).join(" × "),
       ]));
     },
@@ -102,12 +102,12 @@ export function surfaceView(recipe) {
         showWarnings();
       } else if (header.type === "heights") {
         rough = true;
-        chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, height: 170, label: "Distribution of the heights", series: [
+        chart(by("distribution"), { x: { label: "height", unit: "m" }, y: { label: "density", unit: "", per: true }, zero: true, beyond: header.beyond, height: 170, label: "Distribution of the heights", series: [
           { x: header.x, y: header.y, label: "measured", kind: "area", colour: "--accent" },
           { x: header.x, y: header.normal, label: "normal", kind: "line", colour: "--ink-soft", dash: [5, 4] },
         ] });
       } else if (header.type === "spectrum") {
-        chart(by("spectrum"), { x: { label: "wavenumber", unit: "rad/m", log: true }, y: { label: "density", unit: "m⁴", log: true }, height: 200, label: "Power spectrum", series: [
+        chart(by("spectrum"), { x: { label: "wavenumber", unit: "rad/m", log: true }, y: { label: "density", unit: header.unit, log: true }, height: 200, label: "Power spectrum", series: [
           { x: header.x, y: header.y, label: "power spectrum", kind: "line", colour: "--accent" },
         ] });
       } else if (header.type === "roughness") {

@@ -1,7 +1,7 @@
 // What stands in place of the map: how to begin, what is being read, or why there is no map.
 
 const by = (id) => document.getElementById(id);
-const BEGIN = ["Drop a measured surface anywhere", "X3P, SUR, OPD, Gwyddion, NetCDF, NumPy, text and the formats of most instruments. Or begin with an example:"];
+const BEGIN = ["Drop a measured surface anywhere", "X3P, SUR, OPD, Gwyddion, NetCDF, NumPy, text and the formats of most instruments. Or choose an example:"];
 
 export function welcome(examples, open) {
   const buttons = examples.map((each) => {
@@ -23,7 +23,7 @@ export function welcome(examples, open) {
   return {
     // There is a source, or none any more.
     of: (title) => (title ? show(`Reading ${title} …`, "") : show(...BEGIN, true)),
-    refused: ({ message, places = [] }, title) => show(places.some((place) => place.startsWith("source.")) ? `${title} leaves something open` : `${title} cannot be shown`, message),
+    refused: ({ message, places = [] }, title) => show(places.length ? `${title} needs your input` : `${title} cannot be shown`, message),
     done: () => (by("welcome").hidden = true),
   };
 }

@@ -2,7 +2,7 @@
 
 const PREFIXES = { "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
 // Units whose prefix counts as often as they do: their name without it, and the power.
-const POWERS = { "m²": 2, "m⁴": 4 };
+const POWERS = { "m²": 2, "m³": 3, "m⁴": 4 };
 // Of machine design, whatever the number.
 const FIXED = { "Pa/m": { factor: 1e-12, unit: "N/µm/mm²" } };
 
@@ -30,7 +30,7 @@ export function digits(value, count = 4) {
   const size = Math.abs(value);
   if (size >= 1e6 || size < 1e-4) {
     const [mantissa, power] = value.toExponential(count - 1).split("e");
-    return `${Number(mantissa)}·10${superscript(Number(power))}`;
+    return `${Number(mantissa) === 1 ? "" : `${Number(mantissa)}·`}10${superscript(Number(power))}`;
   }
   return String(Number(value.toPrecision(count)));
 }
@@ -54,7 +54,7 @@ export function loadText(value, unit, count = 3) {
 
 // The number in a text such as "12.3 MPa", where it is one with a prefix that this page writes; else null.
 export function loadValue(text, unit) {
-  const found = /^\s*([\d.]+(?:e[+-]?\d+)?)\s*([a-zA-Zµ]*)\s*$/i.exec(text);
+  const found = /^\s*([\d.]+(?:e[+-]?\d+)?)\s*([a-zA-Zµ/]*)\s*$/i.exec(text);
   if (!found) return null;
   const [, number, given] = found;
   if (given === "") return Number(number);

@@ -19,20 +19,25 @@ Errors = Mapping[float, ErrorBudget]
 """The errors of loads, by their force [N]."""
 
 _COLOUR = "#0072b2"  # of the points
+_ROOM = 1.05  # beyond the end of a bar, as a factor
+_FARTHEST = 3.0  # end of a bar that is shown, over its value: a bar may go down to zero
 
 
 def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, Scale]) -> None:
-    """Draw a bar for each load whose error of a quantity is known; the axes keep their limits."""
+    """Draw a bar for each load whose error of a quantity is known, and widen logarithmic axes to show it."""
     x, y = scales
-    limits = axes.get_ylim()
+    low, high = axes.get_ylim()
     style: Any = {"fmt": "none", "ecolor": _COLOUR, "capsize": 4, "elinewidth": 1.2, "label": "error"}
     for force, budget in errors.items():
         number = next((each for each in budget.numbers if each.name == quantity), None)
         if number is not None and math.isfinite(number.error) and math.isfinite(number.value):
             place, height = force * x.factor, number.value * y.factor
-            axes.errorbar([place], [height], yerr=[number.error * y.factor], **style)
+            reach = number.error * y.factor
+            axes.errorbar([place], [height], yerr=[reach], **style)
             style["label"] = None  # one line of a legend for all
-    axes.set_ylim(limits)
+            low = min(low, max(height - reach, height / _FARTHEST) / _ROOM)
+            high = max(high, min(height + reach, height * _FARTHEST) * _ROOM)
+    axes.set_ylim(low, high)
 
 
 def sampling_lines(figure: Figure, errors: Errors) -> None:

@@ -8,8 +8,9 @@ from importlib import import_module
 from types import MappingProxyType, ModuleType
 from typing import TYPE_CHECKING
 
+from roughcontact.recipe.texts import choose
 from roughcontact.study.case import Case
-from roughcontact.study.study_errors import StudyError, expected
+from roughcontact.study.study_errors import StudyError
 
 if TYPE_CHECKING:  # bundlers of programs read this
     from roughcontact.study.cases import (
@@ -59,7 +60,7 @@ def find_case(name: str) -> Case:
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:
-        raise StudyError(f"there is no case {name!r}: {expected(name, CASES)}; {_OWN}", place="case")
+        raise StudyError(f"there is no case {name!r}: {choose(name, sorted(CASES))}; {_OWN}", place="case")
     module, _, attribute = place.partition(":")
     found = getattr(_module(module, name), attribute, None)
     if not isinstance(found, Case):

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
-from roughcontact.study.case import Length, Parameters, Positive, Pressure
+from roughcontact.study.case import Length, Modulus, Parameters, Positive, Pressure
 from roughcontact.surface.generation.fourier import self_affine
 from roughcontact.surface.generation.shapes import paraboloid
 from roughcontact.surface.surface import Surface
@@ -90,7 +90,7 @@ class RoughSquare(Parameters):
 
     points: int = Field(ge=4)
     size: Positive[Length]
-    modulus: Positive[Pressure]
+    modulus: Positive[Modulus]
     hurst: float = Field(ge=-1, le=3)
     rms: Positive[Length]
     rms_band: tuple[Positive[float], Positive[float]] | None = None

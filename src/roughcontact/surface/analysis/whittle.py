@@ -76,9 +76,7 @@ def slope_error(x: Array, bend: float, exponent: float, freedom: Array) -> float
     bent = np.maximum(x, bend)
     columns = [np.ones(x.shape), -bent + bent.mean()]
     if math.isfinite(bend):
-        columns.append(
-            np.where(x < bend, -exponent, 0.0)
-        )  # derivative of ln C2D by the logarithm of the bend
+        columns.append(np.where(x < bend, -exponent, 0.0))  # d ln C2D / d ln bend
     gradient = np.stack(columns, axis=1)
     information = gradient.T @ (freedom[:, None] * gradient)
     return math.sqrt(float(np.linalg.pinv(information)[1, 1]))

@@ -8,11 +8,11 @@ import numpy as np
 
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.preparation.missing import filled
-from roughcontact.surface.preparation.spikes import described, find_spikes
+from roughcontact.surface.preparation.spikes import Spikes, described, find_spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import require
 
-__all__ = ["despiked"]
+__all__ = ["despiked", "without_spikes"]
 
 _PASSES = 20  # enough for a map with spikes; a map that needs more is rough everywhere
 
@@ -52,9 +52,14 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
     2
     """
     require(to in ("missing", "filled"), f"to must be 'missing' or 'filled', not {to!r}", place="to")
+    return without_spikes(surface, find_spikes(surface), to)
+
+
+def without_spikes(surface: Surface, spikes: Spikes, to: Literal["missing", "filled"] = "missing") -> Surface:
+    """Return the surface without the given spikes, and without those found in the remaining cells."""
     taken = np.zeros(surface.grid.shape, dtype=np.bool_)
     given_up = taken.copy()  # of the selected cells, those that stand out after they are filled
-    clean, spikes = surface, find_spikes(surface)
+    clean = surface
     for _ in range(_PASSES):
         if spikes.count == 0:
             break

@@ -179,7 +179,7 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     k, apart = positive(stiffness, "the stiffness [N/m]"), positive(local, "the local stiffness [N/m]")
     require(
         k < apart,
-        f"the stiffness of a cluster must be below that of its spots: {k} N/m is not below {apart} N/m",
+        f"a cluster is softer than its separate spots: {k} N/m is not below {apart} N/m",
     )
     return float(k * apart / (2 * positive(modulus, "the modulus [Pa]") * (apart - k)))
 

@@ -17,9 +17,7 @@ from roughcontact.validation import Array, finite, numeric, require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 
-NARROWEST = (
-    1.5  # Nayak's parameter of waves of one length in all directions, the minimum of isotropic surfaces
-)
+NARROWEST = 1.5  # Nayak's parameter of waves of one length, the minimum of isotropic surfaces
 SPREAD = 1 + 16 / math.pi - 3 * math.sqrt(3)  # 0.8968: factor of 1/alpha in the variance of summit heights
 
 

@@ -31,9 +31,7 @@ __all__ = [
 
 # k/(E* L) of 20 of 512 x 512 cells, below which single cells dominate.
 LEAST_STIFFNESS = 0.035
-_REFERENCE = (
-    0.02  # F/(E* h L) inside the window, where the errors of exponent and level are almost uncorrelated
-)
+_REFERENCE = 0.02  # F/(E* h L) at which the errors of exponent and level are almost uncorrelated
 _ROUND = 1e-9  # tolerance of a force at an end of the window
 # H; alpha and its standard error; kappa and its standard error over it; the correlation of both errors.
 # `python reproduction/benchmarks/law_formula.py` prints it.

@@ -12,9 +12,7 @@ from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["two_discs"]
 
-DEGREE = (
-    12  # of the polynomials: from three radii on, a higher degree changes the stiffness by less than 1e-13
-)
+DEGREE = 12  # of the polynomials: a higher degree changes the stiffness by less than 1e-13
 
 
 @numeric

@@ -1,18 +1,20 @@
-"""What went wrong as one JSON object, for programs that asked for JSON.
+"""The answer of a command, or its error, as one JSON object; an error has the key ``error``.
 
-It goes to standard output, where the answer would have been: whoever asked for one JSON object finds exactly one there,
-and tells answer and error apart by the key ``error`` or by the exit status. Standard error holds the line for people.
+It goes to standard output, and may be kept by a command that asks for several answers. Standard error holds the lines
+for people.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any
 
-__all__ = ["emit_error", "kind_of"]
+__all__ = ["emit", "emit_error", "kept", "kind_of"]
 
 # By class, the nearest first; the names are those that a program can rely on.
 _KINDS = {
@@ -26,6 +28,29 @@ _KINDS = {
     "MemoryError": "memory",
     "ValueError": "value",
 }
+
+_KEPT: ContextVar[list[Mapping[str, Any]] | None] = ContextVar("kept", default=None)
+
+
+def emit(record: Any) -> None:
+    """Print an answer as one line of JSON on standard output, or keep it within `kept`."""
+    answers = _KEPT.get()
+    if answers is None:
+        sys.stdout.write(json.dumps(record, allow_nan=False, ensure_ascii=True) + "\n")
+        sys.stdout.flush()
+    else:
+        answers.append(record)
+
+
+@contextmanager
+def kept() -> Iterator[list[Mapping[str, Any]]]:
+    """Keep what is emitted within, in a list."""
+    answers: list[Mapping[str, Any]] = []
+    token = _KEPT.set(answers)
+    try:
+        yield answers
+    finally:
+        _KEPT.reset(token)
 
 
 def emit_error(
@@ -60,7 +85,7 @@ def emit_error(
         "place": place,
         "exit_status": status,
     }
-    sys.stdout.write(json.dumps({"error": record, **beside}, ensure_ascii=True) + "\n")
+    emit({"error": record, **beside})
 
 
 def kind_of(error: BaseException) -> str:
