@@ -180,7 +180,7 @@ def test_forms_depths_and_patches_have_none():
     for budget in (form, at_depth, patches):
         assert "sampling" not in [source.name for source in budget.sources]
         assert (budget.sampling, budget.bias_of_size) == ("", {})
-    assert any("quarters are other bodies" in note for note in form.notes)
+    assert any("taken for the body itself" in note for note in form.notes)
     assert any("maps differ by their highest points" in note for note in at_depth.notes)
     assert not any("ampling" in note for note in patches.notes)
     # What the notes advise gives the line.

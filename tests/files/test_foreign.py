@@ -259,3 +259,9 @@ def test_threads_leave_the_process_as_it_was(put):
             for heights in maps:
                 np.testing.assert_allclose(heights, (HEIGHTS + k) * 1e-6, rtol=1e-15)
     assert before == (sys.stdout, logging.root.manager.disable, list(warnings.filters))
+
+
+@pytest.mark.parametrize("name", ["job.toml", "curve.json"])
+def test_a_job_or_a_result_is_no_surface_and_the_remedy_names_run(put, name):
+    with pytest.raises(rc.ReadError, match="repeated by 'roughcontact run'"):
+        rc.read(put(name, b'job = "press"'))

@@ -453,3 +453,24 @@ def test_a_recipe_with_numbers_of_toml_is_that_of_texts(tmp_path):
     (tmp_path / "job.toml").write_text(f"{PRESS}[load]\nforce = 10\n")
     job = read_job(tmp_path / "job.toml")
     assert (job.load.force, job.bodies.modulus) == ("10", "1000000000")
+
+
+def test_a_map_that_is_cropped_is_free_so_that_periodic_is_refused():
+    cropped = with_parts("press", source={"periodic": True}, preparation={"crop": "0:8,0:8"})
+    with pytest.raises(InputError, match="a map that is cropped is free") as refused_:
+        surface_calls(from_plain(cropped))
+    assert refused_.value.place == "source.periodic"
+    for source, preparation in (({"periodic": True}, {}), ({}, {"crop": "0:8,0:8"})):
+        assert surface_calls(from_plain(with_parts("press", source=source, preparation=preparation)))
+
+
+def test_an_empty_table_of_a_file_is_refused_since_it_would_ask_for_nothing(tmp_path):
+    path = tmp_path / "press.toml"
+    path.write_text(
+        'job = "press"\n[source]\nfile = "part.npz"\n[load]\nforce = "1 N"\n[bodies]\nmodulus = "1 GPa"\n[errors]\n'
+    )
+    with pytest.raises(InputError, match="the table is empty") as refused_:
+        read_job(path)
+    assert refused_.value.place == "errors"
+    path.write_text(path.read_text() + "errors = true\n")
+    assert read_job(path).errors.errors

@@ -308,7 +308,7 @@ $ {FLOWS} --after 0.5mN
 > {PRESS} --force 0.5mN --hardness 1GPa --after 1mN
 
 $ {FLOWS} --after 2mN --errors
-! --after is given: leave out one of them
+! --errors does not go with --after: other maps are pressed by the same load only
 > {FLOWS} --after 2mN
 > {FLOWS} --errors
 
@@ -317,7 +317,7 @@ $ {PRESS} --force 1mN --flow raised
 > {FLOWS} --flow raised
 
 $ {FLOWS} --flow raised --errors
-! --flow is given: leave out one of them
+! --errors does not go with --flow
 > {FLOWS} --flow raised
 > {FLOWS} --errors
 

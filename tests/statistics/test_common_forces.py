@@ -96,6 +96,25 @@ def test_truths_hold_where_both_neighbours_hold_and_words_where_both_say_them():
     np.testing.assert_allclose(found["spots"][:4], [np.nan, 1, 1, 4**share], rtol=1e-14)
 
 
+def test_a_load_is_resolved_by_its_interpolated_stiffness():
+    """From twenty cells on, between an unresolved load and a resolved one; widths of lines show no such limit."""
+    force = np.array([1.0, 4.0, 16.0])
+    data = xarray.Dataset(
+        {
+            "dimensionless_force": ("load", force),
+            "stiffness": ("load", force),
+            "cell_stiffness": ((), 0.1),  # 2 is that of twenty
+            "full_contact_stiffness": ((), 10.0),  # 9 is nine tenths
+            "resolved": ("load", [False, True, False], {"long_name": "resolved"}),
+        }
+    )
+    found = on_common(data, [0.5, 1.9, 2.1, 4.0, 8.9, 9.1])["resolved"]
+    np.testing.assert_array_equal(found, [False, False, True, True, True, False])
+    assert found.attrs == {"long_name": "resolved"}
+    line = on_common(data.assign_attrs(geometry="line"), [2.1, 4.0])["resolved"]
+    np.testing.assert_array_equal(line, [False, True])
+
+
 def test_common_places_serve_variables_of_more_dimensions():
     data = records().drop_vars("dimensionless_force").assign(dimensionless_force=("load", FORCE[0, 0]))
     found = on_common(data, WANTED)

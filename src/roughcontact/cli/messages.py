@@ -41,7 +41,7 @@ _OPTIONS = (
     (re.compile(r"make the grid with periodic=True"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"\buse detachment_path\b"), "use 'roughcontact adhesion detach'"),
-    (re.compile(r"\bby loading_loop\b"), "with 'roughcontact curve --loop'"),
+    (re.compile(r"\bby loading_loop\b"), "with 'roughcontact press --after' or 'curve --loop'"),
     (re.compile(r"\badhesive_path, adhesive_loop\b"), "'roughcontact adhesion curve'"),
     (re.compile(r"give adhesive_path an Adhesion with a range\b"), "use 'roughcontact adhesion curve'"),
     (re.compile(r"; read a map by read$"), "; leave out --profile for a map"),

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Pressed"]
 
+_SUMMITS = 2  # fewer are those of a body, which has no plasticity index
+
 
 @dataclass(frozen=True, slots=True)
 class Pressed:
@@ -90,6 +92,8 @@ def _index(surface: Surface, modulus: Modulus, hardness: float) -> PlasticityInd
     try:
         flat = surface if all(surface.grid.periodic) else surface.levelled("plane")
         summits = rc.find_summits(flat)
+        if len(summits.height) < _SUMMITS:
+            return None  # a body, not a rough surface
         curvature, reduced = summits.mean_curvature, as_modulus(modulus)
         return rc.theory.plasticity.summit_index(summits.height, curvature, reduced, hardness)
     except InputError as error:

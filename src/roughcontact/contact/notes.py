@@ -72,8 +72,8 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
             Rank.WRONG,
             f"{above:.0%} of the contact area is above the hardness of {softer.name}, {softer.hardness / 1e9:.3g} GPa "
             f"(the largest pressure is {solution.max_pressure / softer.hardness:.2g} times the hardness): "
-            f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given}, "
-            "or unload the joint by loading_loop.",
+            f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given} "
+            "for first loading; for a joint that was pressed before, compute unloading by loading_loop.",
         )
 
 

@@ -35,8 +35,8 @@ __all__ = ["checked_cutoff", "error_budget"]
 CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none on a free map
 OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
 OF_FORM = (
-    "Levelling and sampling are left out: a form larger than the roughness is the body itself, and its quarters are "
-    "other bodies. Remove the form if it is not (levelled('quadratic'), --level quadratic)."
+    "Levelling and sampling are left out: the form of the map is larger than its roughness, and is taken for the body "
+    "itself. If it is not, remove it (levelled('quadratic'), --level quadratic)."
 )
 AT_DEPTH = (
     "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."

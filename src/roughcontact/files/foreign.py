@@ -102,6 +102,8 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     # Bytes in memory leave no file open if a reader fails half-way.
     stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
     hint = "" if b"\0" in data else "name a text of numbers .txt; "
+    if kind in (".toml", ".json"):
+        hint = "a job or a result is repeated by 'roughcontact run'; "
     with damage("it cannot be read", hint + _REMEDY, said=brief):  # any of forty readers may raise any error
         require_whole(data)
         if is_hdf5(data):

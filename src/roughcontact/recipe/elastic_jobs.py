@@ -57,7 +57,7 @@ class PressJob:
         )
         if self.errors.errors and asked:
             raise InputError(
-                f"`errors` press other maps by the same load alone, and `{asked}` is given",
+                f"`errors` does not go with `{asked}`: other maps are pressed by the same load only",
                 "leave out one of them",
                 "errors.errors",
             )
@@ -127,7 +127,7 @@ class CurveJob:
         asked = "loop" if self.plastic.loop else "flow" if self.plastic.flow == "raised" else None
         if self.errors.errors and self.plastic.flow == "raised":
             raise InputError(
-                "`errors` press other maps by the same load alone, and `flow` is raised",
+                "`errors` does not go with `flow` raised: other maps are pressed by the same load only",
                 "leave out one of them",
                 "errors.errors",
             )

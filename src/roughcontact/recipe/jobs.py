@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any, TypeAlias
 
-from roughcontact.errors import within
+from roughcontact.errors import InputError, within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
@@ -47,6 +47,12 @@ def surface_calls(job: Job) -> list[Call]:
     """
     if isinstance(job, TheoryJob):
         return []
+    if isinstance(job.source, File) and job.source.periodic and job.preparation.crop is not None:
+        raise InputError(
+            "a map that is cropped is free, and `periodic` is given",
+            "write the cropped map to a file ('surface prepare'), and give `periodic` to that file",
+            "source.periodic",
+        )
     with within("source"):
         source = list(job.source.calls(line=is_of_profile(job)))
     return [*source, *job.preparation.calls(_default_level(job))]

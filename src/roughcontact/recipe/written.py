@@ -250,9 +250,13 @@ def _record(text: str) -> dict[str, Any]:
 
 def _toml(data: bytes) -> dict[str, Any]:
     try:
-        return tomllib.loads(data.decode())
+        found = tomllib.loads(data.decode())
     except ValueError as error:
         raise ContentError(f"it is no TOML ({error})", "write it as docs/how-to/recipes.md shows") from error
+    if empty := [name for name, value in found.items() if value == {}]:
+        remedy = f"write a field below it, or leave out [{empty[0]}]"
+        raise InputError("the table is empty, which asks for nothing", remedy, empty[0])
+    return found
 
 
 def carried(job: Job, folder: Path | None) -> dict[str, Any]:

@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.errors import InputError
+from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.units import in_si
 from roughcontact.validation import number
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["on_common"]
 
 Array = npt.NDArray[Any]
+_JUDGED = ("stiffness", "cell_stiffness", "full_contact_stiffness")  # of them follows what is resolved
 
 
 def on_common(
@@ -28,7 +31,7 @@ def on_common(
     Numbers are interpolated on straight lines between the logarithms of neighbouring points, exact for power laws,
     and never beyond the first or the last: there they are NaN, as between two points of which one is missing or not
     above zero. A truth value is true between two points if it is true at both; a word is kept if both points have it,
-    otherwise it is empty.
+    otherwise it is empty. Whether a load of a loading curve is resolved follows from its interpolated stiffness.
 
     Parameters
     ----------
@@ -81,6 +84,13 @@ def on_common(
         if name != at and along in variable.dims
     }
     result = dataset.drop_dims(along).assign(moved)
+    if (
+        "resolved" in moved
+        and all(name in dataset for name in _JUDGED)
+        and dataset.attrs.get("geometry") != Geometry.LINE.value
+    ):
+        resolved = xarray.apply_ufunc(is_resolved, *(result[name] for name in _JUDGED))
+        result["resolved"] = resolved.assign_attrs(dataset["resolved"].attrs)
     order = [d for d in dataset.sizes if d != along]
     return result.assign_coords({at: (at, wanted, places.attrs)}).transpose(*order, at, missing_dims="ignore")
 
