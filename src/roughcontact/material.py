@@ -1,4 +1,4 @@
-"""Elastic solids, and the modulus that a pair of them presents to a contact."""
+"""Elastic solids, and the reduced modulus of a pair of them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Solid:
         if self.young_modulus < math.inf:
             moderate(self.young_modulus, "young_modulus [Pa]")
         if not -1 < self.poisson_ratio <= 0.5:
-            raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
+            raise about("poisson_ratio", f"must be above -1 and at most 0.5, not {self.poisson_ratio}")
 
     @property
     def shear_modulus(self) -> float:
@@ -61,30 +61,30 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     Raises
     ------
     ValueError
-        If what is given is neither a Solid nor two of them.
+        If `bodies` is neither a Solid nor a pair of Solids.
     """
     if isinstance(bodies, Solid):
         return bodies, None
     if isinstance(bodies, tuple) and len(bodies) == 2:
         return bodies
     raise InputError(
-        f"a Solid or a pair of Solids is wanted, since E* alone does not say how bodies shear, not {shown(bodies)}",
+        f"a Solid or a pair of Solids is wanted, because E* does not determine shear, not {shown(bodies)}",
         place="bodies",
     )
 
 
 def require_solid(body: Any) -> Solid:
-    """Return a body, which must be a Solid.
+    """Return `body` if it is a Solid.
 
     Raises
     ------
     ValueError
-        If it is none.
+        If it is not a Solid.
     """
     if not isinstance(body, Solid):
         raise InputError(
             f"a Solid is wanted (young_modulus, poisson_ratio), not {shown(body)}",
-            "give such as rc.Solid(210e9, 0.3), or by name rc.reduced_modulus('steel', 'aluminium')",
+            "give a Solid such as rc.Solid(210e9, 0.3), or names: rc.reduced_modulus('steel', 'aluminium')",
         )
     return body
 
@@ -95,7 +95,7 @@ def inverse_sum(compliances: Iterable[float]) -> float:
     Raises
     ------
     ValueError
-        If none of them yields.
+        If all bodies are rigid.
     """
     compliance = sum(compliances)
     if compliance == 0:

@@ -108,7 +108,7 @@ def conductance(
     conductivities: tuple[float, float] | None = None,
     of: Literal["interface", "total"] = "interface",
 ) -> dict[str, Array] | xarray.Dataset:
-    """Return the conductances and resistances of a contact, by the exact analogy with its stiffness.
+    """Return conductances and resistances by the exact analogy with the stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
     Parameters
     ----------

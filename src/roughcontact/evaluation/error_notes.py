@@ -16,7 +16,7 @@ LARGE = 0.1  # of a number: smaller errors get no note
 REMEDIES = MappingProxyType(
     {
         "grid": "The cells are too large for this load: take a finer map.",
-        "short cut-off": "It depends on the shortest waves of the map: quote the shortest wave with the number, or give that "
+        "short cut-off": "The shortest waves of the map cause it: quote the shortest wave with the number, or that "
         "of the instrument (short_cutoff, --shortest-wave).",
         "levelling": "The longest waves are about as long as the map, and a quadratic form removes them: measure a "
         "larger map, or check whether the form is that of the instrument.",

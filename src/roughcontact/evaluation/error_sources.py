@@ -38,7 +38,7 @@ OF_FORM = (
     "Levelling and sampling are left out: a form larger than the roughness belongs to the body, and its quarters are "
     "other bodies. If it does not, remove the form (levelled('quadratic'), --level quadratic)."
 )
-AT_DEPTH = "Sampling is left out: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
+AT_DEPTH = "Sampling is left out: at a given depth, maps differ by their highest points. Prescribe force or pressure."
 FLOOR = "areas and stiffnesses at least by the cells along the border of the contact"
 SAME = 1e-9  # relative difference up to which two loads or spacings are equal
 
@@ -185,7 +185,7 @@ def _check(patches: Sequence[Solution]) -> None:
         if problem.geometry is not Geometry.SURFACE or not isinstance(problem.surface, Surface):
             raise InputError(
                 f"errors are those of a map of heights that was pressed, not of a {problem.geometry.value} or of a "
-                "separation alone",
+                "separation without a map",
                 "press a Surface of two axes",
             )
         if not is_numpy(problem.surface.heights):

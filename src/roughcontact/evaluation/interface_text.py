@@ -50,7 +50,7 @@ def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: st
         *_facts(table, "Pa" if stress == 1 else "MPa", stress),
         zero,
         "between two lines Abaqus interpolates linearly: at most "
-        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it continues straight",
+        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it is straight",
         *remarks,
     ]
     lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]

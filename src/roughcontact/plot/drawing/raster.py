@@ -36,9 +36,7 @@ Colours = Colormap | str
 # More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
 # leaves out some rows could leave out the contact.
 _DRAWN = 1024
-_ALIKE = (
-    0.05  # of their size, that heights differ by: as numbers they would differ in their last digits alone
-)
+_ALIKE = 0.05  # of their size: heights that differ by less are drawn above a datum
 
 
 def part(grid: AnyGrid, window: Window | None) -> Window:
