@@ -1,8 +1,8 @@
-"""Pictures: functions of what is drawn and the axes it is drawn on, and whole figures.
+"""Pictures: functions that draw on axes, and whole figures.
 
-A function takes what is drawn first, then ``ax=None``, the Matplotlib axes to draw on, and the rest by name; it returns
-the axes. Without axes it makes a figure of pyplot, which notebooks show. A name that ends in ``figure`` makes a whole
-figure, without pyplot, which `save` writes as PNG, PDF or SVG.
+The first argument of a function is the object to draw, the second ``ax=None``, the Matplotlib axes to draw on; the
+others are keywords. It returns the axes. Without axes it makes a figure of pyplot, which notebooks show. A function
+whose name ends in ``figure`` makes a whole figure, without pyplot, which `save` writes as PNG, PDF or SVG.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a notebook shows of a value: what is worth telling as a table, beside a picture."""
+"""The display of values in a notebook: a table of the main numbers beside a picture."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ __all__ = [
     "surface_html",
 ]
 
-_SHOWN = 30  # loads of a longer curve: the first and the last half of these
+_SHOWN = 30  # loads that are shown of a longer curve: half of them from its begin, half from its end
 _SIZE, _DPI = (4.6, 3.4), 96
 _LEFT = "text-align:left"
 
@@ -58,7 +58,7 @@ _LEFT = "text-align:left"
 def surface_html(surface: Surface) -> str | None:
     """Return size, missing points, heights and history of a surface beside its picture.
 
-    None of heights on another device, so that they stay there: the notebook takes ``repr`` then.
+    It returns None for heights on another device, to leave them there: the notebook then uses ``repr``.
     """
     if not is_numpy(surface.heights):
         return None
@@ -98,7 +98,7 @@ def loop_html(loop: Loop) -> str:
 
 
 def state_html(state: AdhesiveState | DetachmentState) -> str:
-    """Return the numbers of a state of surfaces that stick beside pressure and tension."""
+    """Return the numbers of a state of adhesive surfaces beside pressure and tension."""
     figure, axes = _figure()
     plot_state(state, axes)
     facts = detachment_state_facts(state) if isinstance(state, DetachmentState) else adhesive_facts(state)
@@ -114,7 +114,7 @@ def detachment_html(curve: DetachmentCurve) -> str:
 
 
 def adhesive_curve_html(loop: AdhesiveCurve) -> str:
-    """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
+    """Return a table of the loads of adhesive surfaces, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
     jump_loop(loop, axes)
     law = law_facts(loop.adhesion, loop.modulus, loop.spacing, loop.summit_radius)
@@ -129,7 +129,7 @@ def _noted(notes: Sequence[str], name: str = "note") -> list[tuple[str, str]]:
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:
-    """Return a table, of many rows the first and the last."""
+    """Return a table; if it has many rows, only the first and the last."""
     if len(rows) > _SHOWN:
         left_out = ["..."] * len(header)
         rows = [*rows[: _SHOWN // 2], left_out, *rows[-_SHOWN // 2 :]]

@@ -1,4 +1,4 @@
-"""Parameters of a study as columns, legends and notes name them: in units that leave short numbers."""
+"""Names and values of the parameters of a study for columns, legends and notes, in units with short numbers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class ParameterLabel:
     ----------
     name : str
     scale : Scale
-        For its numbers.
+        The unit of its values.
     """
 
     name: str
