@@ -14,21 +14,21 @@ from packaging.utils import canonicalize_name
 PURPOSES = {
     "numpy": "arrays",
     "scipy": "Fourier transforms, linear algebra, special functions",
-    "llvmlite": "machine code of the sums for the processor at hand; without it NumPy and SciPy do them",
-    "array-api-compat": "heights on a GPU, of PyTorch or CuPy",
-    "threadpoolctl": "one thread of linear algebra where more would be slower",
-    "psutil": "how much memory is free, before it is taken",
+    "llvmlite": "machine code for the sums on this processor; without it, NumPy and SciPy compute them",
+    "array-api-compat": "heights in arrays of PyTorch or CuPy, on a GPU",
+    "threadpoolctl": "linear algebra in one thread where more threads would be slower",
+    "psutil": "free memory, checked before a computation",
     "typer": "the command line",
-    "rich": "its tables and progress",
+    "rich": "tables and progress bars of the command line",
     "pint": "units in files and on the command line",
     "matplotlib": "pictures: `--out` of every command, `plot`",
     "xarray": "answers with units and names: `curve.nc`, `to_dataset`, `to_dataframe`; averages of studies",
-    "h5netcdf": "NetCDF files, read and written",
-    "h5py": "HDF5 below them",
-    "pydantic": "study files: what they may hold, in words",
+    "h5netcdf": "reading and writing NetCDF files",
+    "h5py": "HDF5, on which NetCDF-4 files are based",
+    "pydantic": "checks of study files, with messages",
     "filelock": "one writer for the store of a study",
-    "platformdirs": "the user's folder for caches, where machine code is kept",
-    "tomli-w": "study files and recipes, written",
+    "platformdirs": "the user's cache folder, in which machine code is stored",
+    "tomli-w": "writing study files and recipes",
 }
 
 
@@ -67,7 +67,7 @@ def table() -> list[str]:
         rows.append(
             (size(name), sum(map(size, brought)), name, ", ".join(sorted(brought, key=size)[::-1][:3]))
         )
-    lines = ["| dependency | MB | and brings | MB | for |", "|---|---|---|---|---|"]
+    lines = ["| dependency | MB | brings | MB | for |", "|---|---|---|---|---|"]
     for own, more, name, brought in sorted(rows, reverse=True):
         lines.append(
             f"| {name} | {own:.1f} | {brought} | {f'{more:.1f}' if brought else ''} | {PURPOSES[name]} |"

@@ -50,6 +50,12 @@ def test_links_lead_somewhere(page):
     assert missing(page) == []
 
 
+def test_a_page_has_at_most_250_lines():
+    """Beyond that it answers several questions. Pages of the methods are read from end to end."""
+    long = {page.name for page in PAGES if len(page.read_text(encoding="utf-8").splitlines()) > 250}
+    assert long <= {"method.md", "method-adhesion.md", "figures.md"}, long
+
+
 def test_every_data_file_is_a_table_of_a_page():
     shown = set()
     for page in PAGES:

@@ -45,7 +45,7 @@ def checked() -> Table:
         "ensemble",
         "cells",
         "k/(E* L)",
-        "the same by the other",
+        "k/(E* L), other solver",
         "largest difference of k, K and depth",
     ]
     return head, check()

@@ -150,8 +150,8 @@ def runs(folder: Path = FOLDER) -> Table:
         found = read(path.stem, folder)
         name = f"[`{path.stem}`](../../examples/law/{path.name})"
         rows.append([name, words, str(asked), *_far(path.stem, found, asked, folder)])
-    head = ["study", "what", "samples wanted", "done", "hours", "hours to come"]
-    return [*head, "largest standard error, of", "now", "with all"], rows
+    head = ["study", "content", "samples planned", "done", "hours", "hours left"]
+    return [*head, "quantity with the largest standard error", "its error now", "with all samples"], rows
 
 
 def _far(name: str, found: xarray.Dataset | None, asked: int, folder: Path) -> list[str]:

@@ -13,16 +13,16 @@ from roughcontact_thesis.verdict import Verdict
 PICTURE = "fig27"  # beside the findings
 FINDINGS = ("fig27", "fig28", "fig26", "fig37", "outlook-flat")  # in this order
 _KINDS = {
-    "claim": ("Claims", "What the thesis says about rough contacts."),
-    "method": ("Definitions and methods", "What its derivations and its programs stand on."),
+    "claim": ("Claims", "Statements of the thesis about rough contacts."),
+    "method": ("Definitions and methods", "Statements on which its derivations and its programs are based."),
     "misprint": (
         "Numbers and formulae as printed",
-        "Here a wrong one does not hold. The right ones, and a test for each, stand in [errata.md](errata.md).",
+        "A wrong one does not hold. [errata.md](errata.md) lists the right ones, with a test for each.",
     ),
-    "theory": ("Theories of others", "Models that the thesis reports, and what it says of them."),
+    "theory": ("Theories of others", "Models that the thesis reports, and its statements about them."),
     "answer": (
         "Questions of the thesis",
-        "What it leaves open, put to ensembles: what it expects, and what is found.",
+        "Open questions of the thesis, studied with ensembles: its expectations and the results.",
     ),
 }
 _MANY = {
@@ -89,61 +89,66 @@ class Entry:
 
 HEAD = """# The thesis, computed again
 
-R. Pohrt, *Normal Stiffness of Multiscale Rough Surfaces in Elastic Contact* (TU Berlin, 2013), says that a rough square
-pressed into an elastic half-space has a contact stiffness that grows as a power of the force, and that the exponent is
-1/(H + 1), H the Hurst exponent of its roughness. Here its figures are computed anew, and its claims are judged by them.
-Larger ensembles, the same surfaces on many grids, and a formula with errors: [law.md](law.md).
+R. Pohrt, *Normal Stiffness of Multiscale Rough Surfaces in Elastic Contact* (TU Berlin, 2013), studies a rough square
+that is pressed into an elastic half-space. According to the thesis, its contact stiffness grows as a power of the
+force with the exponent 1/(H + 1), where H is the Hurst exponent of its roughness. On this page the figures of the
+thesis are computed again, and its claims are judged by them. [law.md](law.md) describes larger ensembles, the same
+surfaces on many grids, and a formula with errors.
 """
 
 RULES = f"""## How claims are judged
 
-* A claim is quoted word for word, with section or equation, and has a tolerance that was fixed before.
-* A deviation d with standard error s lies inside of a tolerance where |d| + {INSIDE} s does not exceed it, outside
-  where |d| - {OUTSIDE} s does. A claim *holds* if all its deviations lie inside. If some lie outside, it *holds in
-  part* where those inside make up a range, which is named, else it *does not hold*. Where errors let neither be said
-  it is *not decided*. What is computed without a random surface has no s.
-* The thesis expects deviations "in the vicinity of" H = 0 and H = 2. Vicinity is {VICINITY:g}: claims about 0 < H < 2
-  are judged from {VICINITY:g} to {2 - VICINITY:g}, and all ranges ({", ".join(RANGES)}) are told, each with its own
-  verdict.
-* Values along H may share their random phases. The error of a difference between them is taken as the sum of both, its
-  upper bound, also between grids and laws of the same surfaces: a verdict that needs a smaller one is not decided.
-* A claim that the ensemble of its figure leaves open is judged by a larger one of [law.md](law.md), where there is
-  one, with the same tolerance, and by the errors of differences as drawing surfaces again gives them; the last column
-  says so.
-* Averages over samples are arithmetic means at one force; power laws are fitted to their logarithms.
+* A claim is quoted word for word, with section or equation. Its tolerance was fixed before the computation.
+* A deviation d with standard error s lies inside the tolerance if |d| + {INSIDE} s does not exceed it, and outside if
+  |d| - {OUTSIDE} s exceeds it. Results that need no random surface have no s.
+* A claim *holds* if all its deviations lie inside. If some lie outside and those inside form a range, it *holds in
+  part*, and the range is named. If some lie outside and none inside, it *does not hold*. In all other cases it is
+  *not decided*.
+* The last column gives the deviation that decided: the largest one, one outside the tolerance, or an undecided one.
+* The thesis expects deviations "in the vicinity of" H = 0 and H = 2. The vicinity is taken as {VICINITY:g}: claims
+  about 0 < H < 2 are judged from {VICINITY:g} to {2 - VICINITY:g}. The results for all ranges ({", ".join(RANGES)})
+  are listed, each with a separate verdict.
+* Values at different H may share their random phases. The error of a difference between them is taken as the sum of
+  both errors, its upper bound. The same holds for different grids and laws of the same surfaces. A verdict that needs
+  a smaller error is not decided.
+* If the ensemble of a figure does not decide a claim, a larger ensemble of [law.md](law.md) judges it, if there is
+  one. The tolerance is the same. The errors of differences come from resampling the surfaces. The last column then
+  names this ensemble.
+* Averages over samples are arithmetic means at one force. Power laws are fitted to their logarithms.
 
-Every figure, with what was chosen and what it shows, stands in `reproduction/figures.md` of the repository. What became
-of former verdicts stands in `reproduction/verdicts.md`.
+`reproduction/figures.md` in the repository shows every figure, with the choices made and the results.
+`reproduction/verdicts.md` compares former verdicts with these.
 """
 
 WORDS = """## Words and symbols
 
 * E\\*: reduced modulus, 1/E\\* = (1 - nu1²)/E1 + (1 - nu2²)/E2. L: side of the square surface, or length of the line.
-  h: rms height of its roughness. F, d, k: normal force, depth of indentation, contact stiffness dF/dd; K = -dF/du: the
-  same against the mean gap u.
-* F/(E\\* h L) and k/(E\\* L): force and stiffness without dimension. "A force of 0.07" is the former.
+  h: rms height of its roughness.
+* F, d, k: normal force, indentation depth, contact stiffness dF/dd. K = -dF/du: stiffness against the mean gap u.
+* F/(E\\* h L) and k/(E\\* L): dimensionless force and stiffness. "A force of 0.07" means F/(E\\* h L) = 0.07.
 * H, D_f: Hurst exponent, and fractal dimension 3 - H. alpha, zeta: exponent and prefactor of the power law
   k/(E\\* L) = zeta (F/(E\\* h L))^alpha. q, C2D, C1D: wavenumber, power spectrum of a surface and of a line.
   Theta = h L^-H.
 * Surfaces: rough squares, free at their edges, pressed into a half-space by boundary elements, square cells of constant
   pressure. Rough lines: N points pressed into a row of independent springs, the method of dimensionality reduction.
-* 20 cells, 20 springs: twenty times the stiffness of a single one. Below, single ones decide, and nothing is fitted.
+* 20 cells, 20 springs: twenty times the stiffness of a single cell or spring. Below this stiffness the result depends
+  on single cells, and no law is fitted.
 * Case: one solution, or one curve over all forces. Sample: one draw of the random phases, the same for all parameters.
-  Sizes, rms heights and moduli of studies are bare numbers: what is found does not depend on them.
+* Sizes, rms heights and moduli of studies have no units, because the results do not depend on them.
 
-The package `roughcontact-thesis` draws the figures: `make thesis FIG=fig27` in a checkout, or, once it is installed,
-`roughcontact thesis fig27`. `python reproduction/benchmarks/pages.py` writes this page.
+The package `roughcontact-thesis` draws the figures: run `make thesis FIG=fig27` in a checkout, or
+`roughcontact thesis fig27` once the package is installed. `python reproduction/benchmarks/pages.py` writes this page.
 """
 
 FIGURES = """# The figures of the thesis, computed again
 
-What is found, every claim with its verdict, and the words and symbols stand in
+The results, every claim with its verdict, and the words and symbols are in
 [docs/evidence/reproduction.md](../docs/evidence/reproduction.md). `python reproduction/benchmarks/pages.py` writes
-this page from files in [data](data): averages of ensembles, NetCDF files that also hold the studies they are
-averages of, and the findings of figures that take seconds. The single solutions are not kept; the command in each
-section makes them again, and all of them at once
+this page from the files in [data](data). Averages of ensembles are NetCDF files that also contain their studies. The
+results of figures that take seconds are in `simple.json`. Single solutions are not stored. The command in each section
+computes them again, and these commands compute all of them:
 
-    roughcontact thesis all --scale thesis --out DIR         # days; stopped at any time it goes on where it was
+    roughcontact thesis all --scale thesis --out DIR         # days; may be stopped at any time and continued
     python reproduction/benchmarks/pages.py --collect DIR
 """
 
@@ -174,13 +179,13 @@ def changes_page(every: Sequence[Entry], former: Sequence[dict[str, Any]]) -> st
     named = [(row.get("judged", row["figure"]), claim) for row in former for claim in row["now"]]
     new = [each for each in now if each not in named]
     lines = [
-        "# Verdicts on the thesis, and what became of them",
+        "# Verdicts on the thesis, before and now",
         "",
-        f"The {len(former)} rows on the left were judged by rules that were unfair to the thesis: limits of H at "
-        "which it expects deviations counted against it, errors often had no part in the verdict, formulae were "
-        "tested under numbers that are not theirs, and theories of others, misprints and questions stood among its "
-        "claims. On the right the verdicts of now, by the rules of "
-        "[reproduction.md](../docs/evidence/reproduction.md#how-claims-are-judged), and why they differ.",
+        f"The {len(former)} rows on the left were judged by rules that were unfair to the thesis. Deviations counted "
+        "against it even at limits of H where it expects them. The verdict often ignored errors. Formulae were tested "
+        "under the wrong numbers. Theories of others, misprints and questions were listed among its claims. The right "
+        "half of the table gives the present verdicts, by the rules of "
+        "[reproduction.md](../docs/evidence/reproduction.md#how-claims-are-judged), and the reason for a difference.",
         "",
         "| figure | before | verdict | now | verdict | why |",
         "|---|---|---|---|---|---|",
@@ -195,7 +200,7 @@ def changes_page(every: Sequence[Entry], former: Sequence[dict[str, Any]]) -> st
             f"| [{entry.short}](figures.md#{entry.anchor}) | {plain(row['claim'])} | {row['word']} | "
             f"{claims} | {plain(words)} | {plain(row['why'])} |"
         )
-    lines += ["", "## Claims that are new", "", "| figure | claim | verdict |", "|---|---|---|"]
+    lines += ["", "## New claims", "", "| figure | claim | verdict |", "|---|---|---|"]
     for name, claim in new:
         entry = anchors[name]
         word = plain(now[name, claim].word)
@@ -220,12 +225,12 @@ def _missing(every: Sequence[Entry]) -> list[str]:
     for said, chosen in (
         ("**Missing**, not computed yet: {}.", [each for each in every if not each.computed]),
         (
-            "On the small scale as yet, fewer samples on smaller grids than the thesis': {}. What these say is "
+            "On the small scale, with fewer samples and smaller grids than the thesis: {}. These results are "
             "provisional.",
             [each for each in every if each.scale == "small"],
         ),
         (
-            "With counts that are neither the thesis' nor small: {}.",
+            "With counts that are neither those of the thesis nor those of the small scale: {}.",
             [each for each in every if each.scale == "other"],
         ),
         ("Cases failed or are missing: {}.", [each for each in every if not each.whole]),
@@ -246,11 +251,11 @@ def _table(every: Sequence[Entry], kind: str) -> list[str]:
     lines = [
         f"## {title}",
         "",
-        f"{words} Of {len(rows)}, {told}. What is found stands in `reproduction/figures.md`.",
+        f"{words} Of {len(rows)}, {told}. The results are in `reproduction/figures.md`.",
         "",
     ]
     lines += [
-        "| figure | claim | the thesis | judged by | verdict | what decided |",
+        "| figure | claim | the thesis | tolerance | verdict | deviation that decided |",
         "|---|---|---|---|---|---|",
     ]
     for each, verdict in rows:
@@ -265,11 +270,11 @@ def _table(every: Sequence[Entry], kind: str) -> list[str]:
 
 
 def _unjudged(words: dict[str, Any]) -> list[str]:
-    lines = ["## What is not judged", "", "| claim | where | why not |", "|---|---|---|"]
+    lines = ["## Claims that are not judged", "", "| claim | where | reason |", "|---|---|---|"]
     lines += [
         f"| {plain(each['claim'])} | {plain(each['where'])} | {each['why']} |" for each in words["claims"]
     ]
-    lines += ["", "Figures of the thesis that are not drawn:", "", "| figure | what it is | why not |"]
+    lines += ["", "Figures of the thesis that are not drawn:", "", "| figure | content | reason |"]
     lines += ["|---|---|---|"]
     lines += [f"| {each['figure']} | {plain(each['what'])} | {each['why']} |" for each in words["figures"]]
     return [*lines, ""]
@@ -277,8 +282,8 @@ def _unjudged(words: dict[str, Any]) -> list[str]:
 
 _SCALES = {
     "thesis": "On the scale of the thesis, with its counts where it states them:",
-    "small": "**On the small scale**, fewer samples on smaller grids than the thesis':",
-    "other": "**With counts that are not those of the figure now**:",
+    "small": "**On the small scale**, with fewer samples and smaller grids than the thesis:",
+    "other": "**With counts other than those of the figure**:",
     None: "Computed in seconds:",
 }
 
@@ -286,7 +291,7 @@ _SCALES = {
 def _section(entry: Entry) -> list[str]:
     lines = [f"## {entry.heading}", "", f"**{plain(entry.title[0].upper() + entry.title[1:])}**", ""]
     if not entry.computed:
-        return [*lines, f"**Missing:** not computed yet; {command(entry.name, 'thesis')} does it.", ""]
+        return [*lines, f"**Missing:** not computed yet; {command(entry.name, 'thesis')} computes it.", ""]
     lines += [f"![{entry.title}](pictures/{entry.name}.png)", "", plain(entry.caption), ""]
     if entry.verdicts:
         lines += [
@@ -295,8 +300,8 @@ def _section(entry: Entry) -> list[str]:
             for verdict in entry.verdicts
         ]
     else:
-        lines.append("The text makes no claim about it that could be judged.")
-    lines += ["", "Chosen where the thesis leaves it open:", "", *_items(map(plain, entry.chosen))]
+        lines.append("The text makes no claim about this figure that could be judged.")
+    lines += ["", "Choices that the thesis leaves open:", "", *_items(map(plain, entry.chosen))]
     lines += ["", _SCALES[entry.scale], "", *_items(entry.computed)]
     if entry.scale is not None:
         lines.append(f"* averages: [{entry.name}.nc](data/{entry.name}.nc)")

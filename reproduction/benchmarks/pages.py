@@ -1,14 +1,14 @@
-"""What of the thesis holds: its figures computed again, beside its text, as pages.
+"""Pages about the thesis: its figures computed again, beside its text, and which of its claims hold.
 
     python reproduction/benchmarks/pages.py                   # draws all figures and writes the pages
     python reproduction/benchmarks/pages.py --collect DIR     # takes over the averages DIR/figN.nc before
-    python reproduction/benchmarks/pages.py fig6 fig27        # draws some of them anew, and writes the pages
+    python reproduction/benchmarks/pages.py fig6 fig27        # draws some of them again, and writes the pages
 
-The pages say what is found in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
-figN --scale thesis --out DIR``), what the figures found that are computed here in seconds (``simple.json``), what is
-seen in each (``captions.toml``), and the pictures. What is not there is said to be missing.
+The pages show the files in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
+figN --scale thesis --out DIR``), results of figures that are computed here in seconds (``simple.json``), captions
+(``captions.toml``), and the pictures. A file that does not exist is reported as missing.
 docs/evidence/reproduction.md holds findings and claims, reproduction/figures.md the figures;
-reproduction/verdicts.md lays former verdicts (``former.toml``) beside those of now.
+reproduction/verdicts.md compares former verdicts (``former.toml``) with the present ones.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def _by_larger(entry: Entry, larger: list[law_verdicts.Larger]) -> Entry:
     judged = tuple(law_verdicts.judged(verdict, entry.name, larger) for verdict in entry.verdicts)
     finding = entry.finding
     if finding and judged and judged[0].word != entry.verdicts[0].word:
-        finding += f" Larger ensembles decide that {judged[0].claim}: this {judged[0].word}."
+        finding += f" By larger ensembles, this claim {judged[0].word}: {judged[0].claim}."
     return replace(entry, verdicts=judged, finding=finding)
 
 
@@ -171,8 +171,8 @@ def _cases(done: int, failed: int, missing: int) -> str:
 def _time(seconds: float) -> str:
     for size, unit in ((3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:
-            return f"{seconds / size:.{0 if seconds >= 10 * size else 1}f} {unit} of computing in all"
-    return f"{seconds:.0f} seconds of computing in all"
+            return f"{seconds / size:.{0 if seconds >= 10 * size else 1}f} {unit} of computing in total"
+    return f"{seconds:.0f} seconds of computing in total"
 
 
 # The pages
@@ -206,9 +206,7 @@ def collect(source: Path, folder: Path = FOLDER) -> None:
             continue
         averages = read(path)
         if "studies" not in averages.attrs:
-            sys.exit(
-                f"{path} does not say of which studies it is: write it once more, roughcontact thesis {name} --as-is"
-            )
+            sys.exit(f"{path} does not name its studies: write it again, roughcontact thesis {name} --as-is")
         found = module(name)
         assert is_ensemble(found)
         # A command line names folders of one machine.

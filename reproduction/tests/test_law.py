@@ -85,7 +85,7 @@ def test_the_pages_show_the_ensembles_that_are_there(script):
         else:
             data = (script.DATA / f"{name}.csv").read_text(encoding="utf-8")
             assert data == script.comma_separated(one)
-            assert f":file: data/law/{name}.csv\n" in text
+            assert f":file: ../data/law/{name}.csv\n" in text
     for name, one in ({"runs": script.runs()} | script.result_tables()).items():
         table = script.markdown(one).replace("*", r"\*")
         assert f"<!-- table {name} -->\n{table}\n<!-- end -->" in text
@@ -93,7 +93,7 @@ def test_the_pages_show_the_ensembles_that_are_there(script):
 
 def test_every_data_file_of_the_law_is_in_a_page_and_every_table_is_written(script):
     text = "".join(page.read_text(encoding="utf-8") for page in script.PAGES)
-    shown = re.findall(r":file: data/law/(\S+)\.csv\n", text)
+    shown = re.findall(r":file: ../data/law/(\S+)\.csv\n", text)
     assert sorted(shown) == sorted(path.stem for path in script.DATA.glob("*.csv"))
     assert "Not computed yet." not in text
 

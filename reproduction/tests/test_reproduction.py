@@ -150,7 +150,7 @@ def test_averages_are_taken_over_with_what_they_are_and_without_a_place(script, 
     text = section(script.figures_page(bare), "fig37")
     assert "**On the small scale**" in text
     assert "20 samples, case `curve`, seed 1; " in text
-    assert "**17 of 20 cases: 1 failed, 2 missing**, 2.8 hours of computing in all" in text
+    assert "**17 of 20 cases: 1 failed, 2 missing**, 2.8 hours of computing in total" in text
     assert "`roughcontact thesis fig37 --scale small --out DIR`" in text
     assert "Cases failed or are missing: figure 37." in script.page(bare)
 

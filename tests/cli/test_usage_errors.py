@@ -18,7 +18,7 @@ JOB = ("press", "FILE", "--force", "1N", "--modulus", "1GPa")
         (("press",), "FILE is missing: write a line such as: roughcontact press part.x3p --force 10N"),
         (("surface", "make", "a.npz"), "--hurst: this option must be given; write --hurst 0.8"),
         (("study", "export", "results"), "--out: this option must be given; write --out FILE"),
-        (("pres",), "'roughcontact' has no command 'pres': did you mean 'press'? choose of"),
+        (("pres",), "'roughcontact' has no command 'pres': did you mean 'press'? choose from"),
         (("surface", "inof"), "'roughcontact surface' has no command 'inof': did you mean 'info'?"),
         (("-q", "press"), "-q: there is no such option; write it behind the name of a command"),
         ((*JOB, "--format", "gif"), "--format: there is no 'gif' here; choose from png, pdf, svg"),

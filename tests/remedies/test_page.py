@@ -141,10 +141,12 @@ PREPARED = [
     row(prepared(downsample="40"), "give at most 24", prepared(downsample="24")),
     row(
         prepared(level="tilt"),
-        "Choose of none, mean, plane, quadratic",
+        "Choose from none, mean, plane, quadratic",
         *(prepared(level=level) for level in ("none", "mean", "plane", "quadratic")),
     ),
-    row(prepared(mask=["circle=3"]), "above=3um or below=-3um", prepared(mask=["above=3um", "below=-3um"])),
+    row(
+        prepared(mask=["circle=3"]), "above=3um, below=-3um, box", prepared(mask=["above=3um", "below=-3um"])
+    ),
     row(prepared(alias=True), "Give downsample too", prepared(alias=True, downsample="2")),
     row(prepared(window="hann", share="0.2"), "Give window tukey", prepared(window="tukey", share="0.2")),
     row(prepared(tip="1m"), "with its unit, such as 2um", prepared(tip="2um")),

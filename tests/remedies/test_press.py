@@ -234,7 +234,7 @@ BODIES = [
     ),
     row(
         lambda: rc.contact_stiffness(2 * np.ones((16, 16)), PLANE, MODULUS),
-        "truth values, such as pressure > 0, or by ones and zeros alone",
+        "truth values, such as pressure > 0, or only by ones and zeros",
         lambda: rc.contact_stiffness(press().pressure > 0, PLANE, MODULUS),
         lambda: rc.contact_stiffness(np.eye(16), PLANE, MODULUS),
     ),

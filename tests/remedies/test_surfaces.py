@@ -86,7 +86,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Surface(INFINITE, PLANE),
-        "heights are infinite: mark points without a measurement by NaN",
+        "height is infinite: mark points without a measurement by NaN",
         lambda: rc.Surface(np.where(np.isinf(INFINITE), np.nan, INFINITE), PLANE),
     ),
     row(

@@ -1,10 +1,10 @@
 """
-A ball comes, sticks, and goes
-==============================
+Approach and retreat of an adhesive ball
+========================================
 
-Force against depth of a ball on a soft flat, to and fro. It jumps into contact (dashed), and out of it later; what
-the jumps lose is the loop. The largest tension lies between that of Johnson, Kendall and Roberts, 3/2 pi w R, and
-that of a hard ball, 2 pi w R.
+Force against depth of an adhesive ball on a soft flat, for approach and retreat. The ball jumps into contact
+and later out of contact (dashed). The area of the loop is the energy that the jumps dissipate. The pull-off
+force lies between the limits of Johnson, Kendall and Roberts, 3/2 pi w R, and of a hard ball, 2 pi w R.
 """
 
 import matplotlib.pyplot as plt
@@ -32,5 +32,5 @@ axes.legend()
 
 pull_off = loop.pull_off_force / (np.pi * attraction.work * radius)
 tabor = attraction.tabor(radius, modulus)
-print(f"Tabor's number {tabor:.1f}: at most {pull_off:.2f} pi w R, {loop.lost * 1e18:.0f} aJ lost")
+print(f"Tabor's number {tabor:.1f}: pull-off force {pull_off:.2f} pi w R, {loop.lost * 1e18:.0f} aJ lost")
 assert 1.5 < pull_off < 2

@@ -1,9 +1,10 @@
 """
-Roughness takes the stick away
-==============================
+Roughness reduces the pull-off force
+====================================
 
-A soft rough pad on a flat, pressed and pulled off again. With twice the height of its waves the same attraction
-holds it less, and with four times hardly at all: its summits keep the faces apart (Fuller and Tabor 1975).
+A soft rough pad is pressed on a flat and pulled off again. With waves of twice the height, the same
+attraction gives a smaller pull-off force. With four times the height almost none is left, because the
+summits keep the faces apart (Fuller and Tabor 1975).
 """
 
 import matplotlib.pyplot as plt
@@ -24,5 +25,5 @@ for rms in 3e-7, 6e-7, 1.2e-6:
 axes.set(xlabel="depth [µm]", ylabel="force [µN]")
 axes.legend()
 
-print("pulled off at", ", ".join(f"{force * 1e6:.1f}" for force in pull_off), "µN")
+print("pull-off forces:", ", ".join(f"{force * 1e6:.1f}" for force in pull_off), "µN")
 assert np.all(np.diff(pull_off) < 0)

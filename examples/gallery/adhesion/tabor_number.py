@@ -1,10 +1,11 @@
 """
-From hard to soft: Tabor's number
-=================================
+Pull-off force against Tabor's number
+=====================================
 
-The pull-off force of a ball falls from 2 pi w R (Derjaguin, Muller and Toporov: hard, small, long-ranged) to 3/2 pi w R
-(Johnson, Kendall and Roberts), between them by Maugis' equations. Beside them balls on rings, with Dugdale's
-attraction and with an exponential one of the same strength w/range.
+The pull-off force of a ball falls from 2 pi w R (Derjaguin, Muller and Toporov: hard, small, long-ranged
+attraction) to 3/2 pi w R (Johnson, Kendall and Roberts). Maugis' equations describe the transition. The
+points are balls computed on rings, with Dugdale's attraction and with an exponential one of the same
+strength w/range.
 """
 
 import matplotlib.pyplot as plt
@@ -26,7 +27,7 @@ for law, mark in ("dugdale", "o"), ("exponential", "s"):
     for number in numbers:
         ball = maugis.DugdaleSphere.of_number(number)
         attraction = rc.Adhesion(work=1.0, range=1 / ball.strength, law=law)
-        # As far as the ball is some ranges above the plane of the contact, whose radius without load is below 1.7.
+        # Up to where the gap is some ranges wide; the contact radius without load is below 1.7.
         reach = np.sqrt(1.7**2 + 2 * (10 if law == "exponential" else 2) * attraction.range)
         rings = rc.RadialGrid.uniform(cells, reach)
         profile = rc.RadialProfile(-(rings.radii**2) / 2, rings)
@@ -39,6 +40,6 @@ for law, mark in ("dugdale", "o"), ("exponential", "s"):
 axes.set(xlabel="Maugis' lambda, 1.127 times Tabor's number", ylabel="pull-off force over π w R")
 axes.legend()
 
-print(f"off Maugis' equations by at most {errors.max():.1e}")
-# The edge of the attraction is known to a ring: at most 2/cells of the area on which it acts.
+print(f"largest deviation from Maugis' equations {errors.max():.1e}")
+# The edge of the attraction is accurate to one ring: at most 2/cells of the area on which it acts.
 assert errors.max() < 2 / cells

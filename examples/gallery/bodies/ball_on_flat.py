@@ -2,7 +2,7 @@
 A ball on a flat
 ================
 
-The pressure under a smooth ball, cell by cell, is that of Hertz.
+The computed pressure under a smooth ball agrees with that of Hertz in every cell.
 """
 
 import matplotlib.pyplot as plt
@@ -23,5 +23,5 @@ axes.set(xlabel="x [µm]", ylabel="pressure [MPa]")
 axes.legend()
 
 ratio = solution.depth / hertz.depth
-print(f"depth over that of Hertz: {ratio:.3f}")
+print(f"depth relative to Hertz: {ratio:.3f}")
 assert f"{ratio:.2f}" == "1.00"

@@ -2,7 +2,8 @@
 Electrical resistance of a contact
 ==================================
 
-A contact conducts as it is stiff: the resistance of copper on copper, from the stiffness, against pressure.
+The conductance of a contact is proportional to its stiffness. This example computes the resistance of copper
+on copper from the stiffness and plots it against pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 A cone on rings
 ===============
 
-A body of revolution is computed on rings, which are narrow where the pressure is steep: at the tip of a cone.
+Bodies of revolution are computed on rings. Here the rings are narrow at the tip of the cone, where the
+pressure is steep.
 """
 
 import matplotlib.pyplot as plt
@@ -24,5 +25,5 @@ axes.set(xlabel="radius [µm]", ylabel="pressure [MPa]")
 axes.legend()
 
 ratio = solution.depth / exact.depth
-print(f"depth over that of Sneddon: {ratio:.3f}")
+print(f"depth relative to Sneddon: {ratio:.3f}")
 assert abs(ratio - 1) < 1e-3  # the width of a ring, over the contact radius, squared

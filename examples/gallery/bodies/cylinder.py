@@ -2,7 +2,7 @@
 A cylinder on a flat
 ====================
 
-A line contact: nothing changes along the cylinder, forces are per length, and the pressure is that of Hertz.
+A line contact: nothing varies along the cylinder, and forces are per length. The pressure is that of Hertz.
 """
 
 import numpy as np
@@ -17,5 +17,5 @@ axes = rc.plot.pressure_profile(solution)
 hertz = rc.theory.hertz.line(110e9, radius=0.02, force=2e4)
 
 ratio = solution.pressure.max() / hertz.max_pressure
-print(f"largest pressure over that of Hertz: {ratio:.3f}")
+print(f"largest pressure relative to Hertz: {ratio:.3f}")
 assert f"{ratio:.2f}" == "1.00"

@@ -1,9 +1,9 @@
 """
-One body, four sums
-===================
+Four methods of summation for one body
+======================================
 
-The displacement under a pressure is a sum over all cells; it may be taken in four ways. Where a sum is not
-exact, the exact one certifies the answer, so that all four give one pressure.
+The displacement under a pressure is a sum over all cells, which can be computed by four methods. If a method
+is inexact, the exact sum certifies its answer. All four methods therefore give the same pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -1,8 +1,9 @@
 """
-A hardness that no pressure exceeds
-===================================
+Contact area under a hardness
+=============================
 
-Where most spots flow, the real contact area is the force over the hardness.
+The hardness limits the pressure. Where most spots flow, the real contact area is the force divided by the
+hardness.
 """
 
 import matplotlib.pyplot as plt
@@ -24,5 +25,5 @@ axes.set(xlabel="force [N]", ylabel="contact area [µm²]")
 axes.legend()
 
 ratio = plastic.contact_area[-1] * hardness / forces[-1]
-print(f"area over force / hardness: {ratio:.2f}")
+print(f"area relative to force / hardness: {ratio:.2f}")
 assert f"{ratio:.1f}" == "1.0"

@@ -2,7 +2,7 @@
 An elastic layer on a rigid base
 ================================
 
-The thinner a layer that is bonded to a rigid base, the less a ball sinks into it.
+A ball is pressed into a layer that is bonded to a rigid base. The thinner the layer, the smaller the depth.
 """
 
 import matplotlib.pyplot as plt
@@ -25,5 +25,5 @@ axes.set(xlabel="thickness [µm]", ylabel="depth [nm]")
 axes.legend()
 
 ratio = depths[0] / half_space
-print(f"the thinnest gives {ratio:.2f} of the half-space's depth")
+print(f"depth on the thinnest layer / depth on the half-space: {ratio:.2f}")
 assert f"{ratio:.2f}" == "0.62"

@@ -1,9 +1,10 @@
 """
-An operator of your own
+Write your own operator
 =======================
 
-A half-space under a film of springs, such as a lacquer: any object with these five members may be pressed on.
-It adds at least its compliance under an even pressure, and at most that under the pressure without it.
+A half-space under a film of springs, such as a lacquer. Any object with these five members can be used as an
+operator. The film adds at least its compliance under a uniform pressure, and at most its compliance under
+the pressure without film.
 """
 
 import matplotlib.pyplot as plt
@@ -37,5 +38,5 @@ plt.legend()
 
 added = (1 / soft.stiffness - 1 / hard.stiffness) * soft.contact_area / film
 uneven = np.mean(hard.pressure[disc.measured] ** 2) / np.mean(hard.pressure[disc.measured]) ** 2
-print(f"the film adds {added:.3f} of its compliance under an even pressure; at most {uneven:.3f}")
-assert 1 < added < uneven  # of the energy of the film, least under an even pressure
+print(f"the film adds {added:.3f} times its compliance under a uniform pressure, at most {uneven:.3f} times")
+assert 1 < added < uneven  # the energy of the film is least under a uniform pressure

@@ -2,8 +2,9 @@
 The same heights, periodic and free
 ===================================
 
-A periodic map is the inside of a large joint, a free one a patch alone on two half-spaces. The bodies under a
-patch deform too: its stiffness k stays below that of the interface, K.
+A periodic map represents the inside of a large joint. A free map is a single patch between two half-spaces.
+The bodies under a free patch deform too, so that its stiffness k is smaller than the stiffness K of the
+interface.
 """
 
 import matplotlib.pyplot as plt

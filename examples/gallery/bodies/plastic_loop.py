@@ -1,9 +1,9 @@
 """
-First loading and unloading
-===========================
+Plastic flow: first loading and unloading
+=========================================
 
-A rough joint flows when it is first pressed, and is elastic afterwards: on unloading all of the contact answers, on
-first loading only the cells that do not flow.
+A rough joint flows when it is first loaded and is elastic afterwards. On unloading, all cells in contact
+contribute to the stiffness; on first loading, only the cells that do not flow contribute.
 """
 
 import matplotlib.pyplot as plt
@@ -22,5 +22,5 @@ loop.plot(right, quantity="stiffness")
 flow = loop.loading.flow
 share = loop.residual_depth / loop.loading.depth[-1]
 stiffer = flow.unloading_stiffness[-1] / loop.loading.stiffness[-1]
-print(f"{share:.0%} of the depth stays; on unloading {stiffer:.1f} times as stiff as on first loading")
+print(f"{share:.0%} of the depth remains; unloading is {stiffer:.1f} times as stiff as first loading")
 assert f"{share:.2f}" == "0.84"

@@ -15,5 +15,5 @@ solution = rc.press(surface, 110e9, force=0.5)
 solution.plot()
 
 share = solution.contact_area / grid.area
-print(f"{100 * share:.1f} % of the square touch")
+print(f"{100 * share:.1f} % of the square is in contact")
 assert f"{100 * share:.1f}" == "3.5"

@@ -1,9 +1,9 @@
 """
-Flat punches
-============
+Flat punches of several shapes
+==============================
 
-No flat punch is softer than a disc of its area (Pólya and Szegő): the shape factor k/(2 E* sqrt(A/pi)) of
-four shapes.
+The shape factor k/(2 E* sqrt(A/pi)) of four flat punches. No flat punch is softer than a disc of the same
+area (Pólya and Szegő).
 """
 
 import matplotlib.pyplot as plt

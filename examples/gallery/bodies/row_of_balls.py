@@ -2,8 +2,8 @@
 A row of balls
 ==============
 
-Balls in an endless row, under one force each: far apart each has the pressure of Hertz' ball, close together
-that of a cylinder. The map holds one ball and repeats itself along x alone.
+An endless row of balls under one force each. Distant balls have the pressure of a Hertzian ball. Balls that
+are close together have that of a cylinder. The map contains one ball and is periodic only along x.
 """
 
 import matplotlib.pyplot as plt
@@ -29,9 +29,11 @@ axes.semilogx(columns / 8, ratio, "o", label="computed")
 axes.semilogx(columns[:4] / 8, cylinder.max_pressure / hertz.max_pressure, "--", label="cylinder")
 axes.axhline(1, color="k", linestyle="--", label="ball")
 axes.set(
-    xlabel="pitch / contact radius of one ball", ylabel="largest pressure / that of one ball", ylim=(0, None)
+    xlabel="pitch / contact radius of a single ball",
+    ylabel="largest pressure / that of a single ball",
+    ylim=(0, None),
 )
 axes.legend()
 
-print("largest pressure over that of one ball:", np.round(ratio, 3))
-assert abs(ratio[-1] - 1) < 0.01  # (cell / contact radius)^2 is 0.016, and a third of it the error of a mean
+print("largest pressure relative to a single ball:", np.round(ratio, 3))
+assert abs(ratio[-1] - 1) < 0.01  # (cell / contact radius)^2 is 0.016; the error of a mean is a third of it

@@ -2,8 +2,9 @@
 A ball on springs
 =================
 
-The method of dimensionality reduction: independent springs give force, depth and contact radius of a ball, if
-it is replaced by the profile x²/R (Popov and Heß, *Method of Dimensionality Reduction*, 2015).
+In the method of dimensionality reduction, a ball is replaced by the profile x²/R. Pressed on independent
+springs, this profile has the force, depth and contact radius of the ball (Popov and Heß, *Method of
+Dimensionality Reduction*, 2015).
 """
 
 import roughcontact as rc
@@ -17,5 +18,5 @@ rc.plot.contact_profile(solution)
 
 hertz = rc.theory.hertz.point(modulus, radius=radius, force=force)
 ratio = solution.depth / hertz.depth
-print(f"depth over that of Hertz: {ratio:.4f}")
+print(f"depth relative to Hertz: {ratio:.4f}")
 assert abs(ratio - 1) < (line.spacing[0] / hertz.contact_radius) ** 2  # sums of x² over cells

@@ -2,8 +2,8 @@
 Stiffness of contact regions
 ============================
 
-What matters for the stiffness of one region is its extent: two discs apart are stiffer than one disc of their
-area.
+The stiffness of a region depends on its extent, not only on its area: two discs apart are stiffer than one
+disc of the same total area.
 """
 
 import matplotlib.pyplot as plt
@@ -23,5 +23,5 @@ for axes, mask, k in zip(panels, (one, two), stiffness, strict=True):
     axes.set(title=f"{k / 1e6:.2f} N/µm", xlabel="x [µm]", ylabel="y [µm]")
 
 exact = rc.theory.punch.disc(110e9, np.sqrt(one.sum() / np.pi) * 1e-6)
-print(f"one disc over the closed form: {stiffness[0] / exact:.3f}")
+print(f"one disc relative to the closed form: {stiffness[0] / exact:.3f}")
 assert f"{stiffness[0] / exact:.3f}" == "0.994"

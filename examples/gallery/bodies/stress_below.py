@@ -14,5 +14,5 @@ rc.plot.von_mises_section(solution, 0.3)
 
 peak = rc.largest_von_mises(solution, 0.3)
 depth = peak.depth / rc.theory.hertz.point(modulus=modulus, radius=radius, force=force).contact_radius
-print(f"largest at {depth:.2f} of the contact radius")
+print(f"largest at a depth of {depth:.2f} contact radii")
 assert f"{depth:.2f}" == "0.48"

@@ -1,9 +1,9 @@
 """
-Where a ball slips
-==================
+Partial slip of a ball
+======================
 
-A ball is pressed on a flat and pulled: the ring at the edge slips, the middle holds (Cattaneo 1938, Mindlin
-1949).
+A ball is pressed on a flat and pulled tangentially. A ring at the edge slips and the middle sticks (Cattaneo
+1938, Mindlin 1949).
 """
 
 import matplotlib.pyplot as plt
@@ -27,5 +27,5 @@ axes.set(xlabel="x [µm]", ylabel="traction [kPa]")
 axes.legend()
 
 radius = np.sqrt(slid.stick_area / np.pi) / float(exact.stick_radius(0.3e-3))
-print(f"radius that holds, over that of Cattaneo: {radius:.3f}")
+print(f"stick radius relative to Cattaneo: {radius:.3f}")
 assert abs(radius - 1) < 0.5 * 4e-6 / float(exact.stick_radius(0.3e-3))  # half a cell

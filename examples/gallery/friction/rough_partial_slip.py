@@ -1,9 +1,9 @@
 """
-Where a rough contact slips
-===========================
+Partial slip of a rough contact
+===============================
 
-Under a growing tangential force small spots slip first, large ones from their edges. Blue
-cells hold, orange ones slip.
+Under a growing tangential force, small spots slip first, and large spots slip from their edges inward. Blue
+cells stick, orange cells slip.
 """
 
 import matplotlib.pyplot as plt
@@ -26,7 +26,7 @@ for axes, share, slid in zip(
     state = np.where(slid.sticking, 2, np.where(slid.slipping, 1, 0))
     axes.imshow(state, cmap=ListedColormap(["0.92", "C1", "C0"]), vmin=0, vmax=2)
     held.append(slid.stick_area / pressed.contact_area)
-    axes.set(title=f"Q = {share} µ F: {held[-1]:.0%} hold", xticks=[], yticks=[])
+    axes.set(title=f"Q = {share} µ F: {held[-1]:.0%} sticks", xticks=[], yticks=[])
 
-print("of the contact hold:", np.round(held, 2))
+print("part of the contact that sticks:", np.round(held, 2))
 assert held[0] > held[1] > held[2] > 0

@@ -2,9 +2,9 @@
 Tangential and normal stiffness
 ===============================
 
-Sticking contact of two like bodies has (1 - nu)/(1 - nu/2) of its normal stiffness (Mindlin 1949, for a round
-spot). Of any other shape the harmonic mean of both directions has at least that, and a rough contact hardly
-more, at any load.
+For two bodies of the same material, the tangential stiffness of a round sticking contact is (1 - nu)/(1 -
+nu/2) of its normal stiffness (Mindlin 1949). For any other shape, the harmonic mean over both directions has
+at least this ratio. For a rough contact it is only slightly larger, at any load.
 """
 
 import matplotlib.pyplot as plt
@@ -29,5 +29,5 @@ axes.legend()
 
 above = 2 / np.sum(1 / np.array(ratios), axis=1) / mindlin - 1
 print(f"the harmonic mean is above Mindlin's ratio by {above.min():.2%} to {above.max():.2%}")
-# The traction of a flat punch, turned sideways, has that mean energy, and what is there has the least.
+# The traction of a flat punch, turned sideways, has the energy of Mindlin's ratio; the computed one has the least.
 assert np.all(above > 0)

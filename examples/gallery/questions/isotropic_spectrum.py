@@ -2,10 +2,11 @@
 How wrong is C_iso = pi/q C_1D?
 ===============================
 
-A profilometer gives the spectrum of profiles; that of the surface is often taken as C_iso = (pi/q) C_1D
-(Jacobs, Junge and Pastewka 2017), which in the normalisation used here is C1D/(2 q). For a self-affine
-surface it is exact at H = 0.5 alone; for waves longer than the roll-off it grows as 1/q beside the spectrum.
-`surface_spectrum` takes the factor of the exponent, or Abel's integral.
+A profilometer measures the spectrum of profiles. The spectrum of the surface is often estimated from it by
+C_iso = (pi/q) C_1D (Jacobs, Junge and Pastewka 2017), which is C1D/(2 q) in the normalisation used here. For
+a self-affine surface this is exact only at H = 0.5. For waves longer than the roll-off, the estimate grows
+as 1/q relative to the spectrum. `surface_spectrum` uses the factor of the Hurst exponent, or Abel's
+integral.
 """
 
 import matplotlib.pyplot as plt
@@ -32,5 +33,5 @@ right.plot(hursts, ratios, "o", label="computed")
 right.set(xlabel="Hurst exponent", ylabel="(pi/q) C_1D / C_iso")
 right.legend()
 
-print("C_iso is taken too large by the factors", np.round(ratios, 2))
+print("the estimate of C_iso is too large by the factors", np.round(ratios, 2))
 assert f"{ratios[2]:.2f}" == f"{rc.cut_factor(0.8) / 2:.2f}"

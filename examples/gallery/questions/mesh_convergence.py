@@ -2,9 +2,9 @@
 How fine a mesh?
 ================
 
-One surface, whose shortest wave is 16 µm, on ever finer grids. The stiffness is right with few cells a wave;
-the contact area comes down to its value in proportion to the cell: the rim of each spot is counted in whole
-cells. `rms_band` makes it one surface on all grids.
+The same surface, whose shortest wave is 16 µm, on finer and finer grids. A few cells per wave are enough for
+the stiffness. The contact area exceeds its limit by an error proportional to the cell size, because the rim
+of each spot is counted in whole cells. `rms_band` makes the surface the same on all grids.
 """
 
 import matplotlib.pyplot as plt
@@ -23,12 +23,12 @@ for count in counts:
 
 limit = 2 * areas[-1] - areas[-2]  # an error of the first order in the cell
 axes = plt.subplots()[1]
-cells = 16e-6 / (256e-6 / counts)  # a wave
+cells = 16e-6 / (256e-6 / counts)  # per wave
 axes.semilogx(cells, np.array(areas) / limit, "o-", base=2, label="area / its limit")
 axes.semilogx(
-    cells, np.array(stiffnesses) / stiffnesses[-1], "s-", base=2, label="stiffness / that of the finest"
+    cells, np.array(stiffnesses) / stiffnesses[-1], "s-", base=2, label="stiffness / that on the finest grid"
 )
-axes.set(xlabel="cells a wave", ylim=(0.9, None))
+axes.set(xlabel="cells per wave", ylim=(0.9, None))
 axes.legend()
 
 order = np.log2((areas[1] - areas[2]) / (areas[2] - areas[3]))

@@ -1,11 +1,11 @@
 """
-What does a hardness do near full contact?
-==========================================
+How does a hardness change the approach to full contact?
+========================================================
 
-An elastic face closes its last gaps only under pressures beyond E* g, g the rms slope. With a hardness H as
-the largest pressure the area is never below p/H, yet the last valleys stay open until p reaches H. On the way
-the mean gap falls below zero: what flows is not put anywhere, and fills no valley. Area and gap of such a
-model mean little where p comes near H.
+An elastic surface closes its last gaps only at pressures above E* g, where g is the rms slope. If a hardness
+H limits the pressure, the contact area is at least p/H. The last valleys nevertheless stay open until p
+reaches H, and the mean gap becomes negative before: the model removes the material that flows, which fills
+no valley. The area and the gap of this model have little meaning for p close to H.
 """
 
 import matplotlib.pyplot as plt
@@ -32,6 +32,6 @@ left.legend()
 right.set(xlabel="p / (E* g)", ylabel="mean gap / rms height")
 
 gap = curve.mean_gap[-1] / surface.rms
-print(f"the softest at p = 0.98 H: A/A0 {curve.contact_fraction[-1]:.2f}, mean gap {gap:.1f} rms heights")
+print(f"lowest hardness at p = 0.98 H: A/A0 {curve.contact_fraction[-1]:.2f}, mean gap {gap:.1f} rms heights")
 assert np.all(curve.contact_fraction >= shares)
 assert gap < 0

@@ -1,9 +1,10 @@
 """
-Is a small patch a large joint?
-===============================
+Does a small patch represent a large joint?
+===========================================
 
-Patches of several sizes from anywhere on one map, at one pressure. K/A0, the stiffness of the interface per
-area, settles as they grow; k/A0, with the bodies' own compliance in it, never does.
+Patches of several sizes from random places of one map, at the same pressure. K/A0, the stiffness of the
+interface per area, converges as the patches grow. k/A0, which includes the compliance of the bodies, does
+not converge.
 """
 
 import matplotlib.pyplot as plt
@@ -35,6 +36,6 @@ axes.axhline(whole / 1e12, color="k", linestyle="--", label="periodic map")
 axes.set(xlabel="side of the patches [mm]", ylabel="stiffness per area [N/µm/mm²]", ylim=(0, None))
 axes.legend()
 
-print("over the periodic map:", np.round(np.array(means)[:, 0] / whole, 2))
+print("K/A0 and k/A0 relative to the periodic map:", np.round(np.array(means)[:, 0] / whole, 2))
 deviation = abs(means[-1][0][0] - whole)
 assert deviation < 3 * means[-1][1][0]  # standard errors of the mean of six

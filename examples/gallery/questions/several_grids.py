@@ -2,9 +2,9 @@
 How do I put one surface on several grids?
 ==========================================
 
-The same seed gives the same waves in the same places on every grid. With `rms_band`, a band that all grids
-carry, they have the same heights too, and a finer grid only adds shorter waves. Here profiles; surfaces
-likewise.
+The same seed gives the same waves in the same places on every grid. With `rms_band`, a band of waves that
+all grids resolve, the waves also have the same heights, and a finer grid only adds shorter waves. The
+example uses profiles; surfaces behave in the same way.
 """
 
 import matplotlib.pyplot as plt

@@ -2,9 +2,10 @@
 Which cut-off?
 ==============
 
-Waves are added to one surface, shorter and shorter ones. The stiffness of the joint stops changing early; the
-rms slope grows on, and the contact area falls on, about as one over it. So any cut-off below that of the
-settled stiffness will do for a stiffness; an area belongs to a cut-off, and is given with it.
+Shorter and shorter waves are added to one surface. The stiffness of the joint soon stops changing. The rms
+slope continues to grow, and the contact area continues to fall, approximately as 1 / rms slope. For a
+stiffness, use any cut-off below that at which it stops changing. Always state a contact area together with
+its cut-off.
 """
 
 import matplotlib.pyplot as plt

@@ -2,9 +2,9 @@
 Why is my curve unresolved?
 ===========================
 
-Open points are the grid's: below twenty times the stiffness of one cell it is the cell that is measured,
-above nine tenths of that of all cells it is the map. One surface on coarse and on fine cells: the finer ones
-resolve lighter loads.
+Open points are not resolved by the grid. Below twenty times the stiffness of one cell, the result depends on
+the cell size. Above nine tenths of the stiffness of all cells, it depends on the size of the map. The
+example shows one surface with coarse and with fine cells: fine cells resolve lighter loads.
 """
 
 import matplotlib.pyplot as plt

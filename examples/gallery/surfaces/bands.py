@@ -2,7 +2,8 @@
 Form, waviness, roughness
 =========================
 
-Gaussian filters part a surface by wavelength (ISO 16610-61): at the cut-off a wave keeps half of its height.
+Gaussian filters separate a surface by wavelength (ISO 16610-61). A wave at the cut-off keeps half of its
+height.
 """
 
 import matplotlib.pyplot as plt
@@ -23,5 +24,5 @@ for axes, part, name in zip(
     axes.set_title(f"{name}: {part.rms * 1e9:.0f} nm rms")
 
 before, after = (np.fft.rfft2(each.heights)[0, 8] for each in (surface, waviness))  # eight waves of 32 µm
-print(f"of a wave of 32 µm is left {abs(after / before):.6f}")
+print(f"part of a wave of 32 µm that remains: {abs(after / before):.6f}")
 assert abs(after / before - 0.5) < 1e-12  # rounding of the transforms

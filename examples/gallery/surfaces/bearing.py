@@ -2,7 +2,8 @@
 Peaks, core and dales
 =====================
 
-The material ratio curve of a plateau-honed surface, and the parameters of ISO 25178-2 that part it.
+The material ratio curve of a plateau-honed surface, with the parameters of ISO 25178-2 that divide it into
+peaks, core and dales.
 """
 
 import matplotlib.pyplot as plt
@@ -22,5 +23,5 @@ axes.axvspan(100 * parts.Smr2, 100, alpha=0.2, color="C2", label=f"dales, Svk = 
 axes.set(xlabel="material ratio [%]", ylabel="height [µm]", title=f"core: Sk = {parts.Sk * 1e6:.2f} µm")
 axes.legend()
 
-print(f"Svk over Spk: {parts.Svk / parts.Spk:.1f}")
+print(f"Svk / Spk: {parts.Svk / parts.Spk:.1f}")
 assert f"{parts.Svk / parts.Spk:.0f}" == "11"

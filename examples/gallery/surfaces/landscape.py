@@ -2,7 +2,7 @@
 A mountain range on granite
 ===========================
 
-Elevations are heights like any others: this is the fault of Jacksboro, Tennessee, pressed by 20 000 teranewtons.
+Elevations can be used as heights. This is the fault of Jacksboro, Tennessee, pressed by 20 000 teranewtons.
 """
 
 import math

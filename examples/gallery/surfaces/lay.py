@@ -2,8 +2,8 @@
 A surface with a lay
 ====================
 
-The roughness of ground and turned surfaces is longer along one direction. The autocorrelation shows the lay,
-and its shortest over its longest decay is the texture aspect ratio of ISO 25178-2.
+The roughness of ground and turned surfaces is longer along one direction. The autocorrelation shows this
+lay. The texture aspect ratio of ISO 25178-2 is its shortest decay length divided by its longest.
 """
 
 import matplotlib.pyplot as plt

@@ -1,8 +1,9 @@
 """
-Regions that do not count
-=========================
+Mask, fill and crop
+===================
 
-A mask leaves out a region, a crop keeps one, and missing points are filled in where a step needs them.
+A mask removes a region, and a crop keeps only a region. Missing points can be filled for a step that
+requires them.
 """
 
 import matplotlib.pyplot as plt

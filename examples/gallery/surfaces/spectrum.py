@@ -1,8 +1,8 @@
 """
-A power spectrum and its law
-============================
+Power spectrum and Hurst exponent
+=================================
 
-A generated surface has the Hurst exponent that it was asked for.
+The fitted spectrum of a generated surface has the prescribed Hurst exponent.
 """
 
 import numpy as np

@@ -1,8 +1,9 @@
 """
-Spikes
-======
+Find and remove spikes
+======================
 
-A few faulty points far out of a map are what a flat touches first. They are found, named, and removed.
+A flat first touches the few faulty points that stand far out of a map. These spikes are found, listed and
+removed.
 """
 
 import matplotlib.pyplot as plt

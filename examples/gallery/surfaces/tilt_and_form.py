@@ -1,9 +1,9 @@
 """
-Tilt and form
-=============
+Remove tilt and form
+====================
 
-A scan of a ball: less its mean, less its tilt, less the sphere that fits it best. What is left is the
-roughness.
+A scan of a ball: first the mean is subtracted, then the tilt, then the sphere that fits best. The roughness
+remains.
 """
 
 import matplotlib.pyplot as plt

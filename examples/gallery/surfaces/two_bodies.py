@@ -2,8 +2,9 @@
 Two rough bodies as one
 =======================
 
-What counts between two rough bodies is the sum of their heights: against a flat it has the same gap, and the
-same contact. The upper body is turned over like a page, so that its columns come in reverse.
+The contact of two rough bodies depends only on the sum of their heights. A body with this sum has the same
+gap against a flat, and the same contact. The upper body is turned over like a page, so that its columns are
+reversed.
 """
 
 import matplotlib.pyplot as plt
@@ -23,5 +24,5 @@ for axes, surface, name in zip(panels, (ground, blasted, both), ("lower", "upper
     axes.set_title(f"{name}: {surface.rms * 1e9:.0f} nm rms")
 
 apart = both.heights - (ground.heights + blasted.heights[:, ::-1])
-print(f"the sum of the heights, but for {np.ptp(apart):.0e} m of rounding")
-assert np.ptp(apart) <= 4 * np.finfo(float).eps * np.abs(both.heights).max()  # of a sum or two, up and down
+print(f"difference from the sum of the heights: {np.ptp(apart):.0e} m")
+assert np.ptp(apart) <= 4 * np.finfo(float).eps * np.abs(both.heights).max()  # rounding of one or two sums

@@ -1,9 +1,9 @@
 """
-Edges that do not fit
-=====================
+Spectrum of a free map: windows
+===============================
 
-A free map does not repeat itself. The step across its border is in every wave, and hides the slope of the
-spectrum; a window takes it out.
+A free map is not periodic. The step across its border contributes to every wave and hides the slope of the
+spectrum. A window removes this contribution.
 """
 
 import matplotlib.pyplot as plt
@@ -25,5 +25,5 @@ panels[1].set(xlabel="wavenumber [rad/m]", ylabel="power [m$^4$]")
 panels[1].legend()
 
 without, tapered = ((fit.hurst - 1) / fit.standard_error for fit in fits)
-print(f"standard errors from H = 1: {without:.1f} without a window, {tapered:.2f} with one")
+print(f"deviation from H = 1, in standard errors: {without:.1f} without a window, {tapered:.2f} with one")
 assert abs(tapered) < 3 < abs(without)

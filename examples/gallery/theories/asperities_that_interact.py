@@ -1,10 +1,10 @@
 """
-Asperities that push each other down
-====================================
+Asperities with and without interaction
+=======================================
 
-The summits of a map as Hertzian caps: alone, and with the sinking of each under the force on all others.
-Interaction takes most of the difference from the whole computation. Dotted: Ciavarella, Greenwood and Paggi's
-theory of statistical summits on a body that sinks in as a whole.
+The summits of a map as Hertzian caps, independent of each other or with the displacement of each under the
+force on all others. Interaction removes most of the difference from the full computation. Dotted: the theory
+of Ciavarella, Greenwood and Paggi, of statistical summits on a body that is displaced as a whole.
 """
 
 import matplotlib.pyplot as plt
@@ -24,7 +24,7 @@ caps = asperities.Asperities(x, y, found.height, found.radius, modulus)
 
 axes = plt.subplots()[1]
 axes.loglog(forces, curve.stiffness / 1e6, "ko", label="computed")
-for interaction, name in (False, "alone"), (True, "with interaction"):
+for interaction, name in (False, "without interaction"), (True, "with interaction"):
     stiffness = [asperities.press(caps, force=f, interaction=interaction).stiffness for f in forces]
     axes.loglog(forces, np.array(stiffness) / 1e6, label=f"asperities {name}")
 for law in rc.loading_laws(surface, modulus, ["cgp"]):

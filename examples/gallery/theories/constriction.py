@@ -1,9 +1,9 @@
 """
-A spot among its like
-=====================
+Constriction resistance of a periodic array of spots
+====================================================
 
-The resistance of a round spot in its cell, over that of a spot alone between half-spaces: computed on a
-periodic map, and by the two forms that theories of thermal joints take.
+The resistance of a round spot in its cell, relative to that of a single spot between half-spaces: computed
+on a periodic map, and by the two formulae that theories of thermal joints use.
 """
 
 import matplotlib.pyplot as plt
@@ -26,10 +26,10 @@ axes.plot(shares, computed, "ko", label="computed, square cells")
 fine = np.linspace(0.01, 0.9, 100)
 for form in "power", "tube":
     axes.plot(fine, thermal.constriction(fine, form), label=f"psi, {form}")
-axes.set(xlabel="radius of the spot / radius of its cell", ylabel="resistance / that of a spot alone")
+axes.set(xlabel="radius of the spot / radius of its cell", ylabel="resistance / that of a single spot")
 axes.legend()
 
 tube = thermal.constriction(np.array(shares), "tube")
 ratio = computed[3] / tube[3]
-print(f"over that of a tube, at a third of the radius: {ratio:.2f}")
+print(f"resistance relative to the tube, at a third of the radius: {ratio:.2f}")
 assert f"{ratio:.2f}" == "1.02"

@@ -1,9 +1,9 @@
 """
-A curve beside theories
-=======================
+Contact area: computed and by theories
+======================================
 
-How much of a nominally flat surface touches: computed, by Persson's theory, and by two of asperities:
-Greenwood and Williamson's, and that of Bush, Gibson and Thomas.
+The contact area of a nominally flat surface: computed, by Persson's theory, and by two asperity models
+(Greenwood and Williamson; Bush, Gibson and Thomas).
 """
 
 import numpy as np
@@ -19,5 +19,5 @@ axes = curve.plot(quantity="contact_area", theories=theories)
 axes.legend()
 
 share = curve.contact_fraction[-1]
-print(f"at {curve.nominal_pressure[-1] / 1e6:.0f} MPa {100 * share:.0f} % touch")
+print(f"at {curve.nominal_pressure[-1] / 1e6:.0f} MPa, {100 * share:.0f} % of the surface is in contact")
 assert f"{100 * share:.0f}" == "16"

@@ -2,8 +2,8 @@
 An elliptic contact
 ===================
 
-Crossed cylinders of unlike radii touch in an ellipse: where one radius is four times the other, it is 2.5
-times as long as wide.
+Crossed cylinders of different radii touch in an ellipse. If one radius is four times the other, the ellipse
+is 2.5 times as long as wide.
 """
 
 import numpy as np
@@ -24,5 +24,5 @@ sides = [2e6 * float(each) for each in sorted(hertz.semi_axes, reverse=True)]
 axes.add_patch(Ellipse(middle, *sides, fill=False, edgecolor="k", linestyle="--"))
 
 ratio = solution.depth / hertz.depth
-print(f"semi-axes {sides[0] / 2:.1f} and {sides[1] / 2:.1f} µm; depth over that of Hertz {ratio:.4f}")
+print(f"semi-axes {sides[0] / 2:.1f} and {sides[1] / 2:.1f} µm; depth relative to Hertz {ratio:.4f}")
 assert abs(ratio - 1) < (5e-7 / hertz.semi_axes[1]) ** 2  # the cell over the shorter semi-axis, squared

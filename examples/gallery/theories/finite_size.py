@@ -1,10 +1,10 @@
 """
-Few summits, many summits
-=========================
+Contact on few summits at light loads
+=====================================
 
-At light loads a surface stands on its highest cell of roughness, and is stiffer than Persson's theory of an
-endless one. The law "finite-size" joins both; which cells are high is chance, so that five surfaces are
-shown.
+At light loads, a finite surface is in contact only at its highest summits. It is then stiffer than Persson's
+theory of an infinite surface. The law "finite-size" combines both limits. The heights of the highest summits
+are random, so that the example shows five surfaces.
 """
 
 import matplotlib.pyplot as plt
@@ -32,5 +32,7 @@ axes.legend()
 
 persson, cell = (law.predict("interfacial_stiffness", curve.force)[0] / grid.area for law in laws)
 first = np.mean(ratios)
-print(f"at the smallest pressure: {first / cell:.1f} of finite-size, {first / persson:.0f} of Persson")
+print(
+    f"stiffness at the smallest pressure: {first / cell:.1f} of finite-size, {first / persson:.0f} of Persson"
+)
 assert f"{first / cell:.1f}" == "1.4"

@@ -2,9 +2,9 @@
 From heights to stiffness
 =========================
 
-On springs only the distribution of the heights matters: near the highest peak it is a power of the depth, and
-so is the stiffness of the force. Sums of more and more waves of random phase grow steeper, towards Gaussian
-heights.
+The stiffness of a line on springs depends only on the distribution of its heights. Near the highest peak,
+this distribution is a power of the depth, and the stiffness is therefore a power of the force. With more
+waves of random phase, the curves become steeper and approach that of Gaussian heights.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 Indenters of a power law
 ========================
 
-Bodies of revolution z = Q r^n: a cone, a ball, ever blunter ones. Their stiffness grows as a power 1/(n + 1)
-of the force.
+Bodies of revolution z = Q r^n: a cone, a ball and a blunter body. Their stiffness grows as the force to the
+power of 1/(n + 1).
 """
 
 import matplotlib.pyplot as plt
@@ -27,5 +27,5 @@ for exponent, edge in (1, 8e-6), (2, 3e-6), (4, 2e-6):  # height at 40 µm from 
 axes.set(xlabel="force [N]", ylabel="stiffness [N/m]")
 axes.legend()
 
-print(f"largest deviation: that of a radius wrong by {worst / 2:.2f} of a cell")
+print(f"the largest deviation corresponds to an error of the radius of {worst / 2:.2f} cells")
 assert worst < 1  # an edge is found to half a cell

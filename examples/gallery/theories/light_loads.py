@@ -1,9 +1,9 @@
 """
-How the contact grows at light loads
-====================================
+Contact area at light loads
+===========================
 
-All theories say A/A0 = kappa p/(E* g) with the rms slope g: kappa is 2.5 by Bush, Gibson and Thomas, 1.6 by
-Persson. Where is the computation?
+All theories predict A/A0 = kappa p/(E* g) with the rms slope g. The theory of Bush, Gibson and Thomas has
+kappa = 2.5, and Persson's has 1.6. The example compares both with a computation.
 """
 
 import matplotlib.pyplot as plt
@@ -32,6 +32,4 @@ axes.legend()
 
 kappa = curve.contact_fraction * scale / pressures
 print("computed:", np.round(kappa, 2))
-assert np.all(
-    (kappa > np.sqrt(8 / np.pi)) & (kappa < np.sqrt(2 * np.pi))
-)  # between Persson's and that of BGT
+assert np.all((kappa > np.sqrt(8 / np.pi)) & (kappa < np.sqrt(2 * np.pi)))  # between Persson and BGT

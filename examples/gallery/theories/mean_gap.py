@@ -1,9 +1,9 @@
 """
-The gap between rough faces
-===========================
+The mean gap between rough surfaces
+===================================
 
-The mean gap falls as the logarithm of the pressure: Persson's separation, and its law at small loads p = p_c
-exp(-u/u0).
+The mean gap falls as the logarithm of the pressure. The example compares the computed gap with Persson's
+theory and with its law at small loads, p = p_c exp(-u/u0).
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,9 @@
 """
-Elastic or plastic?
-===================
+Elastic or plastic? Plasticity indices
+======================================
 
-Three indices of plasticity of one ground surface, for the metals of the handbook against steel. Those of the
-asperities call a contact elastic below 0.6 and plastic above 1.
+Three plasticity indices of one ground surface, for the metals of the handbook against steel. By the two
+indices of asperities, a contact is elastic below 0.6 and plastic above 1.
 """
 
 import matplotlib.pyplot as plt
@@ -29,11 +29,11 @@ for name in names:
     )
 
 axes = plt.subplots(layout="constrained")[1]
-for k, label in enumerate(["summits that were found", "summits by moments", "slope"]):
+for k, label in enumerate(["summits found on the map", "summits by moments", "slope"]):
     axes.bar(np.arange(len(names)) + 0.25 * (k - 1), np.array(rows)[:, k], 0.25, label=label)
 axes.axhspan(0.6, 1.0, alpha=0.2, color="k")
 axes.set_xticks(range(len(names)), names, rotation=20)
-axes.set(ylabel="index of plasticity")
+axes.set(ylabel="plasticity index")
 axes.legend()
 
 print(dict(zip(names, (f"{row[0]:.2f}" for row in rows), strict=True)))

@@ -1,8 +1,8 @@
 """
-How the pressure is distributed
-===============================
+Distribution of the pressure
+============================
 
-The probability density of the pressure on a rough surface, computed and by Persson's theory.
+The probability density of the pressure on a rough surface: computed, and by Persson's theory.
 """
 
 import numpy as np

@@ -2,8 +2,8 @@
 A hundred rough lines on springs
 ================================
 
-By dimensionality reduction a self-affine surface is a rough line on springs, which takes no more than
-sorting: the mean stiffness of many lines grows as F^(1/(H+1)).
+The method of dimensionality reduction replaces a self-affine surface by a rough line on springs. The heights
+only need to be sorted. The mean stiffness of many lines grows as F^(1/(H+1)).
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,9 @@
 A rough sphere
 ==============
 
-At light loads the roughness alone sets the stiffness of a rough sphere, at heavy ones the sphere; in between
-the forces of both at one stiffness add up (thesis, eq. 5.9).
+At light loads, the stiffness of a rough sphere is that of its roughness; at heavy loads, it is that of the
+sphere. Between these limits, the forces of sphere and roughness at the same stiffness are added (thesis, eq.
+5.9).
 """
 
 import matplotlib.pyplot as plt
@@ -30,5 +31,5 @@ axes.set(xlabel="force [N]", ylabel="stiffness [N/m]")
 axes.legend()
 
 ratio = np.mean(computed, axis=0) / law.predict("stiffness", forces)
-print("computed over the law:", np.round(ratio, 2))
+print("computed stiffness relative to the law:", np.round(ratio, 2))
 assert np.all(np.abs(ratio - 1) < 0.3 / np.sqrt(4))  # the standard error of four that scatter by 30 %

@@ -1,9 +1,10 @@
 """
-Discs on discs
-==============
+A pile of discs
+===============
 
-A pile of ever wider discs whose steps follow h ~ r^H: between two steps the stiffness is that of a disc, and
-from step to step it grows as F^(1/(H+1)). So much of the law of a fractal is geometry.
+A pile of wider and wider discs, whose steps follow h ~ r^H. Between two steps the stiffness is that of a
+disc. From step to step it grows as F^(1/(H+1)), the law of fractal surfaces: this part of the law is
+geometry.
 """
 
 import matplotlib.pyplot as plt
@@ -21,4 +22,4 @@ axes.set(xlabel="force [N]", ylabel="stiffness [N/m]")
 axes.legend()
 
 print("exponents:", np.round(slopes, 4))
-assert np.allclose(slopes, [1 / 1.2, 1 / 1.8], rtol=1.5**-15)  # what the first disc still is of the whole
+assert np.allclose(slopes, [1 / 1.2, 1 / 1.8], rtol=1.5**-15)  # part of the first disc in the whole pile

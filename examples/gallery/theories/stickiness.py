@@ -2,8 +2,9 @@
 Do short waves make a surface stick?
 ====================================
 
-Two criteria that contradict each other. By Pastewka and Robbins shorter waves, at one rms height, make a surface
-stick more for Hurst exponents H above 0.6, and less below; by Ciavarella's bearing area the longest wave decides alone.
+Two criteria that contradict each other. By Pastewka and Robbins, shorter waves at the same rms height make a
+surface stickier for Hurst exponents H above 0.6, and less sticky below. By Ciavarella's bearing area, only
+the longest wave decides.
 """
 
 import matplotlib.pyplot as plt
@@ -22,11 +23,11 @@ for hurst in 0.4, 0.6, 0.8:
 limit = bearing_area_model.BearingAreaModel(rms, 2 * np.pi / longest, modulus, work, reach).sticking_rms
 axes.axhline((limit / rms) ** 2, color="k", linestyle="--", label="bearing area")
 axes.axhline(1, color="0.7")
-axes.set(xlabel="shortest wave [nm]", ylabel="sticks above 1")
+axes.set(xlabel="shortest wave [nm]", ylabel="stickiness (above 1: sticks)")
 axes.legend(loc="lower right")
 
 slope = np.polyfit(np.log(shortest[:5]), np.log(ratio[:5]), 1)[0]
-print(f"stickiness ~ (shortest wave)^{slope:.2f} for H = 0.8, without a longest wave {1 - 5 * 0.8 / 3:.2f}")
-# Up to 37 nm the longest wave takes at most x = 0.11 of the square of the slope, (shortest/longest)^(2 - 2 H); the
-# stickiness falls with its power 7/6, so that its exponent is off by 7/6 0.4 x/(1 - x).
+print(f"stickiness ~ (shortest wave)^{slope:.2f} for H = 0.8; without a longest wave {1 - 5 * 0.8 / 3:.2f}")
+# Up to 37 nm, the longest wave changes the squared slope by at most x = 0.11, (shortest/longest)^(2 - 2 H). The
+# stickiness falls as its power 7/6, so that the exponent differs by 7/6 0.4 x/(1 - x).
 assert abs(slope - (1 - 5 * 0.8 / 3)) < 0.06

@@ -1,9 +1,9 @@
 """
-A ball that sticks
-==================
+Pull-off of an adhesive ball (JKR)
+==================================
 
-Force against depth of a ball with short-ranged attraction (Johnson, Kendall and Roberts), by Heß' rule: it
-snaps off at 3/2 pi w R under a given force, later under a given depth.
+Force against depth of a ball with short-ranged attraction (Johnson, Kendall and Roberts), by Heß' rule.
+Under a given force the ball snaps off at 3/2 pi w R; under a given depth it snaps off later.
 """
 
 import matplotlib.pyplot as plt

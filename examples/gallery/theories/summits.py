@@ -1,9 +1,9 @@
 """
-Summits, counted and predicted
+Summits: counted and predicted
 ==============================
 
-How many summits a Gaussian surface has, and how high they are: found on a map, and by Nayak's theory from
-three moments of its spectrum.
+The number and the heights of the summits of a Gaussian surface: found on a map, and by Nayak's theory from
+three moments of the spectrum.
 """
 
 import matplotlib.pyplot as plt
@@ -29,7 +29,9 @@ axes.legend()
 
 ratio = found.density / predicted.density
 off = (found.height.mean() - predicted.mean_height) / predicted.std * np.sqrt(found.count)
-print(f"{found.count} summits, {ratio:.2f} of those predicted; their mean is {off:.1f} standard errors off")
-# Three standard errors. Of a count N that of points at random, sqrt(N): summits keep apart, and scatter less.
+print(
+    f"{found.count} summits, {ratio:.2f} of the predicted number; mean height {off:.1f} standard errors off"
+)
+# Three standard errors. A count N of random points has sqrt(N); summits repel each other, and scatter less.
 assert abs(ratio - 1) < 3 / np.sqrt(found.count)
 assert abs(off) < 3

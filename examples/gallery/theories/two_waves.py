@@ -2,7 +2,7 @@
 A short wave on a long one
 ==========================
 
-On springs, a short cosine wave on a long one: until the short wave is flat, the force is known in closed
+A short cosine wave on a long one, pressed on springs. Until the short wave is flat, the force has a closed
 form.
 """
 
@@ -29,5 +29,5 @@ axes.set(xlabel="depth / amplitude of the short wave", ylabel="force [N]")
 axes.legend()
 
 ratio = curve.force[-1] / exact[-1]
-print(f"where the short wave is flat: {ratio:.3f} of the closed form")
+print(f"force at which the short wave is flat, relative to the closed form: {ratio:.3f}")
 assert abs(ratio - 1) < 1 / 30  # a parabola for the long wave is off by d/(6 h)

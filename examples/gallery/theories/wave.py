@@ -2,9 +2,9 @@
 A wave pressed flat
 ===================
 
-A cosine of amplitude h and wavelength l on a flat: contact is full at p = pi E* h/l, and before it the strips
-in contact have the width (2 l/pi) asin(sqrt(p / (pi E* h/l))) (Westergaard 1939; Johnson, *Contact
-Mechanics*, 1985, section 13.2).
+A cosine of amplitude h and wavelength l on a flat. Contact is full at p = pi E* h/l. Below this pressure,
+the strips in contact have the width (2 l/pi) asin(sqrt(p / (pi E* h/l))) (Westergaard 1939; Johnson,
+*Contact Mechanics*, 1985, section 13.2).
 """
 
 import matplotlib.pyplot as plt

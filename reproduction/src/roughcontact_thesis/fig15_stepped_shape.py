@@ -94,7 +94,7 @@ def verdicts(data: Shape) -> Verdicts:
         "section 4.4.1",
         f"the upper rims lie on it within {max(furthest, 1e-15):.0e}, its tip {data.apex:.3f} h0 above the highest "
         "cylinder",
-        exactly(bool(furthest < 1e-12), "the upper rims on it, but for rounding"),
+        exactly(bool(furthest < 1e-12), "the upper rims on it, within rounding"),
         "method",
     )
 

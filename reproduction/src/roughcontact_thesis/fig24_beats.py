@@ -177,7 +177,7 @@ def verdicts(data: BeatLines) -> Verdicts:
         "α = (β + 1)/(β + 2)",
         "section 4.5.2, eq. 4.63",
         f"{series(powers)} of {SPRINGS} springs with beta = {series(law, 'g')}, {series(expected)} by the law",
-        exactly(apart < 0.005, "0.005", f"farthest {apart:.4f}"),
+        exactly(apart < 0.005, "0.005", f"largest: {apart:.4f}"),
         "method",
     )
 

@@ -120,13 +120,14 @@ def findings(averages: xarray.Dataset) -> str:
     apart = [float((low[name].isel(points=-1) - low[name].isel(points=0)).mean()) for name in _BOTH]
     first, last = (low["common_exponent_error"].isel(points=end).to_numpy() for end in (0, -1))
     error = float(np.hypot(first, last).mean())
-    mostly = ": it is mostly the window of the fit" if 2 * abs(apart[1]) < abs(apart[0]) else ""
+    mostly = (
+        ": most of the change is due to the window of the fit" if 2 * abs(apart[1]) < abs(apart[0]) else ""
+    )
     grids = averages["points"].to_numpy()
     return (
-        f"Below H = 0 no such law is expected; there the fitted exponent grows by {apart[0]:.3f} from {grids[0]}² to "
-        f"{grids[-1]}² cells when each grid is fitted down to its 20 cells, and by {apart[1]:.3f} ± "
-        f"{error:.3f} between "
-        f"the same forces{mostly}."
+        f"Below H = 0 no such law is expected. From {grids[0]}² to {grids[-1]}² cells, the fitted exponent grows by "
+        f"{apart[0]:.3f} if each grid is fitted down to the stiffness of 20 of its cells, and by {apart[1]:.3f} ± "
+        f"{error:.3f} if all are fitted between the same forces{mostly}."
     )
 
 

@@ -93,9 +93,10 @@ def findings(averages: xarray.Dataset) -> str:
     rule = ruled(middle(away), middle(spread), NEAR)
     return (
         "The stiffness of rough squares grows as a power of the force. For Hurst exponents H from 0.25 to 1.75 its "
-        f"exponent lies {beside(middle(away))} the thesis' 1/(H + 1), farthest off at H = {hurst:.2f} (± "
-        f"{float(middle(spread)[worst]):.0%}), that of rough lines {beside(middle(line))}; that it is 1/(H + 1) to "
-        f"{NEAR:.0%}, the central claim, {_WORDS[rule.word]} for surfaces{f' ({rule.part})' if rule.part else ''}."
+        f"exponent lies {beside(middle(away))} the 1/(H + 1) of the thesis. The difference is largest at H = "
+        f"{hurst:.2f} (± {float(middle(spread)[worst]):.0%}). The exponent of rough lines lies {beside(middle(line))} "
+        f"1/(H + 1). The central claim, an exponent of 1/(H + 1) within {NEAR:.0%}, {_WORDS[rule.word]} for "
+        f"surfaces{f' ({rule.part})' if rule.part else ''}."
     )
 
 

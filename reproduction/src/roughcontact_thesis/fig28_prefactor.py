@@ -150,9 +150,9 @@ def findings(averages: xarray.Dataset) -> str:
     found = averages.dropna("hurst", subset=["prefactor"])
     whole, slip = (beside(middle(_off(found, name)[0])) for name in ("law", "slip"))
     return (
-        "The mean stiffness itself lies there, at forces F/(E\\* h L) of "
-        f"{series(found['force'], 'g')}, {whole} the whole law of the thesis, k/(E\\* L) = 1.7/(H + 1) (F/(E\\* h "
-        f"L))^(1/(H + 1)), and {slip} its other fit, behind eq. 7.7."
+        "In the same range of H, at forces F/(E\\* h L) of "
+        f"{series(found['force'], 'g')}, the mean stiffness lies {whole} the whole law of the thesis, k/(E\\* L) = "
+        f"1.7/(H + 1) (F/(E\\* h L))^(1/(H + 1)), and {slip} its other fit, on which eq. 7.7 is based."
     )
 
 

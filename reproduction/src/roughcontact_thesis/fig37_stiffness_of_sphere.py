@@ -127,10 +127,9 @@ def findings(averages: xarray.Dataset) -> str:
     _, ratio, error = _from_law(averages)
     hertz = averages["stiffness"] / averages["hertz"] - 1
     return (
-        f"A rough sphere of H = {SPHERE_HURST:g} is {beside(ratio)} (± {float(error.max()):.0%} or less) the "
-        f"stiffness of the thesis' closed form, eq. 5.9, where the grid resolves it, and {beside(hertz)} the "
-        "smooth sphere over all "
-        "forces."
+        f"Where the grid resolves it, the stiffness of a rough sphere of H = {SPHERE_HURST:g} lies {beside(ratio)} (± "
+        f"{float(error.max()):.0%} or less) the closed form of the thesis, eq. 5.9. Over all forces, it lies "
+        f"{beside(hertz)} that of the smooth sphere."
     )
 
 

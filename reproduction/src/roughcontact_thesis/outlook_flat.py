@@ -251,9 +251,8 @@ def findings(averages: xarray.Dataset) -> str:
     last = cut.isel(row=-1)["exponent"].sel(periodic=True)
     error = cut.isel(row=-1)["exponent_error"].sel(periodic=True)
     return (
-        f"On nominally flat surfaces, cut off at L/{int(cut['long'][-1])}, the stiffness goes as "
-        f"F^{float(last):.2f} (± "
-        f"{float(error):.2f}), where the thesis expects it to be proportional to the force."
+        f"On nominally flat surfaces, cut off at L/{int(cut['long'][-1])}, the stiffness grows as "
+        f"F^{float(last):.2f} (± {float(error):.2f}). The thesis expects it to be proportional to the force."
     )
 
 

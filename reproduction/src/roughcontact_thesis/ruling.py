@@ -176,12 +176,12 @@ def ruled(
     )
     trigger = f"{value[most]:{form}}{error_words}{at}"
     if sure.all():
-        return Ruling("holds", told, span, f"farthest {trigger}")
+        return Ruling("holds", told, span, f"largest: {trigger}")
     if not outside.any():
-        return Ruling("not decided", told, span, f"open: {trigger}")
+        return Ruling("not decided", told, span, f"undecided: {trigger}")
     part = _part(away, there, sure)
     if part:
-        return Ruling("holds in part", told, span, f"beyond elsewhere: {trigger}", part)
+        return Ruling("holds in part", told, span, f"outside elsewhere: {trigger}", part)
     return Ruling("does not hold", told, span, trigger)
 
 

@@ -88,9 +88,11 @@ def beside(deviations: npt.ArrayLike) -> str:
     there = numbers[np.isfinite(numbers)]
     if not there.size:
         return "nowhere"
-    return " to ".join(
-        f"{abs(each):.0%} {'below' if each < 0 else 'above'}" for each in (there.min(), there.max())
-    )
+    low, high = sorted((float(there.min()), float(there.max())), key=abs)
+    sides = ["below" if each < 0 else "above" for each in (low, high)]
+    if sides[0] == sides[1]:
+        return f"{abs(low):.0%} to {abs(high):.0%} {sides[0]}"
+    return f"{abs(there.min()):.0%} below to {abs(there.max()):.0%} above"
 
 
 def signed(value: float, form: str) -> str:

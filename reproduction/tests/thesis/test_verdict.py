@@ -17,6 +17,8 @@ def test_numbers_are_told_by_their_ends():
     assert spanned([np.nan], ".2g") == "none"
     assert spanned([-0.001, 0.001], "+.0%") == "0% to 0%"
     assert beside([-0.1, np.nan, 0.15]) == "10% below to 15% above"
+    assert beside([0.09, 0.04]) == "4% to 9% above"
+    assert beside([-0.66, np.nan, -0.01]) == "1% to 66% below"
     assert beside([np.nan]) == "nowhere"
     assert (signed(-0.004, ".2f"), signed(-0.006, ".2f")) == ("0.00", "-0.01")
 

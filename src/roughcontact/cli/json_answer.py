@@ -1,4 +1,8 @@
-"""The one JSON object that a command answers: printed, or kept by a command that asks for several answers."""
+"""The answer of a command, or its error, as one JSON object; an error has the key ``error``.
+
+It goes to standard output, and may be kept by a command that asks for several answers. Standard error holds the lines
+for people.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +11,23 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from types import MappingProxyType
 from typing import Any
 
-__all__ = ["emit", "kept"]
+__all__ = ["emit", "emit_error", "kept", "kind_of"]
+
+# By class, the nearest first; the names are those that a program can rely on.
+_KINDS = {
+    "UsageError": "usage",
+    "ReadError": "read",
+    "WriteError": "write",
+    "StoreError": "store",
+    "StudyError": "study",
+    "WorkersError": "workers",
+    "OSError": "file",
+    "MemoryError": "memory",
+    "ValueError": "value",
+}
 
 _KEPT: ContextVar[list[Mapping[str, Any]] | None] = ContextVar("kept", default=None)
 
@@ -33,3 +51,43 @@ def kept() -> Iterator[list[Mapping[str, Any]]]:
         yield answers
     finally:
         _KEPT.reset(token)
+
+
+def emit_error(
+    kind: str,
+    message: str,
+    status: int,
+    remedy: str | None = None,
+    place: str | None = None,
+    beside: Mapping[str, Any] = MappingProxyType({}),
+) -> None:
+    """Print an error as one JSON object on standard output.
+
+    Parameters
+    ----------
+    kind : str
+        What kind of error it is, in one word.
+    message : str
+        What is wrong.
+    status : int
+        With which the program ends.
+    remedy : str, optional
+        What to do about it.
+    place : str, optional
+        Which option, argument or file it concerns.
+    beside : mapping
+        What is known all the same.
+    """
+    record = {
+        "kind": kind,
+        "message": message,
+        "remedy": remedy,
+        "place": place,
+        "exit_status": status,
+    }
+    emit({"error": record, **beside})
+
+
+def kind_of(error: BaseException) -> str:
+    """Return the kind of an error in one word."""
+    return next(_KINDS[each.__name__] for each in type(error).__mro__ if each.__name__ in _KINDS)

@@ -10,9 +10,9 @@ import sys
 import traceback
 from typing import NoReturn
 
-from roughcontact.cli.error_object import emit_error
 from roughcontact.cli.exits import BAD_INPUT, INTERRUPTED, MISTAKE, TERMINATED
 from roughcontact.cli.job import as_one, refusal
+from roughcontact.cli.json_answer import emit_error
 from roughcontact.files.installed import broken_package
 
 __all__ = ["run"]

@@ -23,7 +23,6 @@ __all__ = [
         "StudyError",
         "computed_again",
         "disk_trouble",
-        "expected",
         "mistakes_of",
         "on_disk",
         "refusal",

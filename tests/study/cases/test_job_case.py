@@ -212,7 +212,7 @@ def test_all_mistakes_come_at_once_each_with_its_place():
 @pytest.mark.parametrize(
     ("parameters", "table", "place", "words"),
     [
-        (CURVE | {"job": "curv"}, {}, "parameters.job", "there is no job 'curv'; choose of"),
+        (CURVE | {"job": "curv"}, {}, "parameters.job", "there is no job 'curv'; choose from"),
         (
             {"job": "surface", "source": MADE},
             {},
