@@ -68,7 +68,7 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     if isinstance(bodies, tuple) and len(bodies) == 2:
         return bodies
     raise InputError(
-        f"a Solid or a pair of Solids is wanted, because E* does not determine shear, not {shown(bodies)}",
+        f"a Solid or a pair of Solids is wanted, not {shown(bodies)}: E* does not determine how bodies shear",
         place="bodies",
     )
 

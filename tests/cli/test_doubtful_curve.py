@@ -10,7 +10,7 @@ import roughcontact as rc
 
 LOADS = ["--level", "none", "--modulus", "1GPa", "--forces", "1mN:10mN:6"]
 GRID = rc.Grid((128, 128), 1e-6)
-SAME = "The contact does not change from 0.001 to 0.01 N: the same 4 spots"
+SAME = "The contact does not change from 1 mN to 10 mN: the same 4 spots"
 
 
 @pytest.fixture

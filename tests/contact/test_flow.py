@@ -357,7 +357,7 @@ def test_the_flow_of_two_bodies_is_that_of_the_softer():
     assert top.flow.volume > 0
     flattened = top.flow.flatten(soft) + hard
     np.testing.assert_allclose(flattened.heights, top.flattened.problem.surface.heights, rtol=0, atol=1e-15)
-    with pytest.raises(ValueError, match="bring it onto the grid that was pressed"):
+    with pytest.raises(ValueError, match="bring the surface onto the grid that was pressed"):
         top.flow.flatten(plane(shape=(8, 8)))
 
 

@@ -325,7 +325,7 @@ def test_words_on_lines_and_springs():
     assert any("narrower than 20 cells" in note for note in line.notes)
     curve = rc.loading_curve(surface, 1.0, forces=[0.1, 0.2], operator=rc.line(grid, 1.0))
     assert repr(curve).endswith("force 0.1 to 0.2 N m-1)")
-    with pytest.raises(ValueError, match="a finer grid, or a window of forces"):
+    with pytest.raises(ValueError, match="a finer grid, or another window of forces"):
         curve.fit()
     springs = rc.press(surface, 1.0, depth=6.0, operator=rc.foundation(grid, 1.0))
     assert springs.pressure.max() > 1.0

@@ -129,7 +129,9 @@ def test_below_ten_spots_a_sentence_stands_in_place_of_a_number(count):
     assert solution.spots.count == count
     found = sampling_of(solution)
     assert np.isnan(found.parts).all() == (count < SPOTS)
-    words = f"{count} spot{'s' if count > 1 else ''}: one map cannot say how much another map of this surface"
+    words = (
+        f"{count} spot{'s' if count > 1 else ''}, too few to estimate from one map how much another map of"
+    )
     assert found.source.how.startswith(words) == (count < SPOTS)
     assert (found.source.kind == "unknown") == (not found.bias_of_size) == (count < SPOTS)
 
@@ -168,7 +170,7 @@ def test_the_budget_adds_it_to_the_error_and_keeps_the_bias_apart():
     few = rc.error_budget(pressed(rough((48, 48)), 1e4))
     assert math.isnan(few["mean_gap"].error)
     assert repr(few).splitlines()[-1] == f"sampling: {few.sources[-1].how}"
-    assert "1 spot: one map cannot say" in few.sampling
+    assert "1 spot, too few to estimate" in few.sampling
     assert few.to_record()["bias_of_size"] == {}
 
 

@@ -99,7 +99,7 @@ def test_a_table_says_what_it_holds():
         (TWO, "hurtz", {}, "is not known: choose from"),
         (TWO, "cmy", {"hardness": None}, "give the `hardness` of the softer body"),
         (1.2e-6, "cmy", {}, "give rc.specified"),
-        (TWO, "cmy", {"conductivities": (0.0, math.inf, 1.0)}, "are not two numbers"),
+        (TWO, "cmy", {"conductivities": (0.0, math.inf, 1.0)}, "is not a pair of numbers"),
     ],
 )
 def test_what_cannot_be_told_is_refused(joint, names, more, words):

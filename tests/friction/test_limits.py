@@ -37,7 +37,7 @@ def solution():
         ({"displacement": 1.0}, "exactly one"),
         ({"force": None, "displacement": 1e300}, "at most 1e\\+50"),
         ({"tolerance": 0.0}, "tolerance must lie"),
-        ({"bodies": 1.0}, "E\\* alone does not say"),
+        ({"bodies": 1.0}, "E\\* does not determine"),
         ({"bodies": rc.Solid(2.0, 0.3)}, "press and pull the same"),
         ({"along": (0, 0)}, "a direction"),
         ({"along": (1, 2, 3)}, "a direction"),

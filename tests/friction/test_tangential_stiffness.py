@@ -137,7 +137,7 @@ def test_another_operator_may_be_named():
     [
         (np.ones((3, 4), bool), rc.Solid(1.0, 0.3), "does not fit the grid"),
         (np.full((4, 4), np.nan), rc.Solid(1.0, 0.3), "truth values"),
-        (np.ones((4, 4), bool), 1e9, "E\\* alone does not say"),
+        (np.ones((4, 4), bool), 1e9, "E\\* does not determine"),
         (np.ones((4, 4), bool), (rc.Solid(1.0, 0.3),), "pair of Solids"),
     ],
 )

@@ -17,6 +17,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
@@ -245,8 +246,8 @@ def stuck_notes(state: DetachmentState) -> Iterator[Note]:
         body = "cylinder" if state._summit.line else "sphere"
         unit = unit_of("force", state.geometry)
         why = (
-            f"under {force:.3g} {unit} the contact is smaller than that of Johnson, Kendall and Roberts at the "
-            f"pull-off, for which a {body} needs {state.least_preload:.3g} {unit}"
+            f"under {written(force, unit)} the contact is smaller than that of Johnson, Kendall and Roberts at the "
+            f"pull-off, for which a {body} needs {written(state.least_preload, unit)}"
         )
     yield Note(
         Rank.DOUBTFUL,

@@ -24,6 +24,7 @@ from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.grid import RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
 from roughcontact.solver.control import Status
 from roughcontact.surface.generation.about_centre import RIM, squared
@@ -142,11 +143,11 @@ def notes_on_model(summit: HighestSummit, unresolved: bool = False) -> Iterator[
         yield Note(
             Rank.DOUBTFUL,
             "The contact is not small against the body: without load, the contact of Johnson, Kendall and Roberts has "
-            f"a radius of {a:.3g} m, {a / r:.2g} times the radius of the highest summit, {r:.3g} m (w/(E* R) is "
-            f"{summit.work / (summit.modulus * r):.2g}). Linear elasticity of half-spaces holds up to {SHALLOW:g} "
-            "times that radius: take these numbers as orders of magnitude. The radius is that of a paraboloid, fitted "
-            f"to the heights within {FITTED:g} times it (at least two cells) of the highest point: for a sphere it is "
-            f"up to {100 * SPHERE:.0f} % too small, and roughness changes it.",
+            f"a radius of {written(a, 'm')}, {a / r:.2g} times the radius of the highest summit, {written(r, 'm')} "
+            f"(w/(E* R) is {summit.work / (summit.modulus * r):.2g}). Linear elasticity of half-spaces holds up to "
+            f"{SHALLOW:g} times that radius: take these numbers as orders of magnitude. The radius is that of a "
+            f"paraboloid, fitted to the heights within {FITTED:g} times it (at least two cells) of the highest point: "
+            f"for a sphere it is up to {100 * SPHERE:.0f} % too small, and roughness changes it.",
         )
 
 
@@ -164,7 +165,7 @@ def notes_on_loads(
     *, lowest: float, first: float, last: float, unit: str, control: Literal["depth", "force"], rel: float = 0
 ) -> Iterator[Note]:
     """Yield a note if the lowest force of a retreat is that of its first or last load: it is not a pull-off force."""
-    force = f"its lowest force, {lowest:.3g} {unit} (tension is negative)"
+    force = f"its lowest force, {written(lowest, unit)} (tension is negative)"
     if lowest >= last - rel * abs(last):
         yield Note(
             Rank.WRONG,
@@ -185,9 +186,9 @@ def notes_on_range(summit: HighestSummit, adhesion: Adhesion) -> Iterator[Note]:
     if not summit.line and number < SHORT_RANGE:
         yield Note(
             Rank.LIMITED,
-            f"The pull-off force depends on the range of {adhesion.range:.3g} m: Tabor's number of the highest summit "
-            f"is {number:.2g}, and below {SHORT_RANGE:g} a sphere's pull-off force exceeds the limit of a vanishing "
-            "range by more than a tenth. State the range with the force.",
+            f"The pull-off force depends on the range of {written(adhesion.range, 'm')}: Tabor's number of the highest "
+            f"summit is {number:.2g}, and below {SHORT_RANGE:g} a sphere's pull-off force exceeds the limit of a "
+            "vanishing range by more than a tenth. State the range with the force.",
         )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.variables import unit_of
 
 if TYPE_CHECKING:
@@ -31,10 +32,10 @@ def curve_notes(curve: Curve) -> tuple[str, ...]:
     notes = []
     if (ends := _fixed(curve)) is not None:
         unit = unit_of("force", curve.geometry)
-        low, high = (f"{float(curve.force[k]):.3g}" for k in ends)
+        low, high = (written(float(curve.force[k]), unit) for k in ends)
         spots = "1 spot carries" if curve.spots[ends[1]] == 1 else f"{curve.spots[ends[1]]} spots carry"
         notes.append(
-            f"The contact does not change from {low} to {high} {unit}: the same {spots} all of these loads, as under "
+            f"The contact does not change from {low} to {high}: the same {spots} all of these loads, as under "
             "a spike, a streak or a flat punch. Remove faulty heights by despiked() or masked()."
         )
     try:

@@ -10,7 +10,9 @@ import numpy as np
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
+from roughcontact.labels.variables import unit_of
 from roughcontact.materials import MATERIALS
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
@@ -70,7 +72,7 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
         given = repr(softer.name) if softer.name in MATERIALS else f"{softer.hardness:.4g}"
         yield Note(
             Rank.WRONG,
-            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {softer.hardness / 1e9:.3g} GPa "
+            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {written(softer.hardness, 'Pa')} "
             f"(the largest pressure is {solution.max_pressure / softer.hardness:.2g} times the hardness): "
             f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given}, "
             "or unload the joint by loading_loop.",
@@ -100,15 +102,16 @@ def _of_two_sides(solution: Solution, touching: int) -> Iterator[Note]:
     """Yield a note if the stiffness on loading differs from that on unloading."""
     if not touching:
         return
-    k = solution.stiffness
+    k, more = solution.stiffness, solution.loading_stiffness
     most = added_stiffness(solution.problem.operator, solution.contact, solution.touching)
-    if most <= SLIGHT * k or solution.loading_stiffness <= (1 + SLIGHT) * k:
+    if most <= SLIGHT * k or more <= (1 + SLIGHT) * k:
         return
     touch = "1 cell touches" if touching == 1 else f"{touching} cells touch"
+    unit = unit_of("stiffness", solution.problem.geometry)
     yield Note(
         Rank.LIMITED,
-        f"{touch} without pressure: the stiffness is {solution.loading_stiffness:.6g} as the load grows, and "
-        f"{k:.6g} as the load is reduced. The latter is reported.",
+        f"{touch} without pressure: the stiffness is {written(more, unit, 6)} as the load grows, and "
+        f"{written(k, unit, 6)} as the load is reduced. The latter is reported.",
     )
 
 
@@ -120,13 +123,13 @@ def _of_input(solution: Solution) -> Iterator[Note]:
     if largest > STRAINED * modulus and not springs:
         yield Note(
             Rank.DOUBTFUL,
-            f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.0%} of the reduced modulus: real bodies "
-            "yield or break at lower pressures, and the theory of small strains does not hold.",
+            f"The largest pressure, {written(largest, 'Pa')}, is {largest / modulus:.0%} of the reduced modulus: real "
+            "bodies yield or break at lower pressures, and the theory of small strains does not hold.",
         )
     if solution.depth > max(problem.grid.lengths):
         yield Note(
             Rank.DOUBTFUL,
-            f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus.",
+            f"The depth, {written(solution.depth, 'm')}, exceeds the map: check the units of load and modulus.",
         )
     if surface is not None and is_numpy(surface.heights):
         _, above = height_limits(surface.heights)

@@ -13,6 +13,7 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
+    from roughcontact.labels.engineering_units import Scale as Scale
     from roughcontact.plot.canvas import (
         areal_figure as areal_figure,
         curve_figure as curve_figure,
@@ -32,7 +33,6 @@ if TYPE_CHECKING or _LATE is None:
         height_distribution as height_distribution,
         pressure_distribution as pressure_distribution,
     )
-    from roughcontact.plot.drawing.engineering_units import Scale as Scale
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
     from roughcontact.plot.jumps import (
         jump_area as jump_area,

@@ -129,7 +129,7 @@ def plot_curve(
     ('log', 'contact area [µm²]')
     """
     if law is not None and "stiffness" not in quantity:
-        raise about("law", "is a law of the stiffness", f"leave it out with {quantity!r}")
+        raise about("law", "applies only to the stiffness", f"leave it out with {quantity!r}")
     if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
         raise about("quantity", f"must be one of {', '.join(every)}, not {quantity!r}")
     draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve

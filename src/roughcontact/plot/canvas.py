@@ -16,10 +16,10 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.labels.engineering_units import Scale, written
 from roughcontact.labels.variables import unit_of
 from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
-from roughcontact.plot.drawing.engineering_units import Scale, written
 from roughcontact.plot.drawing.error_bars import Errors, sampling_lines
 from roughcontact.plot.drawing.marks import contact_window
 from roughcontact.plot.drawing.raster import Window

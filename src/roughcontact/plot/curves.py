@@ -18,9 +18,9 @@ from matplotlib.axes import Axes
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import Scale, scale
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import Scale, scale
 from roughcontact.plot.drawing.error_bars import Errors, error_bars
 from roughcontact.plot.drawing.level import free_place, level
 from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
@@ -112,7 +112,7 @@ def force_curve(
     stiffness = quantity == "stiffness"
     require(
         stiffness or law is None,
-        "law is a law of the stiffness",
+        "law applies only to the stiffness",
         f"leave it out with {quantity!r}",
         place="law",
     )

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import names_of, shown_in
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.adhesive_facts import tension
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 from roughcontact.validation import Array

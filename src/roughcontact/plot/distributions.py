@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.drawing.usual_range import usual_range
 from roughcontact.plot.pressure_bars import fewer, pressure_bars

@@ -11,9 +11,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import pretty
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import pretty
 from roughcontact.plot.drawing.ticks import TICK, label_axes
 from roughcontact.validation import Array
 

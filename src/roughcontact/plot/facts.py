@@ -11,9 +11,9 @@ import numpy as np
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
+from roughcontact.labels.engineering_units import Scale, pretty, scale, written
 from roughcontact.labels.labelled import values_of
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.drawing.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
 from roughcontact.surface.height_range import height_range
 

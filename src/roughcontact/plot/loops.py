@@ -13,9 +13,9 @@ from roughcontact.contact.flow import Flow
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes, readable_ticks
 from roughcontact.plot.maps import height_map

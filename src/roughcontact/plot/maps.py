@@ -11,9 +11,9 @@ from matplotlib.colors import ListedColormap
 
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import AnyGrid
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.marks import faint_spots
 from roughcontact.plot.drawing.raster import (
     Window,

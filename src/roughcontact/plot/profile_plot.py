@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.in_memory import analysed_on_host

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 
+from roughcontact.labels.engineering_units import Scale, scale
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import Scale, scale
 from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.analysis.power import PowerSpectrum

@@ -9,9 +9,9 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.evaluation.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.halfspace.subsurface.fields_below import stress
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.material import Solid
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import colour_bar, length_scale
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.validation import numeric

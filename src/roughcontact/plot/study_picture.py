@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from roughcontact.errors import InputError
-from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.labels.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, hollow_marks, mean_curves, shades

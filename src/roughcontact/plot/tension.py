@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, pooled, show
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.maps import colour_limit

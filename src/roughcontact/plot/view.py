@@ -11,9 +11,9 @@ from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import scale
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.surface.in_memory import analysed_on_host

@@ -18,6 +18,7 @@ from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffnes
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.materials import Modulus, as_modulus
@@ -190,7 +191,7 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
     if search.single_feature:
         end = search.shared_from
-        until = "over the whole range" if end is None else f"up to {end:.3g} {force_unit}"
+        until = "over the whole range" if end is None else f"up to {written(end, force_unit)}"
         yield Note(
             Rank.DOUBTFUL,
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
@@ -198,7 +199,7 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
         )
     if low < high and low < search.spots_from:
         where = (
-            f"below {search.spots_from:.3g} {force_unit}"
+            f"below {written(search.spots_from, force_unit)}"
             if search.spots_from <= high
             else "over the whole range"
         )

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.evaluation.error_budget import ErrorBudget
-from roughcontact.plot.drawing.engineering_units import Scale, written
+from roughcontact.labels.engineering_units import Scale, written
 from roughcontact.plot.drawing.ticks import TICK
 
 __all__ = ["Errors", "error_bars", "sampling_lines"]

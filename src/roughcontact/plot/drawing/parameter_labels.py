@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.labels.engineering_units import Scale, scale
 
 if TYPE_CHECKING:
     import xarray

@@ -12,8 +12,8 @@ from matplotlib.image import AxesImage
 
 from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
+from roughcontact.labels.engineering_units import Scale, scale, written
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.drawing.engineering_units import Scale, scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.drawing.usual_range import usual_range
 from roughcontact.validation import Array
