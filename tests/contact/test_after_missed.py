@@ -109,4 +109,4 @@ def test_a_pressure_beyond_the_hardness_on_unloading_is_said():
         notes = [note for note in state.notes if "of it: unloading is not quite elastic" in note]
         assert len(notes) == beyond
         if beyond:
-            assert f"is {state.pressure.max() / HARDNESS - 1:.1e} of the hardness" in notes[0]
+            assert f"exceeds the hardness by {state.pressure.max() / HARDNESS - 1:.1e} of it" in notes[0]

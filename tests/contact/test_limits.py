@@ -244,7 +244,7 @@ def test_a_resolved_contact_has_nothing_to_say():
             rc.Surface(np.eye(1, 1024, 333).reshape(32, 32), rc.Grid((32, 32), 1.0)),
             1e-9,
             "1 point stands more than 8 rms heights above the mean of nearly all, and carries 100% of the force. If "
-            "they are faults of the measurement, take them out by masked(above=0.251)",
+            "they are faults of the measurement, remove them by masked(above=0.251)",
         ),
     ],
 )

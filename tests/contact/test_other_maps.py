@@ -187,7 +187,7 @@ def test_forms_depths_and_patches_have_none():
     assert not any("ampling" in note for note in patches.notes)
     # What the notes advise gives the line.
     assert any("levelled('quadratic')" in note for note in form.notes)
-    assert any(note.endswith("Prescribe the force or the pressure.") for note in at_depth.notes)
+    assert any(note.endswith("Prescribe force or pressure.") for note in at_depth.notes)
     for budget in (rc.error_budget(pressed(each)) for each in (ball.levelled("quadratic"), flat)):
         assert budget.sources[-1].name == "sampling"
 
@@ -196,7 +196,7 @@ def test_a_note_names_it_where_it_is_nearly_all_of_an_error():
     sources = (ErrorSource("grid", "bias", ""), ErrorSource("sampling", "order of magnitude", ""))
     number = QuotedNumber("mean_gap", 1.0, "m", (0.01, 0.3))
     (note,) = notes_on_sources([number], sources)
-    assert note == f"Nearly all of the error of mean gap (30 %) is that of sampling. {REMEDIES['sampling']}"
+    assert note == f"Nearly all of the error of mean gap (30 %) comes from sampling. {REMEDIES['sampling']}"
     assert str(ErrorBudget((number,), sources, ())["mean_gap"].relative_error).startswith("0.300")
 
 

@@ -315,7 +315,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.interface_table(curve(PROFILE, forces=[1.0, 2.0], operator=rc.line(LINE, MODULUS))),
-        "not a line: press a map of heights",
+        "not of a line: press a map of heights",
         lambda: rc.interface_table(curve(FINE)),
     ),
     row(
