@@ -30,7 +30,7 @@ def test_doubts_stand_in_the_first_line_and_the_mask_that_is_named_removes_them(
     first = before.stdout.splitlines()[0]
     assert first.startswith(f"doubtful             {SAME}")
     assert "'surface prepare --despike' or 'surface prepare --mask'" in first
-    [mask] = re.findall(r"200 points stand .* take them out by --mask (above=\S+um)\.", before.stderr)
+    [mask] = re.findall(r"200 points stand .* remove them by --mask (above=\S+um)\.", before.stderr)
     after = invoke("curve", streaked, "--mask", mask, *LOADS)
     assert after.exit_code == 0, after.stderr
     assert after.stdout.startswith("surface ")

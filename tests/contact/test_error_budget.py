@@ -162,7 +162,7 @@ def test_notes_on_sources_are_of_large_errors_from_one_source_alone():
     (note,) = notes_on_sources((one, two, small, unknown), sources)
     assert note.startswith("Nearly all of the error of stiffness (82 %) comes from levelling. The longest")
     many = [replace(one, name=name) for name in ("stiffness", "mean_gap", "contact_fraction")]
-    assert "of stiffness (82 %), mean gap (82 %) is that" in notes_on_sources(many, sources)[0]
+    assert "of stiffness (82 %), mean gap (82 %) comes from" in notes_on_sources(many, sources)[0]
     for name in REMEDIES:  # of every source
         only = [ErrorSource(name, "bias", "")]
         assert f"that of {name}. {REMEDIES[name]}" in notes_on_sources([replace(one, parts=(0.5,))], only)[0]
