@@ -66,7 +66,7 @@ $ {PRESS} --force 1mN --tolerance 1
 > {PRESS} --force 1mN --tolerance 1e-3
 
 $ {PRESS} --force 1mN --hardness 1kPa
-! all measured cells can carry at this hardness: press by less, or give a greater hardness
+! all measured cells can carry at this hardness
 > {PRESS} --force 1.5uN --hardness 1kPa
 > {FLOWS}
 """
