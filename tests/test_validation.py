@@ -94,7 +94,7 @@ def test_a_message_has_the_first_value_that_is_wrong():
 
 
 def test_what_is_long_is_named_by_its_kind():
-    with pytest.raises(ValueError, match=r"not a Surface; of a surface take") as caught:
+    with pytest.raises(ValueError, match=r"not a Surface; for a surface use") as caught:
         persson.contact_fraction(1e6, 1e11, rc.Surface(np.zeros((30, 30)), rc.Grid((30, 30), 1.0)))
     assert "\n" not in str(caught.value)
 
@@ -111,7 +111,7 @@ def test_poissons_ratio_is_one_number(value):
 
 
 def test_a_pair_of_solids():
-    with pytest.raises(ValueError, match=r"shear_modulus and poisson_ratio is wanted, not 5\.0"):
+    with pytest.raises(ValueError, match=r"shear_modulus and poisson_ratio is needed, not 5\.0"):
         mindlin.pair_ratio(SOLID, 5.0)
 
 

@@ -71,7 +71,7 @@ def every(error: InputError) -> tuple[InputError, ...]:
 
 
 def together(found: Sequence[InputError]) -> InputError:
-    """Return the error about several values that cannot be used; of one its own."""
+    """Return one error for several values that cannot be used; a single error is returned as it is."""
     if len(found) == 1:
         return found[0]
     whole = InputError("")
@@ -81,19 +81,19 @@ def together(found: Sequence[InputError]) -> InputError:
 
 
 def _restate(whole: InputError) -> None:
-    """Say of an error about several values what its parts say."""
+    """Set the message and the place of an error about several values from its parts."""
     whole.message = "; ".join(map(in_place, whole.parts))
     whole.place = ", ".join(each.place for each in whole.parts if each.place) or None
 
 
 def correctable(error: BaseException) -> InputError | None:
-    """Return what the user can correct of an error: an `InputError`, or trouble of the system with a file as one.
+    """Return an `InputError`, or an error of the operating system with a file as an `InputError`.
 
-    Every other error is a mistake of this program, for which it returns None.
+    Any other error is a bug of this program; None is returned for it.
     """
     if isinstance(error, InputError):
         return error
-    # Of a pipe nobody reads any more, typer knows how to leave quietly.
+    # typer ends quietly at a pipe whose reader has closed it.
     if isinstance(error, OSError) and error.filename is not None and not isinstance(error, BrokenPipeError):
         file = os.fsdecode(error.filename)
         return InputError(f"{file}: {error.strerror or error}", place=file)
@@ -108,7 +108,7 @@ def about(what: str, problem: str, remedy: str | None = None) -> InputError:
 
 @contextmanager
 def placed(place: str) -> Iterator[None]:
-    """Set the place of an `InputError` that is raised inside: of what the block checks, the caller names the place."""
+    """Set the place of an `InputError` that the block raises, where only the caller has the name of the argument."""
     try:
         yield
     except InputError as error:

@@ -1,4 +1,4 @@
-"""What is meant by a name that a module or a value does not have: the end of its AttributeError."""
+"""Suggestions for a name that a module or a value does not have, at the end of the AttributeError."""
 
 from __future__ import annotations
 
@@ -69,18 +69,18 @@ MEANT: Mapping[str, Mapping[str, str]] = MappingProxyType(
         for owner, table in _GUESSED.items()
     }
 )
-"""Names that users guess, by where they look for them, in lower case; misspelt ones are found by likeness."""
+"""Names that users guess, in lower case, by the class or module; misspelt names are found by similarity."""
 
 
 def did_you_mean(owner: str, name: str, known: Iterable[str]) -> str:
-    """Return the end of a message about a `name` that an `owner` does not have; empty where nothing is like it.
+    """Return the end of a message about a `name` that an `owner` does not have; empty if no name is similar.
 
     Parameters
     ----------
     owner : str
         Name of the module or class.
     name : str
-        What was looked for.
+        Name that was looked up.
     known : iterable of str
         Names that the owner has.
     """
@@ -93,9 +93,9 @@ def did_you_mean(owner: str, name: str, known: Iterable[str]) -> str:
 
 
 def hinted(cls: type[T]) -> type[T]:
-    """Give a frozen class errors that say what is meant where a name is looked up that it does not have, or is set.
+    """Give a frozen class errors with a suggestion, for a missing attribute and for an attempt to set one.
 
-    Both stay an AttributeError. Python asks for neither of the two methods while a name is found.
+    Both are AttributeErrors. Python calls neither of the two methods for a name that is found.
     """
     for name, method in (("__getattr__", _lookup), ("__setattr__", _refuse)):
         setattr(cls, name, method)
@@ -108,11 +108,11 @@ def _lookup(value: Any, name: str) -> Any:
     if name.startswith("_") or hasattr(kind, name):
         return object.__getattribute__(value, name)  # raises: Python's own error, or that of a property
     hint = did_you_mean(kind.__name__, name, [each for each in dir(value) if not each.startswith("_")])
-    # With its name, so that Python adds no suggestion of its own to ours.
+    # With `name`, Python adds no second suggestion.
     raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}{hint}", name=name)
 
 
 def _refuse(value: Any, name: str, new: Any) -> NoReturn:
-    """Raise the AttributeError about a name that cannot be set; that of slots is not to be understood."""
+    """Raise the AttributeError about a name that cannot be set; Python's message for slots is obscure."""
     kind = type(value).__name__
     raise FrozenInstanceError(f"cannot set {name!r}: a {kind} is frozen; make a new {kind}")

@@ -68,7 +68,7 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
     if isinstance(bodies, tuple) and len(bodies) == 2:
         return bodies
     raise InputError(
-        f"a Solid or a pair of Solids is wanted, not {shown(bodies)}: E* does not determine how bodies shear",
+        f"a Solid or a pair of Solids is needed, not {shown(bodies)}; E* does not determine how bodies shear",
         place="bodies",
     )
 
@@ -79,12 +79,12 @@ def require_solid(body: Any) -> Solid:
     Raises
     ------
     ValueError
-        If it is not a Solid.
+        If `body` is not a Solid.
     """
     if not isinstance(body, Solid):
         raise InputError(
-            f"a Solid is wanted (young_modulus, poisson_ratio), not {shown(body)}",
-            "give a Solid such as rc.Solid(210e9, 0.3), or names: rc.reduced_modulus('steel', 'aluminium')",
+            f"a Solid (young_modulus, poisson_ratio) is needed, not {shown(body)}",
+            "give for example rc.Solid(210e9, 0.3), or use names: rc.reduced_modulus('steel', 'aluminium')",
         )
     return body
 

@@ -1,4 +1,4 @@
-"""Metals by name: what handbooks say of them at room temperature, and the moduli of a pair of them."""
+"""Metals by name: handbook values at room temperature, and the moduli of a pair of metals."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class Material:
     Parameters
     ----------
     name : str
-        By which it is asked for.
+        Name for `handbook`.
     grade : str
-        Which alloy and state the values belong to.
+        Alloy and state to which the values belong.
     solid : Solid
         Young's modulus [Pa] and Poisson's ratio.
     hardness : float
@@ -68,7 +68,7 @@ class Material:
         object.__setattr__(self, "sources", MappingProxyType(dict(self.sources)))
 
     def __reduce__(self) -> tuple[type[Material], tuple[Any, ...]]:
-        """Return how copies and pickles make it again: a view of a mapping can be neither copied nor pickled."""
+        """Return how copy and pickle rebuild the material: a view of a mapping can be neither copied nor pickled."""
         values = (getattr(self, each.name) for each in fields(self))
         return Material, tuple(dict(value) if isinstance(value, Mapping) else value for value in values)
 
@@ -135,9 +135,9 @@ def handbook(name: str) -> Material:
 
     Notes
     -----
-    Moduli hold to a few per cent. Hardness depends on cold work and heat treatment, by a factor of two or more, and
-    at the size of contact spots is often larger; a resistivity depends on impurities. Where an answer depends on one
-    of them, measure it, and give the number.
+    Moduli are accurate to a few per cent. Hardness depends on cold work and heat treatment, by a factor of two or
+    more, and is often larger at the size of contact spots. Resistivity depends on impurities. If your result depends
+    on one of these values, measure it and pass the number.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def handbook(name: str) -> Material:
     require(
         key in MATERIALS,
         f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
-        "for another give its numbers",
+        "for another metal, give its numbers",
     )
     return MATERIALS[key]
 

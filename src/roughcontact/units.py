@@ -1,4 +1,4 @@
-"""Values that carry a unit, of pint, astropy, xarray and others: converted to SI numbers at the border."""
+"""Values that carry a unit (pint, astropy, xarray and others), converted to SI numbers on entry."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from roughcontact.errors import about
 
 __all__ = ["PLAIN", "as_text", "in_si", "registry", "word_of"]
 
-# The types of almost all arguments, which carry no unit: they pay one look into this set.
+# The types of almost all arguments, which carry no unit: they cost one look-up in this set.
 PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float64, np.int64, slice})
 # CF and UDUNITS write exponents behind the names: "N m-1", "m2".
 _EXPONENT = re.compile(r"(?<![\d.][eE])(?<=[^\W\d])(?=-?\d)")
@@ -28,7 +28,7 @@ def in_si(value: Any, unit: str | None, what: str) -> Any:
     Parameters
     ----------
     value : object
-        What the user gave.
+        Value of the user.
     unit : str, optional
         SI unit of the parameter, such as ``"N/m"``. Without it the parameter is a pure number.
     what : str
@@ -37,7 +37,7 @@ def in_si(value: Any, unit: str | None, what: str) -> Any:
     Raises
     ------
     ValueError
-        If the unit is not known, is one of another dimension, or stands beside numbers without a unit in a list.
+        If the unit is not known or has another dimension, or if a list also holds numbers without a unit.
     """
     if type(value) in PLAIN:
         return value
@@ -130,7 +130,7 @@ def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
         given = registry().Quantity(
             float(numbers) if np.ndim(numbers) == 0 else np.asarray(numbers), "" if words == "1" else words
         )
-    except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
+    except Exception as error:  # pint raises many classes for a bad unit, also those of its tokenizer
         wanted = f"plain numbers in {unit}" if unit else "plain numbers"
         raise about(what, f"carries the unit {stated!r}, which is not known", f"give {wanted}") from error
     if given.is_compatible_with(unit or ""):

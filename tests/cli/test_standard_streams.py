@@ -58,9 +58,9 @@ def test_what_was_piped_is_pressed_and_named_by_its_fingerprint(tmp_path, monkey
         (
             ("surface", "info", "-"),
             b"",
-            "-: nothing came in by standard input; see whether the command before",
+            "-: standard input is empty; check whether the command before",
         ),
-        (("surface", "info", "-"), b"1 2 3\n", "-: what came in is no .npz; name its format, such as x3p:-"),
+        (("surface", "info", "-"), b"1 2 3\n", "-: it is not .npz; name its format, such as x3p:-"),
         (("surface", "make", "bmp:-", *MADE), b"", "cannot write bmp:-: a Surface is written as one of .npz"),
         (("surface", "make", "-", *MADE, "--json"), b"", "--json and the surface would both go to standard"),
         (

@@ -248,7 +248,7 @@ def test_numbers_that_are_no_heights_are_told_before_they_are_pressed(invoke, tm
     )
     assert answer.exit_code == 0
     assert (
-        "Note: part.csv: its first row (0, 1, 2, ..., 31) holds places, no heights, and is left out"
+        "Note: part.csv: its first row (0, 1, 2, ..., 31) holds places, not heights, and is left out"
         in answer.stderr
     )
     assert json.loads(answer.stdout)["shape"] == [24, 32]

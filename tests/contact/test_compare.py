@@ -63,7 +63,7 @@ def test_deviation_is_none_without_resolved_loads(curve):
 
 
 @pytest.mark.parametrize(
-    ("name", "message"), [("glow", "a curve has no 'glow'"), ("force", "says nothing about")]
+    ("name", "message"), [("glow", "a curve has no 'glow'"), ("force", "has no 'force'")]
 )
 def test_what_nobody_speaks_of_is_refused(curve, name, message):
     with pytest.raises(ValueError, match=message):

@@ -165,7 +165,9 @@ def test_notes_on_sources_are_of_large_errors_from_one_source_alone():
     assert "of stiffness (82 %), mean gap (82 %) comes from" in notes_on_sources(many, sources)[0]
     for name in REMEDIES:  # of every source
         only = [ErrorSource(name, "bias", "")]
-        assert f"comes from {name}. {REMEDIES[name]}" in notes_on_sources([replace(one, parts=(0.5,))], only)[0]
+        assert (
+            f"comes from {name}. {REMEDIES[name]}" in notes_on_sources([replace(one, parts=(0.5,))], only)[0]
+        )
 
 
 def test_patches_add_the_standard_error_of_their_mean():

@@ -87,7 +87,7 @@ def test_missing_points_and_free_edges_are_no_obstacle(wide):
         ("person", {}, "no law named"),
         ("hertz", {}, "radius missing"),
         ("cgp", {}, "unlike a periodic surface"),
-        ("gw", {"colour": "red"}, "no law asks for colour"),
+        ("gw", {"colour": "red"}, "no law has the input colour"),
     ],
 )
 def test_nonsense_is_refused(wide, names, given, message):

@@ -60,7 +60,7 @@ def test_a_socket_is_refused(tmp_path, monkeypatch):
 @pytest.mark.parametrize("path", ["/proc/self/status", "/proc/self/environ", "/proc/self/pagemap"])
 def test_files_that_the_system_makes_up_are_refused(path):
     for function in READERS:
-        with pytest.raises(rc.ReadError, match="it is empty, or no ordinary file"):
+        with pytest.raises(rc.ReadError, match="it is empty, or not an ordinary file"):
             function(path)
 
 

@@ -24,7 +24,7 @@ def test_a_rough_surface_raises_no_warning(heights):
 @pytest.mark.parametrize(
     ("rows", "words"),
     [
-        (slice(50, None), "its last 14 of 64 rows all hold 0 m, as of a scan that was broken off"),
+        (slice(50, None), "its last 14 of 64 rows all hold 0 m, as after an interrupted scan"),
         (slice(None, 5), "its first 5 of 64 rows all hold 0 m"),
     ],
 )
@@ -35,7 +35,7 @@ def test_a_scan_that_was_broken_off(heights, rows, words):
 
 def test_a_map_without_heights():
     assert height_warnings(np.full((64, 80), 3e-6), CELL) == (
-        "all its heights are equal, as nothing measured is",
+        "all its heights are equal, unlike any measured surface",
     )
     assert height_warnings(np.zeros((3, 4)), CELL) == ()  # too few to tell
 
@@ -48,7 +48,9 @@ def test_a_single_level_row_is_no_broken_scan(heights):
 def test_a_lone_point(heights):
     heights[30, 30] += 40 * np.quantile(np.abs(np.diff(heights)), 0.99)
     (warning,) = height_warnings(heights, CELL)
-    assert warning.startswith("1 spike of 1 cell, far out of all around; remove what is faulty by despiked()")
+    assert warning.startswith(
+        "1 spike of 1 cell, far outside their neighbours; remove faulty points by despiked()"
+    )
 
 
 def test_points_beyond_all_heights(heights):
@@ -61,4 +63,4 @@ def test_points_beyond_all_heights(heights):
 
 def test_heights_that_no_instrument_sees(heights):
     (warning,) = height_warnings(heights * 1e-9, CELL)
-    assert warning.startswith("an rms height of 1e-16 m is less than any instrument sees")
+    assert warning.startswith("an rms height of 1e-16 m is less than any instrument resolves")

@@ -133,7 +133,7 @@ def test_a_profile_in_x3p(put, make_x3p):
 
 
 def test_a_map_is_no_line_and_a_line_no_map(put, npy):
-    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, no profile; use read"):
+    with pytest.raises(rc.ReadError, match=r"a map of 5 x 8 heights, not a profile; use read"):
         read_line(put("a.npy", npy(HEIGHTS.reshape(5, 8))), unit="um", size=1e-3)
     with pytest.raises(
         rc.ReadError, match=r"it is a profile of 40 heights, not a map .*read it by read_line"
@@ -166,7 +166,7 @@ def test_either_is_what_the_file_holds(put, npy, npz, make_x3p):
 
 def test_either_refuses_what_is_neither(put, npy):
     for name, content, message in (
-        ("a.npy", npy(HEIGHTS.reshape(1, 40)), "a profile at most"),
+        ("a.npy", npy(HEIGHTS.reshape(1, 40)), "which is not a map"),
         ("a.txt", "1 2 3\n4 5\n", "row 2"),
         ("a.csv", "x [um], z [um]\n1, 2\n", "look like a list of coordinates"),
     ):
@@ -174,7 +174,7 @@ def test_either_refuses_what_is_neither(put, npy):
             read_either(put(name, content), unit="um", size=1e-3)
     with pytest.raises(ValueError, match="size needs one length, not 2"):
         read_either(put("b.npy", npy(HEIGHTS)), unit="um", size=(1e-3, 2e-3))
-    with pytest.raises(ValueError, match="is not a unit of length"):
+    with pytest.raises(ValueError, match="is not a known unit of length"):
         read_either("nowhere.npy", unit="N")
 
 

@@ -49,7 +49,7 @@ def test_a_periodic_file_is_read_as_free_only_by_choice(tmp_path):
     assert rc.read(path).grid.periodic == (True, True)
     free = rc.read(path, periodic=False)
     assert free.grid.periodic == (False, False)
-    assert "read as free, though the file says that it is periodic" in free.provenance
+    assert "read as free, though the file states that it is periodic" in free.provenance
     assert rc.read(contact_engineering(tmp_path / "b.nc"), periodic=True).grid.periodic == (True, True)
 
 
@@ -248,7 +248,7 @@ def test_what_was_never_written_is_missing_and_told(tmp_path):
 
 def test_coordinates_without_a_unit_are_told_or_asked_about(tmp_path):
     with pytest.warns(
-        SurfaceWarning, match="its y and x state no unit, and are taken in um; else pass size="
+        SurfaceWarning, match="its y and x state no unit, and um is assumed; pass size= if that is wrong"
     ):
         assert rc.read(marked(tmp_path / "a.nc", HEIGHTS, units="")).grid.spacing == (1e-6, 1e-6)
     xarray.Dataset(

@@ -38,7 +38,7 @@ def test_fortran_order_and_nan(put, npy):
         (np.array([["1", "2"]]), "<U1"),
         (np.arange(5.0), "a profile"),
         (np.zeros((2, 2, 2)), "3-dimensional"),
-        (np.zeros((1, 7)), "profile"),
+        (np.zeros((1, 7)), "1 x 7 heights, which is not a map"),
         (np.zeros((0, 0)), "2 x 2"),
         (np.float64(3), "one number"),
         (np.full((2, 2), np.nan), "all heights are NaN"),

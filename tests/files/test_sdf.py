@@ -146,7 +146,7 @@ def test_a_text_that_ends_within_its_last_number_is_warned_of(put):
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (sdf_binary(counts_for(5), 5)[:-1], "2303 of 2304 bytes of heights are there"),
+        (sdf_binary(counts_for(5), 5)[:-1], "it holds 2303 of 2304 bytes of heights"),
         (sdf_binary(counts_for(5), 5)[:60], "ends within its header"),
         (sdf_binary(counts_for(5), 5, mark="bISO-3.0"), "does not begin with aISO-1.0"),
         (sdf_binary(counts_for(5), 5, flags=(1, 0)), "1 for Compression"),
@@ -163,8 +163,8 @@ def test_a_text_that_ends_within_its_last_number_is_warned_of(put):
         (sdf_text(counts_for(5), 5).replace(b"ManufacID", b"CheckType"), "states 'nobody' for CheckType"),
         (sdf_text(counts_for(5), 5).replace(b"Zresolution = -1", b"Zscale = 1"), "states Zscale twice"),
         (sdf_text(counts_for(5), 5).replace(b"*", b"+"), "no line with \\* ends its header"),
-        (sdf_text(counts_for(5), 5).replace(b"*\n", b"*\n1_0", 1), "its height 1 is '1_0.*', no number"),
-        (sdf_text(counts_for(5), 5).replace(b"*\n", b"*\nx", 1), "its height 1 is 'x.*', no number"),
+        (sdf_text(counts_for(5), 5).replace(b"*\n", b"*\n1_0", 1), "its height 1 is '1_0.*', not a number"),
+        (sdf_text(counts_for(5), 5).replace(b"*\n", b"*\nx", 1), "its height 1 is 'x.*', not a number"),
     ],
 )
 def test_damage_is_refused(put, data, message):

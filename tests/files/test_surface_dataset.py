@@ -77,7 +77,7 @@ def test_quantities_of_pint_state_the_unit():
             array().assign_coords(x=("x", [0, 1, 2, 3, 4, 6.0], {"units": "um"})),
             "coordinates along x are not even",
         ),
-        (HEIGHTS, "an xarray.DataArray is wanted, not a ndarray"),
+        (HEIGHTS, "an xarray.DataArray is needed, not a ndarray"),
         (array().expand_dims(time=2), "3-dimensional"),
     ],
 )

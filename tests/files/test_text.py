@@ -93,9 +93,9 @@ def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):
         ("1 2\n3 abc\n", r"row 2 \(line 2\), column 2: 'abc' is not a number"),
         ("1 2\n3 1_000\n", "'1_000' is not a number"),
         ("1;2,5\n3;4.5\n", "decimal commas and points"),
-        ("ncols 4\n1 2\n", "it states no number of nrows"),
-        ("1 2 3 4\n", "1 x 4 heights, a profile"),
-        ("1\n2\n3\n", "3 x 1 heights, a profile"),
+        ("ncols 4\n1 2\n", "it does not state the number of nrows"),
+        ("1 2 3 4\n", "1 x 4 heights, which is not a map"),
+        ("1\n2\n3\n", "3 x 1 heights, which is not a map"),
         ("# only words\n", "holds no numbers"),
         (" \n", "holds no numbers"),
         ("1 2\n3 \0\n", "zero bytes"),
@@ -177,7 +177,7 @@ def test_a_line_that_states_its_rows_and_ends_early_is_refused(tmp_path):
     rc.write(rc.Surface(ROUGH[0], rc.Grid(20, 1e-6)), tmp_path / "a.txt")
     lines = (tmp_path / "a.txt").read_text().splitlines(keepends=True)
     (tmp_path / "a.txt").write_text("".join(lines[:-6]))
-    with pytest.raises(rc.ReadError, match="14 rows are there where it states 20: it is cut short"):
+    with pytest.raises(rc.ReadError, match="it holds 14 rows and states 20: it is cut short"):
         read_line(tmp_path / "a.txt")
 
 

@@ -68,7 +68,7 @@ def test_what_stands_for_a_missing_point_is_none(put, label):
 
 
 def test_a_bare_side_in_the_only_unit_is_taken_with_a_warning(put):
-    with pytest.warns(SurfaceWarning, match="its one unit, um, is taken for lengths along the map"):
+    with pytest.warns(SurfaceWarning, match="its one unit, um, is assumed for lengths along the map"):
         surface = rc.read(put("a.txt", "width = 80\nheight = 60\nunit = um\n" + ROWS))
     np.testing.assert_allclose(surface.grid.lengths, (60e-6, 80e-6), rtol=1e-14)
 
@@ -96,9 +96,9 @@ def test_what_changes_no_height_is_not_talked_about(put, line):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("nx = 5\n" + ROWS, "its rows hold 4 numbers where it states 5"),
-        ("# x-pixels = 3\n" + ROWS, "its rows hold 4 numbers where it states 3"),
-        ("ny = 4\n" + ROWS, "3 rows are there where it states 4: it is cut short"),
+        ("nx = 5\n" + ROWS, "its rows hold 4 numbers and it states 5"),
+        ("# x-pixels = 3\n" + ROWS, "its rows hold 4 numbers and it states 3"),
+        ("ny = 4\n" + ROWS, "it holds 3 rows and states 4: it is cut short"),
         # No name begins with a number, and nan is one: such a line is a damaged row.
         ("1=2 3 4 5\n" + ROWS, r"'1=2 3 4 5' is not a number"),
         ("nan: 3 4 5\n" + ROWS, r"'nan: 3 4 5' is not a number"),

@@ -57,13 +57,13 @@ def test_a_negative_cell_is_told(put):
     [
         (
             (ESRI + "cellsize 0.5\n" + table(separator=" "))[:-300],
-            "where it states 32 rows of 36: it is cut short",
+            "and states 32 rows of 36: it is cut short",
         ),
-        (ESRI + "cellsize 0.5\n" + table(separator=" ") + "1 2\n", "1154 numbers are there where it states"),
+        (ESRI + "cellsize 0.5\n" + table(separator=" ") + "1 2\n", "it holds 1154 numbers and states"),
         (ESRI + "cellsize 0.5\n" + table(separator=" ").replace("0.", "O.", 1), "is not a number; write nan"),
         (
             f"ncols {NX}\ncellsize 0.5\n" + table(separator=" "),
-            "it states no number of nrows; write ncols and nrows",
+            "it does not state the number of nrows; write ncols and nrows",
         ),
         (ESRI + table(separator=" "), "it states no size; pass size="),
         ("DSAA\n1 2\n", "its header is damaged"),
@@ -104,7 +104,7 @@ def test_a_binary_grid_is_refused_by_its_name(put, mark):
 def test_a_grid_holds_a_map(put):
     path = put("a.grd", SURFER + table(separator=" "))
     assert channels(path)[0].shape == (NY, NX)
-    with pytest.raises(rc.ReadError, match=r"a map of 32 x 36 heights, no profile; use read"):
+    with pytest.raises(rc.ReadError, match=r"a map of 32 x 36 heights, not a profile; use read"):
         read_line(path, unit="um")
     with pytest.raises(rc.ReadError, match=r"it is a text of a map, by its first line; use read"):
         read_line(put("a.txt", path.read_bytes()), unit="um")
@@ -161,8 +161,8 @@ def test_keyence_holes_are_told(put):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (("Vertical", str(NY)), ("Vertical", "40"), "32 rows are there where it states 40"),
-        (("Horizontal", str(NX)), ("Horizontal", "40"), "36 columns are there where it states 40"),
+        (("Vertical", str(NY)), ("Vertical", "40"), "it holds 32 rows and states 40"),
+        (("Horizontal", str(NX)), ("Horizontal", "40"), "it holds 36 columns and states 40"),
         (
             ("XY Calibration", "500.000", "nm"),
             ("XY Calibration", "500.000", "steps"),
@@ -179,7 +179,7 @@ def test_keyence_that_is_incomplete(put, old, new, message):
 def test_keyence_of_another_image(put):
     header = [("Unit", "") if line[:1] == ("Unit",) else line for line in ENGLISH[:-1]]
     with pytest.raises(
-        rc.ReadError, match="it holds 'Light intensity', no heights; export the data of its height image"
+        rc.ReadError, match="it holds 'Light intensity', not heights; export the data of its height image"
     ):
         rc.read(put("a.csv", keyence([*header, ("Light intensity",)])), unit="um")
 
@@ -216,7 +216,7 @@ def test_wyko(put, flag, nanometres):
     ("old", "new", "message"),
     [
         ("RAW_DATA", "OTHER", "a Wyko text without heights"),
-        ("X Size\t32", "X Size\t33", "is not a number|where it states 33 rows"),
+        ("X Size\t32", "X Size\t33", "is not a number|and states 33 rows"),
         ("Wavelength\t7\t4\t500", "Wavelength\t7\t4\t0", "a wavelength over Mult of 0"),
         ("Y Size", "Z Size", "it states no X Size and Y Size"),
     ],
@@ -232,7 +232,7 @@ def test_numbers_of_a_small_table_are_no_heights(put, numbered, count):
     slope = 0.2 * np.arange(count * count).reshape(count, count) + 0.15
     values = np.c_[np.arange(count), slope] if numbered == "rows" else np.r_[np.arange(count)[None], slope]
     path = put("a.csv", table(values))
-    with pytest.warns(SurfaceWarning, match="holds places, no heights, and is left out"):
+    with pytest.warns(SurfaceWarning, match="holds places, not heights, and is left out"):
         surface = rc.read(path, unit="um", size="10 um")
     np.testing.assert_allclose(surface.heights, slope * 1e-6, rtol=1e-9)
 

@@ -114,7 +114,7 @@ def test_a_long_run_of_one_number_is_told(put, columns):
     ]
     with (
         pytest.warns(
-            SurfaceWarning, match="25 neighbouring points from cell 10, 5 hold 0 m, as damage leaves them"
+            SurfaceWarning, match="25 neighbouring points from cell 10, 5 hold 0 m, as in a damaged file"
         ),
         pytest.warns(SurfaceWarning, match="spike"),
     ):
@@ -158,8 +158,11 @@ def test_an_array_of_points_is_put_on_its_grid_and_told(put, npy, array):
     ("array", "message"),
     [
         (np.random.default_rng(6).random((300, 3)), "300 rows of 3 look like points x, y, z, not a map"),
-        (ARRAY[:, 1:], "1152 x 2 numbers look like places and heights, not a map; save the column, array"),
-        (ARRAY.T[1:], "2 x 1152 numbers look like places and heights, not a map; save the row, array"),
+        (
+            ARRAY[:, 1:],
+            "1152 x 2 numbers look like places and heights, not a map; save only the column, array",
+        ),
+        (ARRAY.T[1:], "2 x 1152 numbers look like places and heights, not a map; save only the row, array"),
     ],
 )
 @pytest.mark.filterwarnings("ignore:.*spikes of")
@@ -342,8 +345,8 @@ def in_container(tmp_path, kind, values):
     [
         (ARRAY, "1152 rows of 3 are points"),
         (np.c_[np.arange(len(ARRAY)), ARRAY], "1152 rows of 3 are points"),
-        (np.c_[np.arange(NY), HILLS], r"first column \(0, 1, 2, ..., 31\) holds places, no heights"),
-        (np.r_[np.arange(NX)[None] * 0.5, HILLS], "first row .* holds places, no heights"),
+        (np.c_[np.arange(NY), HILLS], r"first column \(0, 1, 2, ..., 31\) holds places, not heights"),
+        (np.r_[np.arange(NX)[None] * 0.5, HILLS], "first row .* holds places, not heights"),
     ],
 )
 def test_no_container_turns_places_into_heights(tmp_path, kind, values, told):

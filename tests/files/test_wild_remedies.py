@@ -30,8 +30,8 @@ def test_commas_of_thousands_hide_no_decimal_comma():
         ("a.txt", "".join(ROWS.rpartition(" ")[:1]) + "\n", "write nan where a point", None),
         ("a.txt", ROWS.replace("\n", "\n\n", 1), "keep one uninterrupted table in a file", ROWS),
         ("a.txt", ROWS.replace(" ", "\t", NX - 1), "separate all numbers alike", ROWS),
-        ("a.txt", "# Rows: 40\n" + ROWS, "take out that line if it says something else", ROWS),
-        ("a.txt", "nx = 40\n" + ROWS, "take out that line if it says something else", ROWS),
+        ("a.txt", "# Rows: 40\n" + ROWS, "remove that line if it has another meaning", ROWS),
+        ("a.txt", "nx = 40\n" + ROWS, "remove that line if it has another meaning", ROWS),
         (
             "a.asc",
             ESRI.replace("nrows", "rows") + ROWS,

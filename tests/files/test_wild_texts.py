@@ -85,7 +85,7 @@ def framed(columns, rows, corner="", values=HILLS, separator=","):
 )
 def test_numbers_of_rows_and_columns_and_axes_are_no_heights(put, text):
     with pytest.warns(
-        SurfaceWarning, match=r"first (row|column) \(.*places, no heights, and (is|are) left out; to keep"
+        SurfaceWarning, match=r"first (row|column) \(.*places, not heights, and (is|are) left out; to keep"
     ):
         surface = rc.read(put("a.csv", text), **GIVEN)
     is_right(surface)
@@ -154,7 +154,7 @@ def test_uneven_axes_lead_somewhere(put, npz):
     columns = [f"{k**1.5:.3f}" for k in range(NX)]
     path = put("a.csv", framed(columns, columns[:NY], "0"))
     with pytest.raises(
-        rc.ReadError, match=r"sorted and uneven, as places are .*interpolate .*save the table as \.npz"
+        rc.ReadError, match=r"sorted and uneven, like places.*interpolate .*save the table as \.npz"
     ):
         rc.read(path, **GIVEN)
     table_of = np.loadtxt(path, delimiter=",")
@@ -253,7 +253,7 @@ def test_what_programs_store_for_missing_points_is_told(put, printed):
         is_right(rc.read(put("a.txt", HEADER + table(HOLED, " ", hole=printed))), HOLED)
 
 
-@pytest.mark.filterwarnings("ignore:.*as a mark of missing points does")
+@pytest.mark.filterwarnings("ignore:.*like a mark of missing points")
 def test_a_mark_printed_with_fewer_digits_is_told_and_the_remedy_works(put):
     text = HEADER + "# nodata: -99.99\n" + table(HOLED, " ", hole="-100")
     message = r"-99.99 marks missing points, and 256 of its heights are -100; state -100 if they are missing"
@@ -264,7 +264,7 @@ def test_a_mark_printed_with_fewer_digits_is_told_and_the_remedy_works(put):
 
 def test_a_mark_that_nothing_states_is_told_and_the_remedy_works(put):
     message = (
-        r"256 points hold -5e-06 m, as a mark .* and the others -1.532e-06 to .* m; take them out by masked"
+        r"256 points hold -5e-06 m, like a mark .* and the others -1.532e-06 to .* m; mark them as missing"
     )
     with pytest.warns(SurfaceWarning, match=message):
         surface = rc.read(put("a.txt", HEADER + table(HOLED, " ", hole="-5")))

@@ -28,7 +28,7 @@ def solution():
         ({"friction": -0.3}, "friction"),
         ({"friction": np.nan}, "friction must be a number"),
         ({"friction": np.inf}, "friction coefficient"),
-        ({"force": 0.31}, "holds at most mu P = 0.3 N, and 0.31 N makes the bodies slide away"),
+        ({"force": 0.31}, "holds at most mu P = 0.3 N: under 0.31 N the bodies slide away"),
         ({"force": (0.25, 0.25)}, "slide away"),
         ({"force": np.nan}, "finite"),
         ({"force": (1.0, 2.0, 3.0)}, "two \\(x, y\\)"),
@@ -38,10 +38,10 @@ def solution():
         ({"force": None, "displacement": 1e300}, "at most 1e\\+50"),
         ({"tolerance": 0.0}, "tolerance must lie"),
         ({"bodies": 1.0}, "E\\* does not determine"),
-        ({"bodies": rc.Solid(2.0, 0.3)}, "press and pull the same"),
+        ({"bodies": rc.Solid(2.0, 0.3)}, "use the same bodies for both"),
         ({"along": (0, 0)}, "a direction"),
         ({"along": (1, 2, 3)}, "a direction"),
-        ({"along": (1, 0), "force": (0.1, 0.01)}, "leave out `along`"),
+        ({"along": (1, 0), "force": (0.1, 0.01)}, "omit `along`"),
         ({"operator": shear_half_space(rc.Grid((4, 4), 1.0), BODY)}, "is not the contact's"),
         ({"solution": wave()}, "solution must be a Solution, as rc.press returns it, not a Surface"),
     ],
@@ -57,11 +57,11 @@ def test_contacts_of_other_kinds_are_refused():
     heights = rc.Surface(-0.01 * (np.arange(32) - 15.5) ** 2, line)
     for operator, kind in ((rc.line(line, 1.0), "line"), (rc.foundation(line, 1.0), "foundation")):
         pressed = rc.press(heights, 1.0, force=0.1, operator=operator)
-        with pytest.raises(ValueError, match=f"not of a {kind}"):
+        with pytest.raises(ValueError, match=f"not for a {kind}"):
             slide(pressed, rc.Solid(1.0, 0.0), friction=0.3, force=0.01)
     rings = rc.RadialGrid.uniform(20, 0.1)
     ball = rc.RadialProfile(-(rings.radii**2) / 2, rings)
-    with pytest.raises(ValueError, match="not of a ring"):
+    with pytest.raises(ValueError, match="not for a ring"):
         slide(rc.press(ball, 1.0, force=1e-5), rc.Solid(1.0, 0.0), friction=0.3, force=1e-6)
 
 
@@ -82,9 +82,9 @@ def test_a_state_of_another_contact_is_no_start(solution):
     again = rc.press(wave(), BODY, force=1.0)
     with pytest.raises(ValueError, match="another contact"):
         slide(again, BODY, friction=0.3, force=0.1, initial=state)
-    with pytest.raises(ValueError, match="go on with the same"):
+    with pytest.raises(ValueError, match="continue with the same"):
         slide(solution, BODY, friction=0.2, force=0.1, initial=state)
-    with pytest.raises(ValueError, match="go on with the same"):
+    with pytest.raises(ValueError, match="continue with the same"):
         slide(solution, BODY, friction=0.3, force=0.1, initial=state, along=(1, 0))
     other = shear_half_space(solution.problem.grid, BODY, method="dense")
     with pytest.raises(ValueError, match="another operator"):

@@ -144,7 +144,7 @@ class TestRefusals:
             jkr(indenter.power_law(0.3, 1.0), E, W).pull_off()
 
     def test_the_end_of_what_is_known(self):
-        with pytest.raises(ValueError, match="take more of the body"):
+        with pytest.raises(ValueError, match="define the body to a larger radius"):
             jkr(indenter.of(lambda r: r**2, 0.05), E, W).pull_off()
 
     def test_nonsense(self):
@@ -169,7 +169,7 @@ def test_ripples_toughen():
 
 
 def test_what_is_no_body_and_no_work():
-    with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+    with pytest.raises(ValueError, match=r"body of revolution is needed.*not 0.01"):
         jkr(0.01, E, W)
     with pytest.raises(ValueError, match="work of adhesion must be one number"):
         jkr(indenter.paraboloid(R), E, "a")

@@ -162,7 +162,7 @@ class TestRefusals:
             adhesive_path(SPHERE, depths=[0.0], machine_stiffness=0.0)
 
     def test_a_body_alone_does_not_stick(self):
-        with pytest.raises(ValueError, match="a JKRContact is wanted"):
+        with pytest.raises(ValueError, match="a JKRContact is needed"):
             adhesive_path(indenter.paraboloid(R), forces=[1.0])
 
     def test_the_end_of_what_is_known(self):

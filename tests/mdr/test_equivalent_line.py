@@ -130,7 +130,7 @@ class TestTabulatedSpectrum:
 
 @pytest.mark.parametrize("wrong", [5, rc.Surface(np.zeros((30, 30)), rc.Grid((30, 30), 1.0))])
 def test_what_is_no_spectrum(wrong):
-    with pytest.raises(ValueError, match=r"a spectrum C2D\(q\) is wanted.*not (5|a Surface)$"):
+    with pytest.raises(ValueError, match=r"a spectrum C2D\(q\) is needed.*not (5|a Surface)$"):
         line_spectrum(wrong)
 
 

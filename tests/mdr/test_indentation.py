@@ -199,7 +199,7 @@ class TestRefusals:
             indentation_curve(self.body, 1.0, forces=loads)
 
     def test_a_number_is_no_body(self):
-        with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+        with pytest.raises(ValueError, match=r"body of revolution is needed.*not 0.01"):
             indent(0.01, 1.0, force=1.0)
         with pytest.raises(ValueError, match="force must be a number"):
             indent(self.body, 1.0, force="a")

@@ -90,7 +90,7 @@ def test_curves_have_the_scale_of_the_scan(cuts):
 
 def test_a_map_is_sent_to_its_own_spectrum():
     surface = rc.self_affine(rc.Grid((32, 32), 1.0), 0.8, 1.0, np.random.default_rng(0))
-    with pytest.raises(ValueError, match="a map has a spectrum C2D of its own"):
+    with pytest.raises(ValueError, match="for a map use its spectrum C2D"):
         scan_spectrum(surface)
 
 

@@ -84,7 +84,7 @@ def test_what_makes_no_sense_is_refused_at_once(call, says):
 def test_what_is_no_spectrum_and_no_count():
     grid = rc.Grid(64, 1e-6)
     surface = rc.Surface(np.zeros((30, 30)), rc.Grid((30, 30), 1.0))
-    with pytest.raises(ValueError, match=r"spectrum C1D\(q\) is wanted.*not a Surface$"):
+    with pytest.raises(ValueError, match=r"spectrum C1D\(q\) is needed.*not a Surface$"):
         rough_lines(grid, surface, np.random.default_rng(0), 2)
     with pytest.raises(ValueError, match=r"number of lines.*not 2.5"):
         rough_lines(grid, lambda q: q, np.random.default_rng(0), 2.5)

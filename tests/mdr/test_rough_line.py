@@ -221,8 +221,8 @@ def test_white_gaussian_heights_have_their_closed_form():
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"heights": np.zeros((2, 3, 4))}, "one line or a row a line"),
-        ({"heights": np.zeros(0)}, "one line or a row a line"),
+        ({"heights": np.zeros((2, 3, 4))}, "one line or one row per line"),
+        ({"heights": np.zeros(0)}, "one line or one row per line"),
         ({"heights": np.array([1, np.nan, 2])}, "1 heights are missing"),
         ({"spacing": 0.0}, "spacing must be positive"),
         ({"modulus": -1.0}, "reduced modulus"),

@@ -138,7 +138,7 @@ class TestRefusals:
             ({}, "exactly one"),
             ({"force": 0.1, "displacement": 0.1}, "exactly one"),
             ({"force": -0.1}, "not negative"),
-            ({"force": 1.01 * MU * F}, "slide away"),
+            ({"force": 1.01 * MU * F}, "slides away"),
         ],
     )
     def test_loads(self, arguments, message):
@@ -237,7 +237,7 @@ class TestSprings:
             slip_history(BODY, E, G, MU, force=0.1)
         with pytest.raises(ValueError, match="force and displacement"):
             slip_history(BODY, E, G, MU, depth=0.1)
-        with pytest.raises(ValueError, match="slide away"):
+        with pytest.raises(ValueError, match="slides away"):
             slip_history(BODY, E, G, MU, normal_force=F, force=[0.0, 1.1 * MU * F])
         with pytest.raises(ValueError, match="finite"):
             slip_history(BODY, E, G, MU, normal_force=F, force=[0.0, math.nan])
@@ -247,9 +247,9 @@ class TestSprings:
             slip_history(BODY, E, G, MU, normal_force=[1.0, 2.0], force=[0.0, 0.1, 0.2])
         with pytest.raises(ValueError, match="springs must be a whole number"):
             slip_history(BODY, E, G, MU, normal_force=F, force=[0.0], springs=2.5)
-        with pytest.raises(ValueError, match=r"body of revolution is wanted.*not 0.01"):
+        with pytest.raises(ValueError, match=r"body of revolution is needed.*not 0.01"):
             slip_history(0.01, E, G, MU, normal_force=F, force=[0.0])
-        with pytest.raises(ValueError, match="pressed body is wanted"):
+        with pytest.raises(ValueError, match="pressed body is needed"):
             partial_slip(BODY, G, MU, force=0.1)
         with pytest.raises(ValueError, match="shear_modulus must be one number"):
             partial_slip(indent(BODY, E, force=F), "a", MU, force=0.1)

@@ -93,10 +93,10 @@ class TestClosedForms:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Viscoelastic(), "resists nothing"),
+        (lambda: Viscoelastic(), "needs a modulus or a viscosity"),
         (lambda: Viscoelastic(-1.0), "negative"),
         (lambda: Viscoelastic(1.0, (1.0,), ()), "each modulus"),
-        (lambda: prony(1.0, [1.0, 2.0], [1.0, 1.0]), "one relaxation time"),
+        (lambda: prony(1.0, [1.0, 2.0], [1.0, 1.0]), "the relaxation times of the elements must differ"),
         (lambda: prony(1.0, [-1.0], [1.0]), "must be positive"),
         (lambda: maxwell(1.0, math.inf), "must be positive"),
         (lambda: viscous(math.nan), "negative"),
@@ -109,7 +109,7 @@ class TestClosedForms:
         (lambda: viscous("a"), "viscosity"),
         (lambda: maxwell(1.0, 1.0).relaxation(-1.0), "must not be negative.*not -1"),
         (lambda: maxwell(1.0, 1.0).relaxation([0.0, math.nan]), "not nan"),
-        (lambda: maxwell(1.0, 1.0).creep()(-1.0), "nothing responds before the load"),
+        (lambda: maxwell(1.0, 1.0).creep()(-1.0), "there is no response before the load"),
     ],
 )
 def test_nonsense_is_refused(make, message):

@@ -55,7 +55,7 @@ def test_the_folder_of_the_server_stays_unsaid(tmp_path):
             "mask it (masked, surface prepare --mask) or crop it (cropped, --crop)",
             "mask it (Mask) or crop it (Crop)",
         ),
-        ("remove what is faulty by despiked()", "remove what is faulty by Despike"),
+        ("remove faulty points by despiked()", "remove faulty points by Despike"),
         ("use despiked() and --despike", "use Despike"),
         ("read another --channel", "read another Channel"),
         ("pass unit= with the right unit", "fill in Unit with the right unit"),

@@ -184,7 +184,7 @@ FRICTION = [
     ),
     row(
         lambda: slid(bodies=(STEEL, rc.Solid(70e9, 0.33)), force=1e-6),
-        "press and pull the same",
+        "use the same bodies for both",
         lambda: slid(bodies=PAIR, force=1e-6),
     ),
     row(
@@ -200,7 +200,7 @@ FRICTION = [
     ),
     row(
         lambda: slid(force=1.0),
-        "friction holds at most mu P = 3e-05 N, and 1 N makes the bodies slide away: pull less, or press harder",
+        "friction holds at most mu P = 3e-05 N: under 1 N the bodies slide away; pull less, or press harder",
         lambda: slid(force=2.9e-5),
         lambda: slid(pressed(10.0), force=1.0),
     ),
@@ -212,17 +212,17 @@ FRICTION = [
     ),
     row(
         lambda: slid(force=(1e-6, 1e-6), along=(1, 0)),
-        "does not: leave out `along`",
+        "does not: omit `along`",
         lambda: slid(force=(1e-6, 1e-6)),
     ),
     row(
         lambda: slid(pressed(None, depth=0.0), force=1e-6),
-        "the bodies do not touch: nothing to pull at; press them first",
+        "the bodies do not touch: there is no contact to load; press them first",
         lambda: slid(pressed(), force=1e-6),
     ),
     row(
         lambda: slid(line(), STEEL, force=1e-6),
-        "not of a line: press a map of heights",
+        "not for a line: press a map of heights",
         lambda: slid(force=1e-6),
     ),
     row(
@@ -237,7 +237,7 @@ FRICTION = [
     ),
     row(
         lambda: rc.reduced_shear_modulus(MODULUS),
-        "a Solid is wanted (young_modulus, poisson_ratio), not 1000000000.0: give a Solid such as rc.Solid(210e9, 0.3)",
+        "a Solid (young_modulus, poisson_ratio) is needed, not 1000000000.0: give for example rc.Solid(210e9, 0.3)",
         lambda: rc.reduced_shear_modulus(STEEL),
         lambda: rc.reduced_shear_modulus(rc.Solid(210e9, 0.3)),
     ),

@@ -122,7 +122,7 @@ FILES = [
     ),
     row(
         of_line("part.npz", "line"),
-        "It is a map of 48 x 48 heights, no profile. Choose \u2013 as Profile.",
+        "It is a map of 48 x 48 heights, not a profile. Choose \u2013 as Profile.",
         of_file("part.npz"),
     ),
     row(of_file("gone.npz"), "The server no longer has this file. Drop it again", of_file("part.npz")),

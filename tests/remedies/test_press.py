@@ -113,8 +113,8 @@ BODIES = [
     ),
     row(
         lambda: press(modulus=(1e9, 2e9)),
-        "not 1000000000.0: give a Solid such as rc.Solid(210e9, 0.3), "
-        "or names: rc.reduced_modulus('steel', 'aluminium')",
+        "a Solid (young_modulus, poisson_ratio) is needed, not 1000000000.0: give for example rc.Solid(210e9, 0.3), "
+        "or use names: rc.reduced_modulus('steel', 'aluminium')",
         lambda: press(modulus=(rc.Solid(1e9, 0.3), rc.Solid(210e9, 0.3))),
         lambda: press(modulus=rc.reduced_modulus("steel", "aluminium")),
     ),

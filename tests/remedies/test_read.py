@@ -86,7 +86,7 @@ COPIED = [  # what is whole after it was copied again
     ),
     row(
         rewritten("rough.npz", lambda _: b""),
-        "it is empty, or no ordinary file; copy",
+        "it is empty, or not an ordinary file; copy",
         lambda: rc.read("rough.npz"),
     ),
     row(rewritten("rough.nc", lambda data: data[:900]), "again", lambda: rc.read("rough.nc")),
@@ -213,7 +213,7 @@ TEXTS = [
     ),
     row(
         lambda: rc.read_line("rough.npz"),
-        "it is a map of 24 x 32 heights, no profile; use read",
+        "it is a map of 24 x 32 heights, not a profile; use read",
         lambda: rc.read("rough.npz"),
     ),
     row(
@@ -233,7 +233,7 @@ HIDDEN = [
     ),
     row(
         renamed("rough.npz", "a.plu"),
-        "rename it to .npz if that is what it is; or export it as X3P",
+        "rename it to .npz if it has this format; or export it as X3P",
         renamed("rough.npz", "b.npz"),
         lambda: rc.read("rough.x3p"),
     ),
@@ -276,10 +276,10 @@ NUMBERS = [
 CURVES = [
     row(
         lambda: rc.read_curve("curve.csv"),
-        "give a .nc file that rc.write, or the command line, made of a curve",
+        "give a .nc file of a curve that rc.write, or the command line, has written",
         lambda: rc.read_curve("curve.nc"),
     ),
-    row(lambda: rc.read_curve("rough.nc"), "made of a curve", lambda: rc.read_curve("curve.nc")),
+    row(lambda: rc.read_curve("rough.nc"), "of a curve that rc.write", lambda: rc.read_curve("curve.nc")),
     row(
         lambda: rc.read_curve("path.nc"),
         "read it with read_adhesive_curve",
@@ -292,7 +292,7 @@ CURVES = [
     ),
     row(
         lambda: rc.read("curve.nc"),
-        "it holds a loading curve, and no heights; read it with rc.read_curve",
+        "it holds a loading curve, not heights; read it with rc.read_curve",
         lambda: rc.read_curve("curve.nc"),
     ),
 ]
@@ -323,7 +323,7 @@ WRITTEN = [
     ),
     row(
         lambda: rc.write(rc.press(ROUGH, MODULUS, force=1e-4), "a.npz"),
-        "is written as one of .nc, .vti; write solution.problem.surface for its heights alone",
+        "is written as one of .nc, .vti; write solution.problem.surface for only its heights",
         lambda: rc.write(rc.press(ROUGH, MODULUS, force=1e-4), "a.nc"),
         lambda: rc.write(rc.press(ROUGH, MODULUS, force=1e-4), "a.vti"),
         lambda: rc.write(rc.press(ROUGH, MODULUS, force=1e-4).problem.surface, "a.npz"),

@@ -171,7 +171,7 @@ PREPARED = [
     ),
     row(
         lambda: ROUGH.cropped(slice(4, 4), ROWS),
-        "nothing is left of (16, 16) cells in 4:4, 0:4",
+        "no cell is left of (16, 16) cells in 4:4, 0:4",
         lambda: ROUGH.cropped(ROWS, ROWS),
     ),
     row(
@@ -181,7 +181,7 @@ PREPARED = [
     ),
     row(
         lambda: ROUGH.masked(),
-        "masked() takes out one region: give box, ellipse, or below and above",
+        "masked() needs exactly one region: give box, ellipse, or below and above",
         lambda: ROUGH.masked(box=(ROWS, ROWS)),
         lambda: ROUGH.masked(ellipse=(ROWS, ROWS)),
         lambda: ROUGH.masked(below=-1e-7, above=1e-7),

@@ -78,7 +78,7 @@ WAVES = [
     ),
     row(
         lambda: made(LINE, anisotropy=(2, 0)),
-        "a line has no direction: leave out the anisotropy, or make a surface (dimension=2)",
+        "a line has no direction: omit the anisotropy, or make a surface (dimension=2)",
         lambda: made(LINE),
         lambda: made(PLANE, anisotropy=(2, 0)),
     ),
@@ -89,7 +89,7 @@ WAVES = [
     ),
     row(
         lambda: rc.synthesise(PLANE, lambda q: -q, rng()),
-        "must be finite and not negative at every wave of the grid but q = 0",
+        "must be finite and not negative at every wave of the grid except q = 0",
         lambda: rc.synthesise(PLANE, lambda q: q, rng()),
     ),
     row(
@@ -105,7 +105,7 @@ WAVES = [
     ),
     row(
         lambda: midpoints(hurst=1.8),
-        "between 0 and 1 for midpoints, not 1.8: self_affine goes from -1 to 3",
+        "between 0 and 1 for midpoints, not 1.8: self_affine takes -1 to 3",
         lambda: midpoints(hurst=0.9),
         lambda: made(hurst=1.8),
     ),
@@ -173,7 +173,7 @@ MEASURED = [
         lambda: rc.profile_parameters(
             rc.Surface(np.where(PROFILE.heights > 1e-7, np.nan, PROFILE.heights), LINE)
         ),
-        "points are missing, and sections need all of theirs: fill them first",
+        "points are missing, and sections need all their points: fill them first",
         lambda: rc.profile_parameters(
             rc.Surface(np.where(PROFILE.heights > 1e-7, np.nan, PROFILE.heights), LINE).filled()
         ),
@@ -208,7 +208,7 @@ MEASURED = [
     ),
     row(
         lambda: rc.spectrum_moments(rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5)),
-        "of a spectrum by formula take its moments(), or rc.grid_moments(grid, spectrum)",
+        "for a spectrum by formula use its moments(), or rc.grid_moments(grid, spectrum)",
         lambda: rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5).moments(),
         lambda: rc.grid_moments(PLANE, rc.SelfAffineSpectrum(0.8, 1e-3, short_cutoff=1e-5)),
         lambda: rc.spectrum_moments(rc.power_spectrum(ROUGH)),

@@ -45,7 +45,7 @@ def test_what_is_beside_heights_is_left_to_one_process(beside, tmp_path):
 
     together(2, work)
     if beside != "list":
-        with pytest.warns(rc.SurfaceWarning, match="places, no heights|points x, y, z"):
+        with pytest.warns(rc.SurfaceWarning, match="places, not heights|points x, y, z"):
             whole = rc.read(tmp_path / "map.npy", unit="um", size="6 um")
         np.testing.assert_array_equal(whole.heights, heights * 1e-6)
 
@@ -181,7 +181,7 @@ def test_what_goes_wrong_on_one_process_is_raised_on_all(tmp_path):
         ("none.npy", read, "none.npy: it cannot be opened (No such file"),
         ("none.npz", read, "none.npz: it cannot be opened (No such file"),
         ("map.npy", read, "not a whole NumPy array"),
-        ("cut.npy", read, "248 of 256 bytes are there"),
+        ("cut.npy", read, "it holds 248 of 256 bytes"),
         ("line.npy", read, "a profile of 4 heights"),
         ("words.npy", read, "values are of type <U1"),
         ("no/map.npy", write, "there is no folder"),

@@ -112,7 +112,7 @@ def test_many_lines_of_a_sample_are_samples():
 def test_without_a_window_it_says_why_there_are_no_laws():
     found = averages(exported(), rng=rng())
     assert "exponent" not in found
-    assert found.attrs["no_power_law"].startswith("the curves do not say what is resolved")
+    assert found.attrs["no_power_law"].startswith("the resolved loads are unknown without")
     assert "dimensionless_stiffness_mean" in found
 
 
@@ -135,7 +135,7 @@ def test_combinations_of_rows_have_the_parameters_of_their_row():
 
 def test_what_has_no_samples_is_refused():
     with pytest.raises(
-        ValueError, match=r"no samples lie along sample or line: take what study\.export makes"
+        ValueError, match=r"no samples lie along sample or line: pass the dataset of study\.export"
     ):
         averages(exported().isel(sample=0, drop=True), rng=rng())
     with pytest.raises(ValueError, match="no samples lie along draw"):

@@ -52,7 +52,7 @@ def test_cells_beside_a_hole_are_set_to_missing_and_said():
     surface = rc.Surface(rimmed(), GRID)
     clean = surface.despiked("filled")
     taken, filled, missing = cells_in(clean.provenance[-1])
-    assert clean.provenance[-1].endswith("because the heights around them are missing or faulty too")
+    assert clean.provenance[-1].endswith("because the heights around them are also missing or faulty")
     assert (taken, filled, missing) == (5, 1, 4)
     assert missing == clean.missing - surface.missing
 

@@ -55,7 +55,7 @@ def test_thresholds():
         ({"box": BOX, "above": 1.0}, "one region"),
         ({"box": BOX, "ellipse": BOX}, "one region"),
         ({"box": (slice(2, 6),)}, "a mask needs one slice an axis, 2 in all, not 1"),
-        ({"box": (slice(5, 5), slice(None))}, "nothing is left"),
+        ({"box": (slice(5, 5), slice(None))}, "no cell is left"),
         ({"ellipse": (slice(0, 8, 2), slice(None))}, "a mask has no step"),
         ({"below": 1.0, "above": -1.0}, "below must be the lower"),
         ({"below": 100.0}, r"the mask \(heights below 100 m\) leaves no measured point"),

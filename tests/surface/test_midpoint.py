@@ -169,7 +169,7 @@ def test_rms_height(made):
             lambda: midpoint_surface(rc.Grid((9, 9), (1.0, 2.0)), 0.5, np.random.default_rng(0), rms=1.0),
             "same spac",
         ),
-        (lambda: line(hurst=1.5), "self_affine goes"),
+        (lambda: line(hurst=1.5), "self_affine takes"),
         (lambda: line(hurst=np.nan), "hurst must be a number"),
         (lambda: line(rms=1.0, displacement=1.0), "give either"),
         (lambda: line(distribution="uniform"), "give either"),

@@ -170,7 +170,7 @@ def test_bands_that_are_refused(more, message):
 
 
 def test_a_band_without_an_rms_height_is_refused():
-    with pytest.raises(ValueError, match="give rms, too"):
+    with pytest.raises(ValueError, match="also give rms"):
         synthesise(grid((64,)), law((64,)), np.random.default_rng(0), rms_band=(1.0, 0.5))
 
 

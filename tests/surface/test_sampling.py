@@ -28,7 +28,7 @@ def test_a_crop_keeps_its_cells_and_loses_its_periods():
     [
         ((slice(2, 5),), "one slice an axis"),
         ((slice(0, 9, 2), slice(None)), "downsampled"),
-        ((slice(5, 5), slice(None)), "nothing is left"),
+        ((slice(5, 5), slice(None)), "no cell is left"),
         (
             (slice(20, 30), slice(None)),
             "a crop of cells 20:30 ends beyond the 12 cells of the map: end at 12 at most",

@@ -101,7 +101,7 @@ def test_a_surface_has_the_height_and_the_slope(numbers):
     assert "as specified: sigma 1.2e-06 m, hurst 0.8" in surface.provenance[-1]
 
 
-OPEN = "leave the bandwidth of the roughness open"
+OPEN = "do not determine the bandwidth of the roughness"
 
 
 @pytest.mark.parametrize(
@@ -143,17 +143,17 @@ def test_what_the_numbers_leave_open_is_an_error_that_names_the_remedy(numbers, 
     ("numbers", "words", "right"),
     [
         ({"rz": 6e-6}, "give `rz_over_ra`", [{"rz": 6e-6, "rz_over_ra": 5}, {"ra": 1e-6}]),
-        ({"sigma": 1e-6, "rz_over_ra": 5}, "leave it out", [{"sigma": 1e-6}]),
+        ({"sigma": 1e-6, "rz_over_ra": 5}, "omit it", [{"sigma": 1e-6}]),
         (
             {"sigma": (1e-6, 1e-6), "slope": 0.1},
             "give both as pairs",
             [{"sigma": (1e-6, 1e-6), "slope": (0.1, 0.1)}],
         ),
         ({"sigma": 1e-6, "ra": 1e-6}, "exactly one of sigma, ra and rz", [{"ra": 1e-6}]),
-        ({"sigma": (1e-6,) * 3}, "give one of each face", [{"sigma": (1e-6,) * 2}]),
+        ({"sigma": (1e-6,) * 3}, "give one for each face", [{"sigma": (1e-6,) * 2}]),
         (
             {"sigma": 1e-6, "rolloff": 6e-5},
-            "give `hurst` too",
+            "also give `hurst`",
             [{"sigma": 1e-6, "rolloff": 6e-5, "hurst": 0.8}],
         ),
         ({"sigma": 1e-6, "nayak": 1.4}, "give a larger `nayak`", [{"sigma": 1e-6, "nayak": 2}]),
@@ -166,7 +166,7 @@ def test_what_the_numbers_leave_open_is_an_error_that_names_the_remedy(numbers, 
         ),
         (
             {"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "rolloff": 6e-5, "nayak": 9},
-            "leave out one",
+            "omit one",
             [{"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "nayak": 9}],
         ),
     ],

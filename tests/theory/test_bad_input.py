@@ -305,7 +305,7 @@ STEPS, CREST = BODIES[-2:]
         (lambda: BODIES[2].displacement(np.inf, 0.0), r"x \[m\] must be finite"),
         (lambda: nayak.summit_density(0.0, np.inf, 0.5, 2.0), "mean must be finite"),
         (lambda: nayak.geometric_density(0.0, np.inf, 2.0), "curvature must be finite"),
-        (lambda: partial_moments.log_gaussian(1.0, -np.inf), "infinitely low"),
+        (lambda: partial_moments.log_gaussian(1.0, -np.inf), "minus infinity"),
         (lambda: height_distribution.stiffness_exponent(np.inf), "density_exponent must be finite"),
         (lambda: persson_separation.self_affine_decay(np.inf), "Hurst exponent"),
         (

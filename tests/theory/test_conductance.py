@@ -100,7 +100,7 @@ def test_bad_input_is_refused():
 
 
 def test_a_contact_has_two_bodies():
-    with pytest.raises(ValueError, match=r"of both bodies is wanted, not 1\.0"):
+    with pytest.raises(ValueError, match=r"of each body is needed, not 1\.0"):
         conductance.electrical(1e5, 1e11, 1.0)
     with pytest.raises(ValueError, match="stiffness must be a number"):
         conductance.thermal("a", 1e11, (1.0, 1.0))

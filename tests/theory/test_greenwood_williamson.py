@@ -153,7 +153,7 @@ class TestLaw:
     def test_says_nothing_beyond_the_mean_plane_and_nothing_of_the_body(self):
         law = gw.law(MOMENTS, MODULUS, AREA)
         assert np.isnan(law.predict("contact_area", 1.01 * law.domain[1]))
-        with pytest.raises(ValueError, match="says nothing about 'stiffness'"):
+        with pytest.raises(ValueError, match="has no 'stiffness'"):
             law.predict("stiffness", 1.0)
 
     def test_no_force(self):
@@ -199,7 +199,7 @@ class TestRefusals:
                     getattr(population, name)(height)
 
     def test_what_is_no_asperity_and_what_is_no_surface(self):
-        with pytest.raises(ValueError, match="an Asperity is wanted"):
+        with pytest.raises(ValueError, match="an Asperity is needed"):
             gw.Population(5, DENSITY, STD)
         surface = rc.Surface(np.zeros((2, 2)), rc.Grid((2, 2), 1.0))
         with pytest.raises(ValueError, match=r"rc.surface_moments\(surface\).*not a Surface"):

@@ -186,9 +186,9 @@ class TestLine:
         c = hertz.line(1.0, radius=1.0, force=1.0)
         with pytest.raises(ValueError, match="give a reference_length"):
             _ = c.depth
-        with pytest.raises(ValueError, match="means nothing without a reference_length"):
+        with pytest.raises(ValueError, match="is undefined without a reference_length"):
             hertz.line(1.0, radius=1.0, depth=1.0)
-        with pytest.raises(ValueError, match="more force would mean less depth"):
+        with pytest.raises(ValueError, match="a larger force would give a smaller depth"):
             hertz.line(1.0, radius=1.0, force=1.0, reference_length=0.5)
         with pytest.raises(ValueError, match="no contact has this depth"):
             hertz.line(1.0, radius=1.0, depth=1.01, reference_length=1.0)

@@ -70,5 +70,5 @@ def test_bad_input_is_refused():
         holm.contact_length(np.ones(2), np.zeros((3, 2)))
     with pytest.raises(ValueError, match="radii must be positive"):
         holm.contact_length(np.array([1.0, 0.0]), np.array([[0.0, 0.0], [5.0, 0.0]]))
-    with pytest.raises(ValueError, match="softer"):
+    with pytest.raises(ValueError, match="softer than its"):
         holm.cluster_radius(2.0, 1.0, 1.0)

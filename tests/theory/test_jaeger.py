@@ -60,7 +60,7 @@ def test_a_linear_spring_loses_nothing():
 def test_bad_input_is_refused():
     with pytest.raises(ValueError, match="slides"):
         jaeger.displacement(HERTZ, FORCE, 0.31 * FORCE, **GIVEN)
-    with pytest.raises(ValueError, match="says nothing"):
+    with pytest.raises(ValueError, match="has no 'depth'"):
         jaeger.displacement(LoadingLaw("k", "test", {"stiffness": lambda f: f}), FORCE, 1.0, **GIVEN)
     with pytest.raises(ValueError, match="must be one number"):
         jaeger.displacement(HERTZ, [FORCE, FORCE], 1.0, **GIVEN)

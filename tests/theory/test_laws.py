@@ -90,5 +90,5 @@ def test_defaults_follow_from_other_facts():
 def test_unknown_names_are_refused():
     with pytest.raises(ValueError, match="there are persson"):
         laws.named("greenwood")
-    with pytest.raises(ValueError, match="no law asks for colour"):
+    with pytest.raises(ValueError, match="no law has the input colour"):
         laws.named("persson", colour="red")

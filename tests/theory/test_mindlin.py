@@ -87,7 +87,7 @@ class TestGrossSlip:
     def test_bad_input_is_refused(self):
         with pytest.raises(ValueError, match="above 0 and at most 2"):
             mindlin.slip_constant(1.0, 0.0)
-        with pytest.raises(ValueError, match="leave out prefactor"):
+        with pytest.raises(ValueError, match="omit prefactor"):
             mindlin.slip_constant(1.0, 0.5, 1.0, constants="printed")
         with pytest.raises(ValueError, match="constants"):
             mindlin.slip_constant(1.0, 0.5, constants="new")

@@ -96,8 +96,8 @@ def test_on_a_gaussian_surface_both_ways_to_the_summits_agree(cutoff, rolloff):
 @pytest.mark.parametrize(
     ("height", "curvature", "message"),
     [
-        ([1e-6], [1e4], "two summits or more"),
-        ([1e-6, 2e-6], [1e4], "two summits or more"),
+        ([1e-6], [1e4], "at least two summits"),
+        ([1e-6, 2e-6], [1e4], "at least two summits"),
         ([1e-6, math.nan], [1e4, 1e4], "every height"),
         ([1e-6, 2e-6], [-1e4, -1e4], "mean curvature of the summits"),
     ],

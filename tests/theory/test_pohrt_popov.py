@@ -73,7 +73,7 @@ def test_law_ends_where_the_fits_end():
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match="hurst must exceed 0: at 0 and below the shortest waves decide"):
+    with pytest.raises(ValueError, match="hurst must exceed 0: at 0 and below the shortest waves dominate"):
         pohrt_popov.exponent(0.0)
     with pytest.raises(ValueError, match="hurst must not exceed 3"):
         pohrt_popov.stiffness(1e-3, 3.1, 1.0, 1.0, 1.0)

@@ -61,7 +61,7 @@ def test_it_ends_where_its_ensembles_do():
     assert high == pytest.approx(pohrt_popov.FORCE_LIMIT * scale * 2e-6, rel=1e-15)
     for outside in (low * (1 - 1e-6), high * (1 + 1e-6)):
         assert np.isnan(law.predict("stiffness", outside))
-        with pytest.raises(ValueError, match="compute the surface, or take pohrt_popov"):
+        with pytest.raises(ValueError, match="compute the surface, or use pohrt_popov"):
             rough_square.stiffness(outside, *surface)
     forces = np.geomspace(low, high, 5)
     np.testing.assert_array_equal(law.predict("stiffness", forces), rough_square.stiffness(forces, *surface))

@@ -105,7 +105,7 @@ class TestContinuous:
             Waves.of_spectrum(lambda q: -(q**-3.0), 2.0, 5.0)
         with pytest.raises(ValueError, match="zero between its limits"):
             Waves.of_spectrum(lambda q: 0 * q, 2.0, 5.0)
-        with pytest.raises(ValueError, match="is wanted"):
+        with pytest.raises(ValueError, match="is needed"):
             Waves.of(rc.StretchedSpectrum(rc.SelfAffineSpectrum(0.8, **SELF_AFFINE), 2.0))
 
 

@@ -164,7 +164,7 @@ class TestBoth:
         asperities = theory.population(MOMENTS, 1e10, MODULUS)
         with pytest.raises(ValueError, match="must not be negative"):
             asperities.pressure(-1e-9)
-        with pytest.raises(ValueError, match="no contact of asperities"):
+        with pytest.raises(ValueError, match="the limit of this theory"):
             asperities.separation(2 * float(asperities.pressure(0.0)))
         with pytest.raises(ValueError, match="hardness"):
             theory.law(MOMENTS, 0.0, MODULUS, AREA)

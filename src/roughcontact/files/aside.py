@@ -1,4 +1,4 @@
-"""Writing so that a file is whole or not there: aside first, then renamed."""
+"""Writing files atomically: into a temporary file first, which is then renamed."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class WriteError(InputError):
 def written_aside(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield the path of a temporary file; rename it to `path` when the block ends well.
 
-    The temporary file lies in the same folder, since only there a rename is one step. When the block
-    fails, or is interrupted, it is removed and `path` stays as it was.
+    The temporary file lies in the same folder, because only there is a rename atomic. If the block fails or is
+    interrupted, the file is removed and `path` stays as it was.
 
     Raises
     ------
@@ -51,17 +51,17 @@ def written_aside(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         raise WriteError(f"cannot write {target}: {_reason(error)}", _REMEDY) from error
     finally:
-        # After a rename there is nothing left to remove. BaseException, an interrupt too, comes by here.
+        # After a rename there is nothing left to remove. This also runs for BaseException, such as an interrupt.
         with suppress(OSError):
             aside.unlink(missing_ok=True)
 
 
 @contextmanager
 def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield a folder that is there and can be written; create it, with its parents, where needed.
+    """Yield a folder that exists and can be written; create it, with its parents, if needed.
 
-    It is meant to be entered before a long computation. When the block fails, the folders created
-    here are removed again unless they hold something.
+    Enter it before a long computation. If the block fails, the folders created here are removed again unless they hold
+    something.
 
     Raises
     ------
@@ -84,7 +84,7 @@ _REMEDY = "choose another place or change its permissions"
 
 
 def _make_writable(folder: Path) -> None:
-    """Create `folder` and prove by a file that comes and goes that it can be written."""
+    """Create `folder`, and check by a temporary file that it can be written."""
     for each in (folder, *folder.parents):
         if each.exists() and not each.is_dir():
             raise WriteError(f"cannot use {folder} as a folder: {each} is a file", "choose another name")
@@ -98,14 +98,14 @@ def _make_writable(folder: Path) -> None:
 
 
 def require_target(path: str | os.PathLike[str]) -> Path:
-    """Return the file that writing to `path` will replace or make; meant to be asked before a long computation.
+    """Return the file that writing to `path` will replace or create; call it before a long computation.
 
     Raises
     ------
     WriteError
         If it cannot be written: no such folder, no permission, a folder of that name.
     """
-    # A link is followed, so that the file it names is replaced and the link stays.
+    # A link is followed: its target is replaced and the link stays.
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise WriteError(f"cannot write {target}: it is a folder", "add a file name")

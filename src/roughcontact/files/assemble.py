@@ -1,4 +1,4 @@
-"""What the file says and what the user says, put together into a surface."""
+"""A surface from the contents of a file and the arguments of the user."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ __all__ = ["Length", "Size", "assemble", "cell_of", "plain_lengths"]
 Length = float | str
 Size = Length | Iterable[Length]
 
-_SAME = 1e-6  # a size that is typed repeats one that is stored to its printed digits
+_SAME = 1e-6  # relative: a typed size agrees with a stored one to its printed digits
 _UNIT_HINT = "unit= with the unit of the heights, such as unit='um'"
 _SIZE_HINT = "size= with the width or (Ly, Lx), such as size='500 um' or size=(4e-4, 5e-4)"
 _LENGTH_HINT = "size= with the length of the line, such as size='500 um'"
@@ -45,7 +45,7 @@ def assemble(
 ) -> tuple[Surface, tuple[str, ...]]:
     """Return the surface of `found` and its warnings; what the user states overrides the file."""
     _require(found, unit, size)
-    looked_at = is_numpy(found.heights)  # what lies on several processes is not, for spikes and noise
+    looked_at = is_numpy(found.heights)  # no search for spikes and noise in heights on several processes
     if looked_at:
         require_memory(BYTES_TO_LOOK * found.heights.size)
         heights, filled = without_fills(found.heights)
@@ -60,11 +60,11 @@ def assemble(
     grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
     claimed = any(found.periodic) if isinstance(found.periodic, tuple) else found.periodic
     periodic_note = (
-        ("read as free, though the file says that it is periodic",)
+        ("read as free, though the file states that it is periodic",)
         if claimed and not any(grid.periodic)
         else ()
     )
-    with np.errstate(over="ignore"):  # what becomes infinite is refused below
+    with np.errstate(over="ignore"):  # infinite heights are refused below
         heights = found.heights * factor
     if (peak := highest(heights)) > IMPOSSIBLE:
         raise ContentError(
@@ -94,7 +94,7 @@ def assemble(
 
 
 def _require(found: HeightMap, unit: Length | None, size: object) -> None:
-    """Refuse a file that leaves open what the user has left open too."""
+    """Refuse a file that lacks a unit or a size that the user has not stated either."""
     problems, hints, places = [], [], []
     if unit is None and not is_length(found.unit):
         problems.append(
@@ -121,14 +121,14 @@ def _size_hint(found: HeightMap) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Remark:
-    """What the user states; a warning where it contradicts the file."""
+    """A value stated by the user; a warning if it contradicts the file."""
 
     text: str
     contradicts: bool
 
 
 def _factor(found: HeightMap, unit: Length | None) -> tuple[float, tuple[_Remark, ...]]:
-    """Return the metres in one unit of the heights, and a remark where the user states it."""
+    """Return the metres in one unit of the heights, and a remark if the user states it."""
     if unit is not None:
         factor = length_factor(unit)
         stated = "the file states none" if found.unit is None else f"instead of the file's {found.unit}"
@@ -143,7 +143,7 @@ def _factor(found: HeightMap, unit: Length | None) -> tuple[float, tuple[_Remark
 def _spacing(
     found: HeightMap, factor: float, size: Size | None
 ) -> tuple[tuple[float, ...], tuple[_Remark, ...]]:
-    """Return the cell (dy, dx) or (dx,) [m], and a remark where the user states the size."""
+    """Return the cell (dy, dx) or (dx,) [m], and a remark if the user states the size."""
     shape = found.heights.shape
     stated = found.spacing
     if stated is None and found.steps is not None:
@@ -155,7 +155,7 @@ def _spacing(
     spacing = cell_of(size, shape)
     instead = "the file states none" if stated is None else f"instead of the file's {_lengths(stated, shape)}"
     axes = " (y, x)" if len(shape) == 2 else ""
-    # Numbers without a unit, the steps, state nothing that could be contradicted.
+    # The steps are numbers without a unit, which cannot contradict a size.
     differs = found.spacing is not None and not np.allclose(found.spacing, spacing, rtol=_SAME, atol=0)
     return spacing, (_Remark(f"size {_lengths(spacing, shape)} m{axes} as given, {instead}", differs),)
 
@@ -170,7 +170,7 @@ def plain_lengths(unit: Any, size: Any) -> tuple[Length | None, Size | None]:
     Raises
     ------
     ValueError
-        If they carry a unit that is no length.
+        If they carry a unit that is not a length.
     """
     if not isinstance(unit, str | int | float | NoneType):
         try:

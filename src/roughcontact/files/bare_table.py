@@ -1,4 +1,4 @@
-"""A table of numbers that a container states nothing about: heights, places beside them, or a list of points."""
+"""A table of numbers without further information: heights, heights with coordinates, or a list of points."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from roughcontact.validation import Array
 
 __all__ = ["heights_alone", "points_in", "require_no_list"]
 
-_LISTED = 8  # rows from which two or three columns are places and heights
-_NARROW = "a map so narrow as .npz under the key 'heights'"
+_LISTED = 8  # rows from which on two or three columns count as coordinates and heights
+_NARROW = "such a narrow map as .npz under the key 'heights'"
 
 
 def heights_alone(found: HeightMap) -> HeightMap:
-    """Return bare numbers without what is no height.
+    """Return bare numbers, keeping only the heights.
 
-    Points, shape (n, 3) or (3, n), are put on their grid; places in the first row and column are left out. Where the
-    file states the size of a cell, or holds a profile, the numbers are heights.
+    Points, shape (n, 3) or (3, n), are put on their grid; coordinates in the first row and column are left out. If the
+    file states the size of a cell, or holds a profile, all numbers are heights.
 
     Raises
     ------
     ContentError
-        If they are a list of places and heights, or of scattered points.
+        If they are a list of coordinates and heights, or of scattered points.
     """
     values = found.heights
     if values.ndim != 2 or found.spacing is not None:
@@ -52,18 +52,18 @@ def points_in(values: Array) -> Array | None:
 
 
 def require_no_list(shape: Sequence[int]) -> None:
-    """Refuse what is a list of places and heights, two columns or rows of many numbers.
+    """Refuse a list of coordinates and heights: two columns or rows of many numbers.
 
     Raises
     ------
     ContentError
-        If it is.
+        If it is such a list.
     """
     if len(shape) == 2 and min(shape) == 2 and max(shape) >= _LISTED:
         which = "column, array[:, 1]" if shape[1] == 2 else "row, array[1]"
         raise ContentError(
             f"its {' x '.join(map(str, shape))} numbers look like places and heights, not a map",
-            f"save the {which}, alone for read_line, or {_NARROW}",
+            f"save only the {which}, for read_line, or {_NARROW}",
         )
 
 

@@ -13,7 +13,7 @@ _STATED = re.compile(rb"^(Points|Lines|SaveBits)=(\d{1,9})\s*$", re.MULTILINE)
 
 
 def left_behind_blocks(format_name: str, data: bytes) -> int:
-    """Return how many bytes lie between the end of the last block and the end of the file, below 0 if it is beyond.
+    """Return the number of bytes after the last block; negative if it ends beyond the end of the file.
 
     For FRT (``frt``), Wyko (``opd``) and Nanosurf (``ezd``); 0 for every other format.
     """
@@ -25,7 +25,7 @@ def left_behind_blocks(format_name: str, data: bytes) -> int:
 
 
 def _frt(data: bytes) -> int:
-    """Follow the blocks, each with a number and its length, as many as the header counts."""
+    """Follow the blocks, each with a number and its length; the header states how many there are."""
     (count,) = struct.unpack_from("<H", data, 16)
     place = 18
     for _ in range(count):
@@ -34,7 +34,7 @@ def _frt(data: bytes) -> int:
 
 
 def _opd(data: bytes) -> int:
-    """Add the lengths in the directory, which is a block itself and begins behind two bytes."""
+    """Add the lengths in the directory, which is also a block and begins after two bytes."""
     entry = struct.Struct("<16shIH")
     _, _, length, _ = entry.unpack_from(data, 2)
     entries = min(length, len(data)) // entry.size
@@ -42,7 +42,7 @@ def _opd(data: bytes) -> int:
 
 
 def _ezd(data: bytes) -> int:
-    """Add the numbers that the sections of the header state, behind its end."""
+    """Add the lengths that the sections of the header state to the end of the header."""
     head = data.partition(_END)[0]
     place = len(head) + len(_END)
     for section in head.split(b"\n["):

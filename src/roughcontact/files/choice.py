@@ -1,4 +1,4 @@
-"""Which of the channels of a file are heights, and which of these is meant."""
+"""Which channels of a file are heights, and which of them is read."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ AS_TEXT = "give a map of heights, or export the profile as a text of two columns
 
 
 def marked(channels: Sequence[Channel]) -> tuple[Channel, ...]:
-    """Return the channels, each second of equal names with ``#2``, and the heights marked by name and unit."""
+    """Return the channels with heights marked by name and unit; the second of two equal names gets ``#2``."""
     seen: Counter[str] = Counter()
     named = []
     for channel in channels:
@@ -27,7 +27,7 @@ def marked(channels: Sequence[Channel]) -> tuple[Channel, ...]:
 
 
 def _is_height(channel: Channel, channels: Sequence[Channel]) -> bool:
-    """Whether a map is named as a height, or the only one and not named otherwise; its unit may be silent."""
+    """Whether a map is named as a height, or is the only one and not named otherwise; its unit may be missing."""
     if not _is_map(channel) or not (channel.unit is None or is_length(channel.unit)):
         return False
     alone = sum(map(_is_map, channels)) == 1
@@ -39,7 +39,7 @@ def _is_map(channel: Channel) -> bool:
 
 
 def choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, tuple[str, ...]]:
-    """Return the position of the channel to read, and a warning where another would do as well."""
+    """Return the position of the channel to read, and a warning if another channel would also fit."""
     if wanted is not None:
         index = pick(channels, wanted)
         return index, _warnings(channels[index])
@@ -49,7 +49,7 @@ def choose(channels: Sequence[Channel], wanted: str | int | None) -> tuple[int, 
             AS_TEXT,
         )
     heights = [k for k, c in enumerate(channels) if c.is_height and c.unit is not None]
-    if not heights:  # without a unit they need the user's, which is asked for later
+    if not heights:  # without a unit they need that of the user, which is checked later
         heights = [k for k, c in enumerate(channels) if c.is_height]
     if not heights:
         raise ContentError(
@@ -77,4 +77,4 @@ def _warnings(channel: Channel) -> tuple[str, ...]:
     if not _is_map(channel) or not (other_unit or names_something_else(channel.name)):
         return ()
     unit = f" in {channel.unit}" if other_unit else ""
-    return (f"channel {channel.name!r}{unit} is not marked as heights, and read as heights all the same",)
+    return (f"channel {channel.name!r}{unit} is not marked as heights, but is read as heights",)

@@ -9,10 +9,10 @@ from roughcontact.files.length_units import is_length
 
 __all__ = ["VALIDITY", "column_order", "column_units"]
 
-VALIDITY = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)  # of a column that says which heights were measured
+VALIDITY = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)  # name of a column that marks measured heights
 
 
-# Names of columns, to be compared in lower case. What i and j count is not agreed upon.
+# Names of columns, compared in lower case. There is no agreement on the meaning of i and j.
 _PLACES = r"x|col(umn)?|lon(gitude)?|easting", r"y|row|lat(itude)?|northing"
 _PLACE = r"x|(lateral|horizontal )?(position|distance|place)|lateral"
 
@@ -20,7 +20,7 @@ _PLACE = r"x|(lateral|horizontal )?(position|distance|place)|lateral"
 def column_order(lines: Sequence[str], columns: int) -> tuple[int, ...]:
     """Return the columns in the order x, y, z of points, or place and height of a profile, as a line names them.
 
-    Without such names they stand in this order.
+    Without such names, the columns have this order.
     """
     given = tuple(range(columns))
     for line in reversed(lines):
@@ -34,7 +34,7 @@ def column_order(lines: Sequence[str], columns: int) -> tuple[int, ...]:
 
 
 def _parts_of(line: str, columns: int) -> list[str]:
-    """Return the names of columns in a line, or nothing where it holds fewer or more."""
+    """Return the names of columns in a line, or nothing if their number is different."""
     for parts in (re.split(r"[,;\t]", line), re.sub(r"[\[(][^\])]*[\])]", " ", line).split()):
         if len(parts) == columns:
             return [part.strip(" \"'") for part in parts]
@@ -42,9 +42,9 @@ def _parts_of(line: str, columns: int) -> list[str]:
 
 
 def column_units(lines: Sequence[str], columns: int) -> tuple[str | None, ...]:
-    """Return the unit of each column as the last line that names any states it, in words that may be unknown here.
+    """Return the unit of each column from the last line that names any unit; it may be an unknown word.
 
-    Units stand in brackets, ``x [mm], z (um)``, or behind a name, ``Lateral um, Raw Micrometer``, ``x_mm z/um``.
+    Units stand in brackets, ``x [mm], z (um)``, or after a name, ``Lateral um, Raw Micrometer``, ``x_mm z/um``.
     """
     for line in reversed(lines):
         found = _units_in(line, columns)

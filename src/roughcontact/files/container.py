@@ -1,4 +1,4 @@
-"""Containers of contact.engineering: a ZIP archive of the measurements of a surface and what is known about them."""
+"""Containers of contact.engineering: a ZIP archive of the measurements of a surface and their metadata."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def read_container(data: bytes, channel: str | int | None, *, reader: Reader) ->
         names = marked([Channel(one.name, (), None, None, True) for one in measurements])
         try:
             place = pick([replace(name, is_height=True) for name in names], channel)
-        except ContentError:  # which of them are maps, their files say
+        except ContentError:  # the files themselves state which of them are maps
             place = pick(_channels(archive, measurements, reader), channel)
         return replace(_read(archive, measurements[place], reader), channel=names[place].name)
 
@@ -76,7 +76,7 @@ def _channels(
 
 
 def _read(archive: zipfile.ZipFile, measurement: _Measurement, reader: Reader) -> HeightMap:
-    """Return the heights of a measurement; the index states what its file leaves open."""
+    """Return the heights of a measurement; the index supplies what its file does not state."""
     info = archive.getinfo(measurement.file)
     require_memory(info.file_size)
     found = reader(archive.read(info), PurePosixPath(measurement.file).suffix.casefold())
@@ -99,7 +99,7 @@ def _read(archive: zipfile.ZipFile, measurement: _Measurement, reader: Reader) -
 
 @contextmanager
 def _opened(data: bytes) -> Iterator[tuple[zipfile.ZipFile, list[_Measurement]]]:
-    """Give the archive and its measurements; damage becomes a ContentError."""
+    """Yield the archive and its measurements; damage raises ContentError."""
     again = "download it from contact.engineering again"
     with damage("it is damaged", again, _DAMAGED), zipfile.ZipFile(io.BytesIO(data)) as archive:
         yield archive, list(_measurements(_index(archive)))
@@ -111,7 +111,7 @@ def _index(archive: zipfile.ZipFile) -> Any:
         return json.loads(archive.read("index.json"))
     if "meta.yml" not in names:
         raise ContentError(
-            "it is a ZIP archive without index.json or meta.yml, no container of contact.engineering",
+            "it is a ZIP archive without index.json or meta.yml, not a container of contact.engineering",
             "unpack it, and read the files in it",
         )
     try:

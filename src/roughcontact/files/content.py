@@ -1,4 +1,4 @@
-"""The bytes of an ordinary file, as many as it says and the memory holds."""
+"""The bytes of an ordinary file, checked against its stated size and the free memory."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from roughcontact.files.standard_streams import standard, standard_input
 __all__ = ["content", "named", "needed", "ordinary_file"]
 
 _COPY = "copy or export the file again"
-# Where the number of points is not known from outside, the file is taken for numbers of four bytes.
+# If the number of points is not known from outside, numbers of four bytes are assumed.
 _TIMES_THE_FILE = BYTES_PER_POINT // 4
 _DAMAGED = (ValueError, OSError, EOFError, RuntimeError, struct.error, zlib.error, zipfile.BadZipFile)
 
 
 @contextmanager
 def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
-    """Give the name of a file, or of standard input, and its bytes; what is unreadable becomes an error that names it.
+    """Yield the name of a file, or of standard input, and its bytes; errors of reading name the file.
 
     Raises
     ------
     ReadError
-        If it is missing, empty, no ordinary file (a folder, a device, a pipe, what the system makes up while it is
-        read), if reading it takes more memory than is free, or if what is done with the bytes ends in `ContentError`.
+        If it is missing, empty, not an ordinary file (a folder, a device, a pipe, a file that the system generates
+        while it is read), if reading it takes more memory than is free, or if the block raises `ContentError`.
     """
     with named(path) as name:
         if (kind := standard(path)) is not None:
@@ -49,8 +49,8 @@ def content(path: str | os.PathLike[str]) -> Iterator[tuple[str, bytes]]:
 
 @contextmanager
 def named(path: str | os.PathLike[str]) -> Iterator[str]:
-    """Give the name of a file; what is found unreadable within becomes an error that names it."""
-    # A name may hold bytes that are no letters; in messages and provenance they become question marks.
+    """Yield the name of a file; a `ContentError` of the block becomes a `ReadError` that names the file."""
+    # A name may hold bytes that are not letters; in messages and provenance they become question marks.
     name = (Path(path).name or str(path)).encode("utf-8", "replace").decode("utf-8")
     try:
         yield name
@@ -60,14 +60,14 @@ def named(path: str | os.PathLike[str]) -> Iterator[str]:
 
 @contextmanager
 def ordinary_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Give a file opened to be read; refuse what is none, and what goes wrong as it is read."""
+    """Yield a file opened for reading; refuse any but an ordinary file, and report errors of reading."""
     try:
-        # To open a device may set it going.
+        # Opening a device may start it.
         _require_ordinary(os.stat(path))
         with open(path, "rb", opener=_without_waiting) as stream:
             _require_ordinary(
                 os.fstat(stream.fileno())
-            )  # another file may have taken the place of the one looked at
+            )  # another file may have replaced the one that was checked
             yield stream
     except ContentError:
         raise
@@ -79,8 +79,8 @@ def ordinary_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 def _read(stream: BinaryIO, kind: str) -> bytes:
     status = os.fstat(stream.fileno())
     if status.st_size == 0:
-        # Files that the system makes up say so too, and some of them have no end.
-        raise ContentError("it is empty, or no ordinary file", _COPY)
+        # Files that the system generates also state size 0, and some of them have no end.
+        raise ContentError("it is empty, or not an ordinary file", _COPY)
     require_memory(needed(stream, status.st_size, kind))
     stream.seek(0)
     data = stream.read(status.st_size + 1)
@@ -99,15 +99,16 @@ def _require_ordinary(status: os.stat_result) -> None:
 
 
 def _without_waiting(path: str, flags: int) -> int:
-    """Open a file; a pipe that takes its place meanwhile does not wait for its other end."""
+    """Open a file; if a pipe has replaced it meanwhile, do not wait for its other end."""
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def needed(stream: IO[bytes], size: int, kind: str) -> int:
     """Return an upper estimate of the memory that reading a file of `size` bytes takes [bytes].
 
-    Points are counted from the headers of ``.npy`` and ``.npz``. Any other file is taken to need 25 times its size,
-    archives unpacked. What a damaged header declares beyond the end of the file does not count.
+    Points are counted from the headers of ``.npy`` and ``.npz``. Any other file is assumed to need 25 times its size,
+    that of its unpacked contents for an archive. Points that a damaged header declares beyond the end of the file do
+    not count.
     """
     try:
         stream.seek(0)

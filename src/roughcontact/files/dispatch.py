@@ -1,4 +1,4 @@
-"""The reader that the kind of a file, its extension in lower case, asks for."""
+"""The reader for each kind of file, by its extension in lower case."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = ["READERS", "channels_of", "either", "height_map", "profile_of"]
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """How the files of a format are read, and how what they hold is listed."""
+    """How the files of a format are read, and how their channels are listed."""
 
     read: Callable[[bytes, str | int | None], HeightMap]
     channels: Callable[[bytes], tuple[Channel, ...]]
@@ -51,13 +51,13 @@ def _alone(read: Callable[[bytes], HeightMap]) -> _Reader:
 
 
 def _member(data: bytes, kind: str) -> HeightMap:
-    """Return what a file in a container holds, by its extension."""
+    """Return the content of a file in a container, by its extension."""
     return _reader(kind).read(data, None)
 
 
 _TEXTS = (".txt", ".csv", ".tsv", ".asc")
-_PROFILE = _alone(read_profile)  # of a text that holds no map
-# By the ending of a file; whatever has none here goes to the readers of others.
+_PROFILE = _alone(read_profile)  # for a text that holds no map
+# By the extension of a file; files with another extension go to the readers of SurfaceTopography.
 READERS = {
     ".npy": _alone(read_npy),
     **dict.fromkeys(_TEXTS, _alone(read_text)),
@@ -77,7 +77,7 @@ READERS = {
 
 
 def height_map(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
-    """Return what the file says about its map of heights, by the reader of its extension."""
+    """Return the map of heights of a file and what it states about it, by the reader of its extension."""
     try:
         found = _reader(kind).read(data, channel)
     except ContentError as error:
@@ -90,7 +90,7 @@ def height_map(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
 
 
 def either(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
-    """Return the map of heights of a file, or the line of heights where it holds one instead."""
+    """Return the map of heights of a file, or its line of heights if it holds a line instead."""
     try:
         found = _reader(kind).read(data, channel)
     except ContentError:
@@ -104,7 +104,7 @@ def either(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
 
 
 def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
-    """Return what the file says about its line of heights, by the reader of its extension."""
+    """Return the line of heights of a file and what it states about it, by the reader of its extension."""
     if kind not in READERS:
         problem = f"profiles are not read from {kind or 'a file without extension'}"
         holding = (each for each in READERS if each not in (".grd", ".xyz", ".zip"))
@@ -117,7 +117,7 @@ def profile_of(data: bytes, kind: str, channel: str | int | None) -> HeightMap:
 
 
 def channels_of(data: bytes, kind: str) -> tuple[Channel, ...]:
-    """Return what the file holds, in its order."""
+    """Return the channels of the file, in its order."""
     try:
         return _reader(kind).channels(data)
     except ContentError:
@@ -131,7 +131,7 @@ def _reader(kind: str) -> _Reader:
 
 
 def _points_on_a_line(data: bytes, kind: str) -> int:
-    """Return the number of heights of a text that is a profile, or 0."""
+    """Return the number of heights if a text is a profile, otherwise 0."""
     if kind not in _TEXTS:
         return 0
     try:

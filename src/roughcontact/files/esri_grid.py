@@ -15,7 +15,7 @@ from roughcontact.files.number_stream import grid_of
 __all__ = ["read_esri"]
 
 _HEADER = re.compile(r"\s*([a-z][a-z_]*)[ \t]+(\S+)([ \t]+\S+)?[ \t]*\n", re.IGNORECASE)
-_MARK = -9999.0  # where a file states none
+_MARK = -9999.0  # if a file states no mark
 
 
 def read_esri(text: str) -> HeightMap:
@@ -44,7 +44,9 @@ def read_esri(text: str) -> HeightMap:
 def _count(stated: dict[str, list[float]], name: str) -> int:
     number = stated.get(name, [np.nan])[0]
     if not (1 <= number <= 1e9 and number == int(number)):
-        raise ContentError(f"it states no number of {name}", "write ncols and nrows above the heights")
+        raise ContentError(
+            f"it does not state the number of {name}", "write ncols and nrows above the heights"
+        )
     return int(number)
 
 

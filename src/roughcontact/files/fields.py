@@ -21,7 +21,7 @@ _MARK = re.compile(
     r"|undefined|masked|no ?data|[-*?.]+|",
     re.IGNORECASE,
 )
-# "1,5 2,5" holds blanks away from its commas; "1, 2" and "1,2" do not.
+# "1,5 2,5" holds blanks that do not follow a comma; "1, 2" and "1,2" do not.
 _APART = re.compile(r"[^,\s]\s+[^,\s]")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 _POINT = re.compile(r"\d\.|\.\d")
@@ -33,7 +33,7 @@ _NEEDS_POINTS = "write decimal points, and no commas between thousands"
 def fields_of(line: str, like: str | None = None) -> list[str]:
     """Return the fields of a line as they are printed, without blanks and quotes around them.
 
-    A line of words is separated `like` another line.
+    A line of words is split with the separator of the line `like`.
     """
     separator = separator_of(line if like is None else like)
     if separator is None:
@@ -55,7 +55,7 @@ def require_one_separator(lines: Sequence[str], where: Sequence[str]) -> None:
 
 
 def is_number(field: str) -> bool:
-    """Whether a field, with a decimal point, is a number: nan and infinity are none."""
+    """Whether a field, with a decimal point, is a finite number."""
     return not math.isnan(number := number_of(field)) and math.isfinite(number) and not is_mark(field)
 
 
@@ -65,7 +65,7 @@ def is_mark(field: str) -> bool:
 
 
 def number_of(field: str) -> float:
-    """Return the number in a field; NaN where there is none."""
+    """Return the number in a field; NaN if it holds none."""
     try:
         return math.nan if "_" in field else float(field)  # Python reads 1_000 as a thousand
     except ValueError:
@@ -100,7 +100,7 @@ def put_points(rows: list[list[str]], where: Sequence[str]) -> None:
         raise ContentError(
             f"{place}: {field!r} may be {field.replace(',', '.')} or {field.replace(',', '')}", _NEEDS_POINTS
         )
-    for row in rows:  # in place, since the fields take most of the memory
+    for row in rows:  # in place, because the fields take most of the memory
         row[:] = [field.replace(",", ".") for field in row]
 
 

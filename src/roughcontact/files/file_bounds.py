@@ -1,4 +1,4 @@
-"""Bounds on files that nobody vouches for: the memory they take, what they unpack to, how often they are read."""
+"""Bounds for files that cannot be trusted: memory, size after unpacking, number of reads."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from roughcontact.memory import require_free
 
 __all__ = ["BYTES_PER_POINT", "BYTES_TO_LOOK", "BoundedStream", "require_memory", "unzip"]
 
-# Reading a map takes up to 92 bytes a point beside the file itself, most of them for the look at spikes and noise.
+# Reading a map takes up to 92 bytes a point beside the file, most of them in the search for spikes and noise.
 BYTES_PER_POINT = 100
-# What of these 92 is still to come when the heights are there.
+# The part of these 92 that is allocated after the heights.
 BYTES_TO_LOOK = 84
-# The other methods unpack without a bound on what one step may give; neither NumPy nor X3P use them.
+# The other methods have no bound on the output of one step of unpacking; neither NumPy nor X3P uses them.
 _BOUNDED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-# Finding out a format reads the beginning some forty times, so a small file is read over hundreds of times. Beyond
-# that, whole files take up to 55 times their size, and a call for every 60 bytes.
+# To detect a format, the beginning is read about forty times: hundreds of times the size of a small file. Beyond
+# that, reading a whole file takes up to 55 times its size, and a call for every 60 bytes.
 _BYTES, _TIMES = 500_000_000, 500
 _CALLS, _BYTES_A_CALL = 100_000, 10
 
@@ -44,7 +44,7 @@ def require_memory(need: int) -> None:
 
 def unzip(data: bytes, wanted: Callable[[str], bool]) -> dict[str, bytes]:
     """Return the members whose name is `wanted`, by name, each checked against its size and checksum."""
-    # A damaged archive fails in a dozen ways, from struct.error to zlib.error.
+    # A damaged archive raises a dozen kinds of errors, from struct.error to zlib.error.
     problem, remedy = "its zip archive is damaged or cut short", "copy or export the file again"
     with damage(problem, remedy), zipfile.ZipFile(BytesIO(data)) as archive:
         members = [member for member in archive.infolist() if wanted(member.filename)]
@@ -53,7 +53,7 @@ def unzip(data: bytes, wanted: Callable[[str], bool]) -> dict[str, bytes]:
 
 
 def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
-    """Return what is in a member: never more than it declares, whatever its compressed bytes unpack to."""
+    """Return the content of a member, at most the declared size, whatever its compressed bytes unpack to."""
     if member.compress_type not in _BOUNDED:
         raise zipfile.BadZipFile(f"{member.filename} is compressed by method {member.compress_type}")
     with archive.open(member) as stream:
@@ -64,22 +64,22 @@ def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
 
 
 class BoundedStream(BytesIO):
-    """The content of a file, to be read only so often: a damaged header can point a reader back to itself for ever.
+    """The content of a file with a limited number of reads: a damaged header can send a reader into an endless loop.
 
-    Readers of all kinds expect the whole interface of a binary file, which is why this is one. It is nobody else's:
-    what was checked and hashed cannot change while it is read.
+    It is a complete binary file, because the readers expect that interface. It is a private copy: the checked and
+    hashed bytes cannot change while they are read.
 
     Parameters
     ----------
     data : bytes
         The content.
     name : str
-        Name to go by, for readers that know a format by its extension; no file of that name is there.
+        Name for readers that detect a format by its extension; no file of that name exists.
 
     Raises
     ------
     RuntimeError
-        From a read beyond the bounds, and from every one after it.
+        At a read beyond the bounds, and at every later read.
     """
 
     def __init__(self, data: bytes, name: str) -> None:
@@ -92,7 +92,7 @@ class BoundedStream(BytesIO):
 
     @property
     def unread(self) -> int:
-        """Number of bytes at the end that nothing has been read of since `forget`."""
+        """Number of bytes at the end that have not been read since the last call of `forget`."""
         return self._size - self._furthest
 
     def forget(self) -> None:
@@ -112,7 +112,7 @@ class BoundedStream(BytesIO):
         return self._counted(super().readline(size))
 
     def readinto(self, buffer: Any, /) -> int:
-        """Fill `buffer` and return how many bytes that took."""
+        """Fill `buffer` and return the number of bytes read."""
         count = super().readinto(buffer)
         self._count(count)
         return count

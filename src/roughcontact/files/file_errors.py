@@ -1,4 +1,4 @@
-"""What can be wrong with a file: one error that says what to do, one warning that asks to look twice."""
+"""Errors and warnings about files: one error with a remedy, one warning about unusual contents."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["ContentError", "ReadError", "SurfaceWarning", "damage"]
 
 
 class ContentError(InputError):
-    """Bytes that a reader cannot turn into heights; `content` makes a `ReadError` of it, which names the file."""
+    """Bytes that a reader cannot turn into heights; `content` turns it into a `ReadError`, which names the file."""
 
 
 @contextmanager
@@ -21,12 +21,12 @@ def damage(
     kinds: tuple[type[Exception], ...] = (Exception,),
     said: Callable[[Exception], str] = str,
 ) -> Iterator[None]:
-    """Turn errors of some kinds into a ContentError, with what they say behind the problem.
+    """Turn errors of some kinds into a ContentError, with their text after the problem.
 
     Raises
     ------
     ContentError
-        If the block fails in such a way, or ends in one itself.
+        If the block raises such an error, or a ContentError.
     """
     try:
         yield
@@ -46,7 +46,7 @@ class ReadError(InputError):
     problem : str
         What is wrong, with the value that is wrong.
     remedy : str
-        What the reader of the message can do about it.
+        What the user can do about it.
     place : str, optional
         The arguments that correct it, such as ``"unit, size"``.
 
@@ -62,13 +62,13 @@ class ReadError(InputError):
 
     def __init__(self, file: str, problem: str, remedy: str | None, place: str | None = None) -> None:
         super().__init__(f"{file}: {problem}", remedy, place)
-        self.args = file, problem, remedy, place  # with which it is made again from a pickle
+        self.args = file, problem, remedy, place  # for pickle, which rebuilds the error from them
         self.file = file
         self.problem = problem
 
 
 class SurfaceWarning(UserWarning):
-    """A file was read, but something about it deserves a second look.
+    """A file was read, but something about it is unusual and should be checked.
 
     Examples
     --------

@@ -26,11 +26,11 @@ def fingerprint(path: Path) -> str:
         stands = path.stat()
         return _digest(path, stands.st_mtime_ns, stands.st_size)
     except OSError as error:
-        remedy = "give the name of a file that is there"
+        remedy = "give the name of a file that exists"
         raise ReadError(str(path), error.strerror or str(error), remedy) from error
 
 
-@lru_cache(maxsize=1024)  # of a study, each combination names the same files
+@lru_cache(maxsize=1024)  # each combination of a study names the same files
 def _digest(path: Path, changed: int, size: int) -> str:
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,4 +1,4 @@
-"""Every other format, through SurfaceTopography: nothing that it reports is taken on trust."""
+"""Every other format, through SurfaceTopography, whose results are all checked."""
 
 from __future__ import annotations
 
@@ -29,27 +29,27 @@ from roughcontact.validation import Array
 __all__ = ["NOT_FOREIGN", "brief", "list_foreign", "read_foreign", "unlogged", "without_reader"]
 
 
-# Formats with a reader of ours: under another extension the library would fall back to a lenient reader.
+# Formats with a reader in this package: under another extension SurfaceTopography would use a more lenient reader.
 _OURS = {
     **{"npy": ".npy", "npz": ".npz", "x3p": ".x3p"},
     **{"nc": ".nc", "sur": ".sur", "gwy": ".gwy", "sdf": ".sdf", "tmd": ".tmd"},
 }
 _TEXTS = {"asc", "matrix", "xyz"}
-NOT_FOREIGN = {*_OURS, *_TEXTS}  # what the library reads and is not asked to
-# Formats without a mark of their own, which therefore claim foreign bytes: taken only under their extension.
+NOT_FOREIGN = {*_OURS, *_TEXTS}  # formats that SurfaceTopography could read but is not used for
+# Formats without a mark at the beginning, whose readers also accept bytes of others: used only for their extension.
 _UNMARKED = {".hgt": "hgt", ".nms": "nms"}
 # Formats whose lateral size comes out wrong (by 1e6): the size must be given.
 _SIZE_UNRELIABLE = {"nms"}
-# Containers of bare matrices, whose rows are the rows of the picture; all other formats are indexed [x, y].
+# Containers of bare matrices, whose rows are the rows of the picture; all other formats have the indices [x, y].
 _MATRICES = {"mat", "h5"}
-# Formats without a checksum whose last channel ends where the file ends: so a damaged number of points shows.
+# Formats without a checksum whose last channel ends at the end of the file, which reveals a damaged number of points.
 _FILLED = {"di", "metropro", "mi", "wsxm"}
 # Formats whose factor from counts to heights is a product of positive numbers: a wavelength, an obliquity, a share.
 _UPRIGHT = {"metropro"}
-# Bytes among which every format with a mark has it.
+# Number of bytes within which every format with a mark has its mark.
 _BEGINNING = 512
-# What these say about a damaged file, up to megabytes of it, is not for the user. Only what they log while we read is
-# left out, in this thread: the settings of the process stay as they are.
+# Their log messages about a damaged file, up to megabytes, are of no use to the user. Only messages of this thread
+# during reading are suppressed: the settings of the process stay as they are.
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
 _EXPORT = "export it as X3P, Gwyddion text or .npz"
@@ -65,7 +65,7 @@ for _name in _TALKATIVE:
 
 
 def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap:
-    """Return the height channel of a file in any format that SurfaceTopography knows.
+    """Return the height channel of a file in any format that SurfaceTopography reads.
 
     The channel is `channel`, or the first whose name and unit are those of a height; the library's default
     is never taken.
@@ -82,14 +82,14 @@ def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap
 
 
 def list_foreign(kind: str, data: bytes) -> tuple[Channel, ...]:
-    """Return the channels of a file in any format that SurfaceTopography knows."""
+    """Return the channels of a file in any format that SurfaceTopography reads."""
     with _opened(kind, data) as (reader, stream):
         return _channels(reader, stream)
 
 
 @contextmanager
 def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
-    """Give the library's reader of the bytes, and what it reads; whatever goes wrong becomes a ContentError."""
+    """Yield SurfaceTopography's reader of the bytes, and the stream it reads; any error becomes a ContentError."""
     if kind not in _UNMARKED and not is_hdf5(data) and not any(data[:_BEGINNING]):
         raise ContentError(
             f"its first {min(len(data), _BEGINNING)} bytes are zeros, which no format known here begins with",
@@ -99,15 +99,15 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
         from SurfaceTopography.IO import open_topography
     except ImportError as error:
         raise without_reader("SurfaceTopography", error) from error
-    # Bytes in memory leave no open file behind when a reader gives up half-way.
+    # Bytes in memory leave no file open if a reader fails half-way.
     stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
     hint = "" if b"\0" in data else "name a text of numbers .txt; "
-    with damage("it cannot be read", hint + _REMEDY, said=brief):  # any reader of forty may fail in any way
+    with damage("it cannot be read", hint + _REMEDY, said=brief):  # any of forty readers may raise any error
         require_whole(data)
         if is_hdf5(data):
             with opened_hdf5(data):
                 pass
-        # What is odd about damaged numbers shows in the heights.
+        # Damaged numbers are detected later, in the heights.
         with (
             unlogged(),
             np.errstate(all="ignore"),
@@ -128,7 +128,7 @@ def without_reader(package: str, error: Exception, otherwise: str = "") -> Conte
 
 @contextmanager
 def unlogged() -> Iterator[None]:
-    """Leave out what the libraries that read for us log meanwhile, in this thread."""
+    """Suppress the log messages of the libraries that read files, in this thread."""
     reading = _READING.set(True)
     try:
         yield
@@ -137,7 +137,7 @@ def unlogged() -> Iterator[None]:
 
 
 def brief(error: Exception) -> str:
-    """Return the kind of an error and the first line of what it says."""
+    """Return the kind of an error and the first line of its text."""
     if type(error).__name__ == "CannotDetectFileFormat":
         return "its format is not recognised"
     lines = str(error).strip().splitlines()
@@ -145,23 +145,23 @@ def brief(error: Exception) -> str:
 
 
 def _accept(format_name: str, kind: str) -> None:
-    """Refuse what the other library reads too readily."""
+    """Refuse files that SurfaceTopography reads too leniently."""
     unmarked = {name: suffix for suffix, name in _UNMARKED.items()}
     if format_name in _TEXTS:
         raise ContentError(
-            "its extension hides its format: it is a text of numbers",
+            "its extension does not fit its format: it is a text of numbers",
             f"rename it to .txt if it is a matrix or a profile, to .xyz if it is a list of points; or {_EXPORT}",
         )
     suffix = _OURS.get(format_name) or unmarked.get(format_name)
     if suffix is not None and not (format_name in unmarked and kind == suffix):
         raise ContentError(
-            f"its extension hides its format: it can only be taken for {suffix}",
-            f"rename it to {suffix} if that is what it is; or {_EXPORT}",
+            f"its extension does not fit its format, which may be {suffix}",
+            f"rename it to {suffix} if it has this format; or {_EXPORT}",
         )
 
 
 def _channels(reader: Any, stream: BoundedStream) -> tuple[Channel, ...]:
-    """Return the channels with units that are checked; heights are known by name and unit."""
+    """Return the channels with checked units; heights are recognised by name and unit."""
     found: list[Channel] = []
     for index, info in enumerate(reader.channels):
         lateral, unit = _units(info)
@@ -175,19 +175,19 @@ def _channels(reader: Any, stream: BoundedStream) -> tuple[Channel, ...]:
             size = (float(sizes[1]) * metres * factor, float(sizes[0]) * metres)
         found.append(Channel(str(info.name), shape, unit, size, is_height=False))
     if not found:
-        raise ContentError("it holds no channel that is known here", _EXPORT)
+        raise ContentError("it holds no channel that can be read", _EXPORT)
     return marked(found)
 
 
 def _factor(reader: Any, stream: BoundedStream, index: int) -> float | str:
-    """Return what the height of a map that the library states is multiplied by, or why it is not known."""
+    """Return the correction factor of the height of a map as stated by the library, or why it is not known."""
     if reader.format() in _SIZE_UNRELIABLE:
-        return "a size whose unit its reader mistakes"
+        return "a size whose unit its reader gets wrong"
     return height_factors(stream.getvalue())[index] if reader.format() == "di" else 1.0
 
 
 def _units(info: Any) -> tuple[str | None, str | None]:
-    """Return the lateral unit and the unit of the values; a pair of units means them in that order."""
+    """Return the lateral unit and the unit of the values, in that order if a pair of units is stated."""
     if isinstance(info.unit, tuple):
         lateral, values = (*info.unit, None, None)[:2]
         return lateral, values
@@ -197,7 +197,7 @@ def _units(info: Any) -> tuple[str | None, str | None]:
 
 
 def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
-    """Return a warning where the channels that the header announces do not end where the file ends."""
+    """Return a warning if the channels that the header announces do not end at the end of the file."""
     if left := left_behind_blocks(reader.format(), stream.getvalue()):
         where = f"{left} bytes before" if left > 0 else "beyond"
         return (f"its blocks end {where} the end of the file: it may be damaged",)
@@ -206,7 +206,7 @@ def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
     stream.forget()
     try:
         _heights(reader, len(reader.channels) - 1)
-    except Exception:  # as above, in any way
+    except Exception:  # as above, any error
         return ("its last channel is not all there: it is cut short, or its header is damaged",)
     if stream.unread == 0:
         return ()
@@ -216,7 +216,7 @@ def _left_over(reader: Any, stream: BoundedStream) -> tuple[str, ...]:
 def _heights(reader: Any, index: int) -> Array:
     """Return the values of a channel as the library indexes them, NaN where nothing was measured."""
     info = reader.channels[index]
-    # A size must be passed where the file has none; it is not used.
+    # The library requires a size if the file has none; it is not used.
     missing = {"physical_sizes": tuple(info.nb_grid_pts)} if info.physical_sizes is None else {}
     topography = reader.topography(channel_index=index, **missing)
     return np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), math.nan)

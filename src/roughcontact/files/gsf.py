@@ -21,7 +21,7 @@ def read_gsf(data: bytes) -> HeightMap:
     """Return the one map of the file, NaN where nothing was measured; numbers of points fit its length exactly."""
     if not data.startswith(_MARK):
         raise ContentError("it does not begin as a simple field of Gwyddion", "check its extension")
-    # Zeros end the header and fill it up to a multiple of four, one of them at least.
+    # At least one zero ends the header; zeros fill it up to a multiple of four.
     end = data.find(b"\0")
     if end < 0:
         raise ContentError("no zero byte ends its header: it is cut short", _AGAIN)
@@ -74,7 +74,7 @@ def _count(fields: dict[str, str], name: str) -> int:
 
 
 def _side(fields: dict[str, str], name: str) -> float | None:
-    """Return a side in the unit of the file, which its header may lack: what it is then, nobody measured."""
+    """Return a side in the unit of the file, or None: if its header lacks it, the side was not measured."""
     text = fields.get(name)
     if text is None:
         return None

@@ -92,7 +92,7 @@ def _field(data: bytes, items: dict[str, Any], key: str, number: str) -> _Field:
     if covered is not None and covered.shape != heights.shape:
         raise InputError(f"a mask of {covered.shape} points over {heights.shape}")
     lateral, unit = (_unit(data, values.get(name)) for name in ("si_unit_xy", "si_unit_z"))
-    # Gwyddion takes a side without its sign, and one of zero for none.
+    # Gwyddion ignores the sign of a side, and treats zero as a missing side.
     sides = tuple(abs(float(values.get(name, 0.0))) for name in ("yreal", "xreal"))
     size = None
     if is_length(lateral) and all(sides):
@@ -126,7 +126,7 @@ def _unit(data: bytes, place: tuple[str, int, int] | None) -> str | None:
 
 
 def _items(data: bytes, place: int, end: int) -> Iterator[tuple[str, Any]]:
-    """Give the items of an object by name: numbers and texts; of arrays and objects what they are and where."""
+    """Return the items of an object by name: numbers and texts; for arrays and objects their kind and place."""
     while place < end:
         name, place = _text(data, place, end)
         kind, place = data[place : place + 1].decode("latin-1"), place + 1

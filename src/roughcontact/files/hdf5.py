@@ -1,4 +1,4 @@
-"""HDF5 files that hold all of their numbers themselves."""
+"""HDF5 files that hold all their numbers and refer to no other file."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MARK = b"\x89HDF\r\n\x1a\n"
 
 
 def is_hdf5(data: bytes) -> bool:
-    """Whether the mark of HDF5 stands at the beginning, or behind a block of the user's."""
+    """Whether the mark of HDF5 stands at the beginning, or after a user block."""
     place = 0
     while place < len(data):
         if data.startswith(_MARK, place):
@@ -35,17 +35,17 @@ def is_hdf5(data: bytes) -> bool:
 
 @contextmanager
 def opened_hdf5(data: bytes) -> Iterator[h5py.File]:
-    """Yield an HDF5 file; one that leads to other files, or whose blocks do not fit in memory, is refused.
+    """Yield an HDF5 file; one that refers to other files, or whose blocks do not fit in memory, is refused.
 
-    External links, external storage and virtual datasets name files of the machine that reads: a foreign file would
-    show us any of them as numbers.
+    External links, external storage and virtual datasets name files of the reading machine: a foreign file could
+    display any of these as numbers.
     """
     if (lack := lacking("h5py")) is not None:
         raise ContentError(f"HDF5 needs {lack[0]}", lack[1])
     import h5py
 
     with h5py.File(BytesIO(data), "r") as opened:
-        # What a visitor raises does not come through; what it returns ends the visit and does.
+        # An exception of a visitor is lost; a value that it returns ends the visit and is passed on.
         elsewhere = opened.visititems_links(_linked_elsewhere) or opened.visititems(_stored_elsewhere)
         if elsewhere is not None:
             raise ContentError(elsewhere, "write the numbers into the file itself")
@@ -56,7 +56,7 @@ def opened_hdf5(data: bytes) -> Iterator[h5py.File]:
 
 
 def require_memory_for(values: h5py.Dataset) -> None:
-    """Refuse to load what its header declares too large: values that were never written take no room in a file."""
+    """Refuse values whose declared size is too large: values that were never written take no room in a file."""
     require_memory(BYTES_PER_POINT * math.prod(values.shape or ()))
 
 
@@ -92,7 +92,7 @@ def _datasets(opened: h5py.File) -> list[h5py.Dataset]:
 def _require_blocks(values: h5py.Dataset) -> None:
     """Refuse blocks that do not fit in memory, by their declared size, or by what their bytes unpack to.
 
-    HDF5 unpacks a block whole and as far as it goes. Only those large enough to become too large are tried here.
+    HDF5 unpacks a whole block, whatever its size. Only blocks that could become too large are checked here.
     """
     size = math.prod(values.chunks) * values.dtype.itemsize
     require_memory(size)

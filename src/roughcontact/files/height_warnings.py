@@ -1,4 +1,4 @@
-"""Sizes and heights that no measured surface of a machine part has: worth a word, no reason to refuse."""
+"""Sizes and heights that are unusual for a measured surface of a machine part: warnings, not errors."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ __all__ = ["IMPOSSIBLE", "height_warnings", "highest"]
 _SMALLEST, _LARGEST = 1e-9, 1.0  # side lengths [m]
 _STEEPEST = 10.0  # rms height over side length, and the slope that half of all neighbours exceed
 _HIGHEST = 1.0  # [m]
-_FLATTEST = 1e-14  # rms height that is no height at all [m]: an atom is ten thousand times as large
-# Beyond any body to be pressed: random bytes read as numbers, not a wrong unit.
+_FLATTEST = 1e-14  # smallest credible rms height [m]: an atom is ten thousand times as large
+# Larger than any body: random bytes read as numbers, not a wrong unit.
 IMPOSSIBLE = 1e9  # [m]
 _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
-_CHOSEN = 100_000  # points that a quantile is taken of
+_CHOSEN = 100_000  # points from which a quantile is computed
 _ENOUGH_IN_A_ROW = 32
-# Equal neighbours, and by how many times more than in any other run: a plateau has as many in each row.
+# Equal neighbours, and the ratio to the second longest run: a plateau has similar runs in each row.
 _RUN, _LONGER = 12, 4
-_FEW = 64  # points for what is far from the others
+_FEW = 64  # points needed to find outliers
 _REPEATED = 4  # equal numbers far from all others
 _MOSTLY = 0.5  # share of missing points
-_DEVIATIONS = 3.0  # standard deviations within which a correlation counts as none
+_DEVIATIONS = 3.0  # standard deviations within which a correlation counts as zero
 _NOISY = 0.2  # share of rows without correlation
 
 
@@ -43,7 +43,7 @@ def highest(heights: Array) -> float:
 
 
 def height_warnings(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ...]:
-    """Return a line for everything absurd about `heights` [m], one axis or two, on cells of `spacing` [m]."""
+    """Return a warning for each unusual property of `heights` [m], one axis or two, on cells of `spacing` [m]."""
     found = []
     lengths = [n * step for n, step in zip(heights.shape, spacing, strict=True)]
     if min(lengths) < _SMALLEST or max(lengths) > _LARGEST:
@@ -54,7 +54,7 @@ def height_warnings(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ..
     flat = float(np.nanmin(heights)) == float(np.nanmax(heights))
     rms = float(np.nanstd(heights))
     if rms < _FLATTEST and not flat:
-        found.append(f"an rms height of {rms:.3g} m is less than any instrument sees; check unit=")
+        found.append(f"an rms height of {rms:.3g} m is less than any instrument resolves; check unit=")
     if rms > _STEEPEST * min(lengths):
         found.append(
             f"an rms height of {rms:.3g} m on {min(lengths):.3g} m is unusual; check unit= and size="
@@ -66,7 +66,7 @@ def height_warnings(heights: Array, spacing: tuple[float, ...]) -> tuple[str, ..
     if known < _ENOUGH:
         return (*found, *(_apart(heights) if known >= _FEW and not flat else ()))
     if flat:
-        return (*found, "all its heights are equal, as nothing measured is")
+        return (*found, "all its heights are equal, unlike any measured surface")
     return (*found, *_statistics(heights, spacing))
 
 
@@ -76,12 +76,12 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
         found.append(
-            f"{spikes}, far out of all around; remove what is faulty by despiked() before it is pressed"
+            f"{spikes}, far outside their neighbours; remove faulty points by despiked() before pressing"
         )
     if (count := _far_points(heights)) > 0:
         found.append(
             f"{count} points lie more than {_FAR:g} interquartile ranges from the median height; "
-            "take them out by masked()"
+            "mark them as missing by masked()"
         )
     else:
         found += _apart(heights)
@@ -106,24 +106,24 @@ def _broken_off(heights: Array) -> list[str]:
         return []
     found = []
     for edge, rows in (("first", heights), ("last", heights[::-1])):
-        other = (rows != rows[0, 0]).any(axis=1)  # a point that was not measured is another, too
+        other = (rows != rows[0, 0]).any(axis=1)  # a missing point also differs
         count = int(np.argmax(other))
         if count > 1:
             found.append(
-                f"its {edge} {count} of {len(rows)} rows all hold {rows[0, 0]:g} m, as of a scan that was broken off"
+                f"its {edge} {count} of {len(rows)} rows all hold {rows[0, 0]:g} m, as after an interrupted scan"
             )
     return found
 
 
 def _long_runs(heights: Array) -> list[str]:
-    """Return a warning where one number is repeated far more often than any other: what damage to a file leaves.
+    """Return a warning if one number is repeated far more often than any other, as in a damaged file.
 
-    Looked for along rows and columns, and along rows that are stored from the bottom up.
+    The search goes along rows and columns, and along rows that are stored from the bottom up.
     """
     orders: tuple[Callable[[Any], Any], ...] = (lambda a: a, lambda a: a.T, lambda a: a[::-1])
     for order in orders[: 2 * heights.ndim - 1]:
         values = order(heights).reshape(-1)
-        ends = np.flatnonzero(np.append(values[1:] != values[:-1], True))  # of runs; NaN is unlike itself
+        ends = np.flatnonzero(np.append(values[1:] != values[:-1], True))  # of runs; NaN differs from itself
         lengths = np.diff(ends, prepend=-1)
         longest = int(np.argmax(lengths))
         second = int(np.delete(lengths, longest).max(initial=1))
@@ -133,8 +133,8 @@ def _long_runs(heights: Array) -> list[str]:
             ]
             place = ", ".join(str(k) for k in np.unravel_index(first, heights.shape))
             return [
-                f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as damage leaves "
-                "them; write nan there if they were not measured"
+                f"{count} neighbouring points from cell {place} hold {values[ends[longest]]:g} m, as in a "
+                "damaged file; write nan there if they were not measured"
             ]
     return []
 
@@ -146,7 +146,7 @@ def _far_points(heights: Array) -> int:
 
 
 def _apart(heights: Array) -> list[str]:
-    """Return a warning where the lowest or highest number is repeated, and further from the others than they reach."""
+    """Return a warning if the lowest or highest number is repeated, and further away than the range of the others."""
     known = heights[~np.isnan(heights)]
     for extreme in (known.min(), known.max()):
         others = known[known != extreme]
@@ -154,16 +154,16 @@ def _apart(heights: Array) -> list[str]:
         low, high = others.min(), others.max()
         if count >= _REPEATED and high > low and min(abs(extreme - low), abs(extreme - high)) > high - low:
             return [
-                f"{count} points hold {extreme:g} m, as a mark of missing points does, and the others {low:g} to "
-                f"{high:g} m; take them out by masked()"
+                f"{count} points hold {extreme:g} m, like a mark of missing points, and the others {low:g} to "
+                f"{high:g} m; mark them as missing by masked()"
             ]
     return []
 
 
 def _noise(heights: Array) -> float:
-    """Return the share of rows whose neighbours lie on one side of their median as often as on both.
+    """Return the share of rows in which two neighbours lie on one side of the median as often as on both.
 
-    Of signs, since spikes are no noise; row by row, since damage may begin anywhere.
+    Only signs count, because spikes are not noise; row by row, because damage may begin anywhere.
     """
     rows = heights.reshape(-1, heights.shape[-1])
     rows = rows[np.count_nonzero(~np.isnan(rows), axis=1) > _ENOUGH_IN_A_ROW]
@@ -171,14 +171,14 @@ def _noise(heights: Array) -> float:
         return 0.0
     signs = np.sign(rows - np.nanmedian(rows, axis=1, keepdims=True))
     product = signs[:, 1:] * signs[:, :-1]
-    pairs = np.nansum(np.abs(product), axis=1)  # a plateau at the median says nothing
+    pairs = np.nansum(np.abs(product), axis=1)  # a plateau at the median is no evidence
     unrelated = np.abs(np.nansum(product, axis=1)) < _DEVIATIONS * np.sqrt(pairs)
     return float(np.mean(unrelated & (pairs >= _ENOUGH_IN_A_ROW)))
 
 
 def _quantile(values: Array, share: float) -> float:
-    """Return a quantile of the numbers among a regular choice of `values`; 0 if there is none."""
-    # An odd stride meets every column of a map, whose width is even as a rule.
+    """Return a quantile of the numbers in a regular subset of `values`; 0 if there is none."""
+    # An odd stride visits every column of a map, whose width is usually even.
     chosen = values.reshape(-1)[:: 2 * (values.size // _CHOSEN // 2) + 1]
     numbers = chosen[~np.isnan(chosen)]
     if numbers.size == 0:

@@ -1,4 +1,4 @@
-"""What a file holds and what it says about a surface, before the user's keywords are applied."""
+"""The contents of a file and its statements about a surface, before the user's keywords are applied."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Channel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeightMap:
-    """Heights in the file's own unit, and whatever else the file states.
+    """Heights in the unit of the file, and everything else that the file states.
 
     Parameters
     ----------
@@ -67,19 +67,19 @@ class HeightMap:
     channel : str, optional
         Name of the channel in the file.
     unit : str or float, optional
-        Unit of the heights as the file states it, or metres per unit; None where it is silent.
+        Unit of the heights as the file states it, or metres per unit; None if it states none.
     spacing : tuple of float, optional
-        Size of a cell (dy, dx) or (dx,) [m]; None where the file is silent.
+        Size of a cell (dy, dx) or (dx,) [m]; None if the file states none.
     steps : tuple of float, optional
-        Size of a cell in the unit of the heights, where the file gives numbers without a unit.
+        Size of a cell in the unit of the heights, if the file gives numbers without a unit.
     unclear : str, optional
-        What the file states about its size in words that are not understood.
+        Statement of the file about its size that is not understood.
     periodic : bool or tuple of bool
-        Whether the file says that the surface repeats itself.
+        Whether the file states that the surface repeats itself.
     history : tuple of str
-        The provenance that the file itself carries.
+        The provenance that the file contains.
     notes, warnings : tuple of str
-        Lines for the provenance; of the warnings the user is warned as well.
+        Lines for the provenance; the warnings are also issued to the user.
     """
 
     heights: Array
@@ -115,7 +115,7 @@ def as_heights(values: npt.NDArray[Any]) -> Array:
 
 
 def line_if_one_row(found: HeightMap) -> HeightMap:
-    """Return the map, or the profile where it holds a single row."""
+    """Return the map, or the profile if it holds a single row."""
     if found.heights.shape[0] != 1:
         return found
     spacing = None if found.spacing is None else found.spacing[1:]
@@ -123,24 +123,24 @@ def line_if_one_row(found: HeightMap) -> HeightMap:
 
 
 def require_map(found: HeightMap) -> None:
-    """Refuse what is no map of at least 2 x 2 heights."""
+    """Refuse anything that is not a map of at least 2 x 2 heights."""
     shape = found.heights.shape
     if len(shape) == 1:
         raise ContentError(f"it is a profile of {shape[0]} heights", f"{_MAP}, or use read_line")
     if min(shape) < 2:
         points = " x ".join(map(str, shape))
         raise ContentError(
-            f"it holds {points} heights, a profile at most",
+            f"it holds {points} heights, which is not a map",
             "give a two-dimensional map of at least 2 x 2 heights, or use read_line",
         )
 
 
 def require_line(found: HeightMap) -> None:
-    """Refuse what is no line of at least two heights."""
+    """Refuse anything that is not a line of at least two heights."""
     shape = found.heights.shape
     if len(shape) != 1:
         points = " x ".join(map(str, shape))
-        raise ContentError(f"it is a map of {points} heights, no profile", "use read")
+        raise ContentError(f"it is a map of {points} heights, not a profile", "use read")
     if shape[0] < 2:
         raise ContentError(f"it holds {shape[0]} heights", "give a profile of at least 2 heights")
 
@@ -171,7 +171,7 @@ def pick(channels: Sequence[Channel], wanted: str | int | None) -> int:
     Raises
     ------
     ContentError
-        If no channel fits, or if several do and none is wanted.
+        If no channel fits, or if several fit and `wanted` is not given.
     """
     if wanted is None:
         heights = [k for k, channel in enumerate(channels) if channel.is_height]

@@ -1,4 +1,4 @@
-"""Packages that are not installed, or cannot be loaded: which one it is, and the command that mends it."""
+"""Packages that are not installed or cannot be loaded: the name of the package, and the command that installs it."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _EXTRA = re.compile(r"""extra == ['"](\w+)""")
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """A package that this one requires, or that one of its extras does: as the metadata of the installation states it.
+    """A package that this one or one of its extras requires, according to the metadata of the installation.
 
     Parameters
     ----------
     name, least : str
         Its name and lowest version.
     extra : str
-        The extra that wants it; empty where it is always wanted.
+        The extra that requires it; empty if it is always required.
     version : str or None
         The version that is installed.
     """
@@ -39,7 +39,7 @@ class Requirement:
 
     @property
     def problem(self) -> str | None:
-        """What is wrong with it, and the command that mends it; None if it is there and new enough."""
+        """What is wrong with it, and the command that repairs it; None if it is installed and new enough."""
         if self.version is not None and _parts(self.version) >= _parts(self.least):
             return None
         lack = "is not installed" if self.version is None else f"{self.version} is older than {self.least}"
@@ -81,9 +81,9 @@ def lacking(*modules: str) -> tuple[str, str] | None:
 
 
 def broken_package(error: BaseException) -> InputError | None:
-    """Return the error of a package of others that is missing or broken; None of every other error.
+    """Return the error about a third-party package that is missing or broken; None for every other error.
 
-    A name that we ask a module for, and that it does not have, is a mistake of ours.
+    Importing a name that a module does not have is a bug of this package.
     """
     if not isinstance(error, ImportError):
         return None
@@ -102,7 +102,7 @@ def broken_package(error: BaseException) -> InputError | None:
 
 
 def _raised_in(error: BaseException) -> str:
-    """Return the package that raised an error, by its name and not its file, which bundles of programs do not have."""
+    """Return the package that raised an error, by its name and not by its file, which bundled programs do not have."""
     last = error.__traceback__
     while last is not None and last.tb_next is not None:
         last = last.tb_next
@@ -110,7 +110,7 @@ def _raised_in(error: BaseException) -> str:
 
 
 def _command(module: str, options: str = "") -> str:
-    """Return the command that installs the package of a module, or all that is lacking where we do not require it."""
+    """Return the command that installs the package of a module, or all missing packages if this one is not required."""
     from importlib.metadata import PackageNotFoundError, requires  # late: it brings the parser of e-mails
 
     try:
@@ -127,10 +127,10 @@ def _parts(version: str) -> tuple[int, ...]:
 
 
 def _same(name: str) -> str:
-    """Return a name of a package as the index compares it."""
+    """Return the name of a package in the form that the index compares."""
     return re.sub(r"[-_.]+", "-", name).casefold()
 
 
 def _line(error: ImportError) -> str:
-    """Return what an error says, in one line; NumPy's takes a page."""
+    """Return the first line of the text of an error; NumPy's text fills a page."""
     return str(error).strip().partition("\n")[0].strip() or type(error).__name__

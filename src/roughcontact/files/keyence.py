@@ -20,9 +20,9 @@ _HEIGHT = re.compile(r"height|höhe|hauteur|altura|高", re.IGNORECASE)
 
 
 def read_keyence(text: str) -> HeightMap:
-    """Return the heights of an export; the one value with a unit behind it is the side of a cell."""
+    """Return the heights of an export; the one value followed by a unit is the side of a cell."""
     separator = re.search(r"[;,\t]", text)
-    # A label may be broken over two lines within its quotes.
+    # A quoted label may extend over two lines.
     rows = list(csv.reader(text.splitlines(keepends=True), delimiter=separator[0] if separator else ","))
     fields = [[field.strip() for field in row] for row in rows]
     first = next(
@@ -37,16 +37,14 @@ def read_keyence(text: str) -> HeightMap:
     for words, name, found in ((_ROWS, "rows", shape[0]), (_COLUMNS, "columns", shape[1])):
         stated = next((row[1] for row in header if len(row) == 2 and words.fullmatch(row[0])), str(found))
         if stated != str(found):
-            raise ContentError(
-                f"{found} {name} are there where it states {stated}", "copy or export it again"
-            )
+            raise ContentError(f"it holds {found} {name} and states {stated}", "copy or export it again")
     values, notes, warnings = grid_of([field for row in heights for field in row], shape)
     cell = next((row for row in header if len(row) == 3 and is_length(row[2]) and _is_number(row[1])), None)
     side = None if cell is None else number_of(cell[1].replace(",", ".")) * length_factor(cell[2])
     titles = [row[0] for row in header if len(row) == 1 and row[0]]
     units = [row[1] for row in header if len(row) == 2 and is_length(row[1])]
     if not units and titles and not _HEIGHT.search(titles[-1]):
-        raise ContentError(f"it holds {titles[-1]!r}, no heights", "export the data of its height image")
+        raise ContentError(f"it holds {titles[-1]!r}, not heights", "export the data of its height image")
     return HeightMap(
         as_heights(values),
         "Keyence text",

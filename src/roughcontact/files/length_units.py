@@ -10,7 +10,7 @@ from roughcontact.errors import InputError, about
 
 __all__ = ["is_length", "length_factor", "parse_length", "stated_length"]
 
-# Keys in the form NFKC, which makes one sign of the two micro signs and one of the two angstrom signs.
+# Keys in the form NFKC, which unifies the two micro signs and the two angstrom signs.
 _METRES = {
     "km": 1e3,
     "m": 1.0,
@@ -48,9 +48,9 @@ _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D*?)
 
 
 def is_length(unit: str | float | None) -> bool:
-    """Whether what a file states is a unit of length: a name in the table here, or a positive factor to metres.
+    """Whether a file states a unit of length: a name in the table here, or a positive factor to metres.
 
-    Words that only a library of units knows are left to the user: ``au`` and ``points`` are lengths to it.
+    Other words are left to the user: for a library of units, ``au`` and ``points`` are lengths.
     """
     if isinstance(unit, str):
         return _named(unit) is not None
@@ -58,7 +58,7 @@ def is_length(unit: str | float | None) -> bool:
 
 
 def length_factor(unit: str | float) -> float:
-    """Return the metres in one `unit`, a name such as ``"um"``, any length of pint, or itself a number of metres."""
+    """Return the metres in one `unit`: a name such as ``"um"``, any length of pint, or a number of metres."""
     if isinstance(unit, str):
         factor = _named(unit)
         return _by_pint(unit) if factor is None else factor
@@ -83,7 +83,7 @@ def parse_length(value: str | float) -> float:
 
 
 def stated_length(text: str) -> float | None:
-    """Return the positive length [m] that a file states, such as ``"10 microns"``; None where its words are unknown."""
+    """Return the positive length [m] that a file states, such as ``"10 microns"``; None if its words are unknown."""
     parts = _QUANTITY.fullmatch(text)
     return parse_length(text) if parts is not None and is_length(parts[2]) and float(parts[1]) > 0 else None
 
@@ -104,7 +104,7 @@ def _by_pint(unit: str) -> float:
         return parse(f"1 {unit}", LENGTH)
     except ValueError as error:
         raise InputError(
-            f"unit {unit!r} is not a unit of length known here",
+            f"unit {unit!r} is not a known unit of length",
             f"use {_KNOWN}, or a number of metres",
             place="unit",
         ) from error

@@ -1,4 +1,4 @@
-"""MATLAB's files of version 5: what their headers announce is compared with what is there, before anything is read."""
+"""MATLAB's files of version 5: headers are compared with the contents before anything is read."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from roughcontact.files.file_errors import damage
 __all__ = ["require_whole"]
 
 _HEADER, _TAG = 128, 8  # bytes
-# The version, 1.0, and the order of bytes, behind a text that may be any.
+# The version, 1.0, and the order of bytes, after an arbitrary text.
 _ORDERS = {b"\0\1IM": "<", b"\1\0MI": ">"}
 _MATRIX, _COMPRESSED = 14, 15
-# Bytes of a number by the class of its array, and by the type in which it is stored.
+# Size of a number in bytes by the class of its array, and by the type in which it is stored.
 _CLASSES = {6: 8, 7: 4, 8: 1, 9: 1, 10: 2, 11: 2, 12: 4, 13: 4, 14: 8, 15: 8}
 _STORED = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 9: 8, 12: 8, 13: 8}
 _COMPLEX = 0x0800
-_LOOK = 1 << 16  # bytes in which flags, dimensions and name lie
+_LOOK = 1 << 16  # bytes that hold flags, dimensions and name
 _AGAIN = "copy the file again, or save the matrix by save(..., '-v7')"
 
 
 def require_whole(data: bytes) -> None:
-    """Refuse a file of version 5 whose arrays take more memory than is free, or hold other than they announce.
+    """Refuse a file of version 5 whose arrays take more memory than is free, or do not match their headers.
 
-    A compressed array is unpacked no further than its dimensions allow, and its checksum is compared. What is no
-    array of numbers, and files of other versions, are left to their reader.
+    A compressed array is unpacked no further than its dimensions allow, and its checksum is compared. Other elements,
+    and files of other versions, are left to their reader.
     """
     order = _ORDERS.get(data[124:128])
     if order is None:
@@ -57,7 +57,7 @@ def _require_packed(packed: bytes, order: str) -> None:
     left = _TAG + size - len(head)
     while left > 0 and (part := unpacker.decompress(unpacker.unconsumed_tail, min(left, _LOOK))):
         left -= len(part)
-    # One more byte would be one too many; asking for it lets the checksum be compared.
+    # Asking for one byte beyond the end makes zlib compare the checksum.
     if left != 0 or unpacker.decompress(unpacker.unconsumed_tail, 1) or not unpacker.eof:
         raise InputError("a compressed array holds more or less than it announces")
 

@@ -1,4 +1,4 @@
-"""Numbers that stand for points without a height, compared as they were stored or printed."""
+"""Numbers that mark points without a height, compared as they were stored or printed."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["holds_mark", "without_fills", "without_marks"]
 
-# No height in any unit is so large; beyond it a mark is compared by its first digits, of which few may be printed.
+# Larger than any height in any unit; above it only the first digits of a mark are compared: few may be printed.
 _BEYOND = 1e30
 _DIGITS = 1e-3
-# What programs store where nothing is known: the largest single and double, Surfer's 2^127, the default of NetCDF.
+# Marks of programs for missing values: the largest single and double, Surfer's 2^127, the default of NetCDF.
 _FILLS = (float(np.finfo(np.float32).max), float(np.finfo(np.float64).max), 2.0**127, 9.969209968386869e36)
 _NEAR = 1e-2  # relative: a mark that was printed with fewer digits
 
 
 def holds_mark(values: Array, marks: tuple[float, ...]) -> Mask:
-    """Return where `values` hold one of the marks, be it rounded to single precision on either way."""
+    """Return where `values` hold one of the marks, either of which may be rounded to single precision."""
     found = np.zeros(values.shape, dtype=bool)
     if not marks:
         return found
@@ -34,7 +34,7 @@ def holds_mark(values: Array, marks: tuple[float, ...]) -> Mask:
 def without_marks(values: Array, marks: tuple[float, ...]) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
     """Return heights without the marks that a file states, a note, and warnings.
 
-    A mark that stands nowhere, while an extreme height that is found more than once is close to it, is doubtful.
+    A warning is returned if the mark occurs nowhere, while a repeated extreme height is close to it.
     """
     found = holds_mark(values, marks)
     if found.any():
@@ -58,7 +58,7 @@ def without_marks(values: Array, marks: tuple[float, ...]) -> tuple[Array, tuple
 
 
 def without_fills(values: Array) -> tuple[Array, tuple[str, ...]]:
-    """Return heights without the numbers that programs store for missing ones, and a warning where there were any."""
+    """Return heights without the numbers that programs store for missing ones, and a warning if there were any."""
     with np.errstate(invalid="ignore"):
         far = np.abs(values) > _BEYOND
     if not far.any():

@@ -1,4 +1,4 @@
-"""Nanoscope images whose aspect ratio is not 1:1: their "Scan Size" repeats the width where the height is less."""
+"""Nanoscope images whose aspect ratio is not 1:1: their "Scan Size" repeats the width, though the height is less."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from collections.abc import Mapping
 __all__ = ["height_factors"]
 
 _SCAN = {"ciao scan list", "afm list", "stm list", "nc afm list"}
-_ROUNDED = 0.005  # share of an aspect ratio that its printed digits may leave out
+_ROUNDED = 0.005  # relative error of an aspect ratio by its printed digits
 
 
 def height_factors(data: bytes) -> list[float | str]:
-    """Return by how much the stated height of each image is to be multiplied, or what the file states instead.
+    """Return the factor for the stated height of each image, or the contradictory statements of the file.
 
-    The height follows from the aspect ratio and from the number of lines. Where these agree to a line it is that of
-    the lines; where they do not, no height is known. A "Slow Axis Size" is the height, and so is a second number of
-    the "Scan Size" that is not the width again and agrees with the aspect ratio.
+    The height follows from the aspect ratio and from the number of lines. If these agree to within a line, the number
+    of lines is used; otherwise the height is unknown. A "Slow Axis Size" is the height; so is a second number of the
+    "Scan Size" that differs from the width and agrees with the aspect ratio.
     """
     scan: dict[str, str] = {}
     images: list[dict[str, str]] = []
@@ -56,7 +56,7 @@ def _factor(image: Mapping[str, str], scan: Mapping[str, str]) -> float | str:
 
 
 def _ratio(text: str) -> float:
-    """Return width over height; 1 where none is stated."""
+    """Return width over height; 1 if none is stated."""
     width, colon, height = text.partition(":")
     if not (colon and _is_number(width) and _is_number(height) and float(width) > 0 and float(height) > 0):
         return 1.0

@@ -31,7 +31,7 @@ from roughcontact.units import word_of
 __all__ = ["StoredVariable", "height_map_of", "list_netcdf", "opened", "read_netcdf"]
 
 _AGAIN = "copy the file again, or write it once more"
-# Curves by a variable that only they have, the special ones first.
+# Kinds of curves by a variable that only they have, the special ones first.
 _CURVES = {
     "jump_lost": ("a curve of adhesive contact", "read_adhesive_curve"),
     "detachment_lost": ("a curve of detachment", "read_detachment_curve"),
@@ -43,7 +43,7 @@ _EVEN = 1e-5
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StoredVariable:
-    """One variable of an open file: what is said about it, and how to load it."""
+    """One variable of an open file: its attributes, and how to load it."""
 
     dimensions: tuple[str, ...]
     shape: tuple[int, ...]
@@ -52,7 +52,7 @@ class StoredVariable:
     load: Callable[[], npt.NDArray[Any]]
 
     def word(self, *names: str) -> str | None:
-        """Return the first of these attributes that is there, as text."""
+        """Return the first of these attributes that is present, as text."""
         for name in names:
             value = self.attributes.get(name)
             if value is not None:
@@ -62,7 +62,7 @@ class StoredVariable:
     def numbers(self) -> npt.NDArray[np.float64]:
         """Return the values as float64, NaN where they are marked as missing."""
         values = self.load()
-        # What is odd about damaged numbers shows later, in the heights.
+        # Damaged numbers are detected later, in the heights.
         with np.errstate(all="ignore"):
             if str(self.word("_Unsigned")).casefold() == "true" and values.dtype.kind == "i":
                 values = values.view(values.dtype.str.replace("i", "u"))
@@ -75,7 +75,7 @@ class StoredVariable:
         return result
 
     def _stated(self, name: str) -> tuple[float, ...]:
-        """Return the numbers of an attribute, be they text; none where it is missing or holds none."""
+        """Return the numbers of an attribute, which may be text; empty if it is missing or holds none."""
         value = np.asarray(self.attributes.get(name, ())).reshape(-1)
         try:
             return tuple(float(number) for number in value)
@@ -83,9 +83,9 @@ class StoredVariable:
             return ()
 
     def _invalid(self, stored: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-        """Return where stored values lie outside ``valid_min`` and ``valid_max``, or ``valid_range``.
+        """Return where stored values lie outside ``valid_min`` to ``valid_max``, or ``valid_range``.
 
-        The limits are those of the stored values, unless these are packed into integers and the limits are not.
+        The limits apply to the stored values, unless these are packed into integers and the limits are not integers.
         """
         limits = self._stated("valid_range")
         low = self._stated("valid_min") or limits[:1]
@@ -112,10 +112,10 @@ class StoredVariable:
 def read_netcdf(data: bytes, channel: str | int | None) -> HeightMap:
     """Return one variable of two dimensions, or of one for a profile.
 
-    It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are turned into ``(y, x)``; others are
-    rows and columns as they stand. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows
-    from the attribute ``length`` of the coordinates, or from coordinates with even steps. A third dimension of one
-    entry, such as the time, is left out. Values that count downwards are depths.
+    It is `channel`, or ``heights``, or the only map. Dimensions ``(x, y)`` are transposed to ``(y, x)``; others are
+    rows and columns in their order. The size of a cell is that of the variable ``spacing`` (y, x) [m], or follows from
+    the attribute ``length`` of the coordinates, or from coordinates with even steps. A third dimension of one entry,
+    such as the time, is left out. Values that count downwards are depths.
     """
     with opened(data) as (variables, attributes):
         found = height_map_of(variables, attributes, channel, "NetCDF")
@@ -128,7 +128,7 @@ def height_map_of(
     channel: str | int | None,
     format: str,
 ) -> HeightMap:
-    """Return what variables, such as those of an open file, state about a map or a profile of heights."""
+    """Return the map or the profile of heights in variables, such as those of an open file."""
     variables = {name: _of_one(variable) for name, variable in variables.items()}
     found = _channels(variables)
     if not found:
@@ -147,7 +147,7 @@ def height_map_of(
     spacing = _spacing(variables, axes, heights.shape, unit)
     silent = [axis for axis in axes if axis in variables and not variables[axis].word("unit", "units")]
     borrowed = spacing is not None and "spacing" not in variables and silent
-    warning = f"its {' and '.join(silent)} state no unit, and are taken in {unit}; else pass size="
+    warning = f"its {' and '.join(silent)} state no unit, and {unit} is assumed; pass size= if that is wrong"
     down = chosen.word("positive") == "down"  # CF's word for depths
     depths = "it states that its values count downwards: they are read with the other sign"
     return HeightMap(
@@ -170,7 +170,7 @@ def list_netcdf(data: bytes) -> tuple[Channel, ...]:
 
 @contextmanager
 def opened(data: bytes) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str, Any]]]:
-    """Yield the variables by name and the attributes of the file; whatever goes wrong becomes a ContentError."""
+    """Yield the variables by name and the attributes of the file; any error becomes a ContentError."""
     try:
         if data.startswith(b"CDF"):
             from scipy.io import netcdf_file
@@ -183,9 +183,12 @@ def opened(data: bytes) -> Iterator[tuple[dict[str, StoredVariable], Mapping[str
                 yield _modern(modern), dict(modern.attrs)
         else:
             raise ContentError("it is not a NetCDF file", "check its extension; copy it again")
-    except (ContentError, ImportError):  # a library that cannot be imported is no damage of the file
+    except (
+        ContentError,
+        ImportError,
+    ):  # a library that cannot be imported does not mean that the file is damaged
         raise
-    except Exception as error:  # damaged files fail in a dozen ways, down to OverflowError
+    except Exception as error:  # damaged files raise a dozen kinds of errors, even OverflowError
         reason = (str(error).strip().splitlines() or [""])[0][:120] or type(error).__name__
         raise ContentError(f"it is damaged ({reason})", _AGAIN) from error
 
@@ -213,7 +216,7 @@ def _modern(opened: Any) -> dict[str, StoredVariable]:
     """Return the data sets of an HDF5 file; the names of their dimensions are those of the scales attached."""
     found = {}
     for name, values in opened.items():
-        # Groups have no shape; a dimension without values says so in its own attribute NAME.
+        # Groups have no shape; a dimension without values has a notice in its attribute NAME.
         if not hasattr(values, "shape") or "not a netCDF variable" in str(values.attrs.get("NAME", "")):
             continue
         axes = [str(axis[0].name).lstrip("/") if len(axis) else "" for axis in values.dims]
@@ -235,7 +238,7 @@ def _values(variable: Any) -> npt.NDArray[Any]:
 
 
 def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
-    """Return what can be pressed: maps, and the profile named ``heights``."""
+    """Return the variables that can be pressed: maps, and the profile named ``heights``."""
     maps = {
         name: v
         for name, v in variables.items()
@@ -255,10 +258,10 @@ def _channels(variables: Mapping[str, StoredVariable]) -> tuple[Channel, ...]:
 
 
 def _refuse_curves(variables: Mapping[str, StoredVariable]) -> None:
-    """Refuse a file that `write` made of a curve, with the function that reads it."""
+    """Refuse a file of a curve that `write` has written, and name the function that reads it."""
     for name, (what, reader) in _CURVES.items():
         if name in variables:
-            raise ContentError(f"it holds {what}, and no heights", f"read it with rc.{reader}")
+            raise ContentError(f"it holds {what}, not heights", f"read it with rc.{reader}")
 
 
 def _checked(variable: StoredVariable, name: str) -> npt.NDArray[np.float64]:
@@ -276,7 +279,7 @@ def _spacing(
     shape: tuple[int, ...],
     unit: str | None,
 ) -> tuple[float, ...] | None:
-    """Return the cell [m] along `axes`, or None where the file leaves an axis open."""
+    """Return the cell [m] along `axes`, or None if the file does not state it for an axis."""
     own = variables.get("spacing")
     if own is not None and own.shape == (len(axes),) and is_length(own.word("unit", "units")):
         factor = length_factor(own.word("unit", "units") or "")
@@ -297,13 +300,13 @@ def _step(coordinate: StoredVariable, axis: str, count: int, unit: str | None) -
         return None
     places = coordinate.numbers()
     if own is None and counts(places):
-        return None  # they number the points
-    with np.errstate(all="ignore"):  # of places that are infinite
+        return None  # the coordinates number the points
+    with np.errstate(all="ignore"):  # infinite coordinates
         steps = np.diff(places)
         step = (places[-1] - places[0]) / (count - 1)
         uneven = np.abs(steps - step)
     slack = _EVEN * np.abs(places).max()
-    # A zero or NaN step passes here and is refused with the size of a cell.
+    # A zero or NaN step passes here and is refused later as a size of a cell.
     if (uneven > slack).any():
         raise ContentError(
             f"its coordinates along {axis} are not even", "interpolate to a regular grid first"
@@ -331,5 +334,5 @@ def _periodic(variables: Mapping[str, StoredVariable], axes: tuple[str, ...]) ->
 
 
 def _history(attributes: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the provenance that our own writers leave."""
+    """Return the provenance that this package writes."""
     return tuple(line for line in word_of(attributes.get("input_surface", "")).split("\n") if line)

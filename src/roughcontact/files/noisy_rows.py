@@ -1,4 +1,4 @@
-"""Rows or columns of a map in which damage has put random numbers: related to nothing, and rougher than the others."""
+"""Rows or columns of a map that hold random numbers after damage: uncorrelated, and rougher than the others."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from roughcontact.validation import Array
 __all__ = ["noisy_rows"]
 
 _ENOUGH = 32  # pairs of neighbours in a row
-_DEVIATIONS = 3.0  # standard deviations within which a correlation counts as none
+_DEVIATIONS = 3.0  # standard deviations within which a correlation counts as zero
 _ROUGHER = 4.0  # times the mean step of a typical row
 
 
 def noisy_rows(heights: Array) -> int:
-    """Count the rows, or the columns, with unrelated heights and steps far beyond the typical; 0 if no two adjoin.
+    """Count the rows, or the columns, with unrelated heights and large steps; 0 if no two are adjacent.
 
-    Columns as well, since some formats store a map by them.
+    Columns are counted too, because some formats store a map by columns.
     """
     return max(map(_count, (heights, heights.T))) if heights.ndim == 2 else 0
 
@@ -38,7 +38,7 @@ def _count(heights: Array) -> int:
 
 
 def _unrelated(row: Array) -> bool:
-    """Whether neighbours lie on one side of the median as often as on both."""
+    """Whether two neighbours lie on one side of the median as often as on both."""
     signs = np.sign(row - np.nanmedian(row))
     products = signs[1:] * signs[:-1]
     return bool(np.abs(np.nansum(products)) < _DEVIATIONS * np.sqrt(np.nansum(np.abs(products))))

@@ -1,4 +1,4 @@
-"""A known count of numbers in a text, on lines of any length."""
+"""A known number of heights in a text, on lines of any length."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def grid_of(fields: Sequence[str], shape: tuple[int, int]) -> tuple[Array, tuple
     Raises
     ------
     ContentError
-        If a field is no number, or there are more or fewer than `shape` states.
+        If a field is not a number, or their number differs from that of `shape`.
     """
     expected = shape[0] * shape[1]
     if len(fields) != expected:
         cut = ": it is cut short" if len(fields) < expected else ""
         raise ContentError(
-            f"{len(fields)} numbers are there where it states {shape[0]} rows of {shape[1]}{cut}",
+            f"it holds {len(fields)} numbers and states {shape[0]} rows of {shape[1]}{cut}",
             "copy or export it again, or correct the numbers of rows and columns",
         )
     marks = Marks()

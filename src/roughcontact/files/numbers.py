@@ -1,4 +1,4 @@
-"""A table of numbers in a text: every row whole, every hole named."""
+"""A table of numbers in a text: all rows complete, all gaps reported."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ _ROWS = re.compile(
 )
 _PLAIN = "give rows of numbers only; lines of explanation before them start with #, or read name = value"
 _COMMENT = re.compile(r"(?:#(?!n/?a\b|num\b)|%|//|!)\s*", re.IGNORECASE)  # spreadsheets write #N/A and #NUM!
-# Above a table: a name that no number begins with, and what it is; or the words that end a header.
+# Above a table: a name that does not begin like a number, with a value; or the words that end a header.
 _STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)
 _WORDS = re.compile(r"(?:(?!(?:nan|inf)\b)[^\W\d_]+\s+){2}.*", re.IGNORECASE)  # among such lines
-# Line ends of other systems; what typesetting and Japanese texts have for a minus, a dash and a colon.
+# Line ends of other systems; signs for a minus, a dash and a colon in typeset and in Japanese texts.
 _SIGNS = {"\r\n": "\n", "\r": "\n", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{FULLWIDTH COLON}": ":"}
 _CORNER = re.compile(
     r"(?!nan|inf)[^\W\d_]|[\[(/\\]", re.IGNORECASE
 )  # what a word above a first column begins with
-_TELLING = 32  # bytes, every other one zero, from which a text has two bytes a letter
+_TELLING = 32  # bytes, every other one zero, that show a text of two bytes a letter
 _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 
 
@@ -48,7 +48,7 @@ _PLAIN_MARK = re.compile(r"[-+]?nan", re.IGNORECASE)
 class Table:
     """The numbers of a text, shape (rows, columns), the lines above them without their ``#``, notes and warnings.
 
-    `statements` says whether some of these lines had no ``#``.
+    `statements` is true if some of these lines had no ``#``.
     """
 
     values: Array
@@ -61,9 +61,9 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """What stands above the first column and beside the first row, and what is wrong if those are no places.
+    """The corner of a table with coordinates in its first row and column, and the error if they are not coordinates.
 
-    Where it is empty, a point of the map may be missing there: nothing is wrong.
+    An empty corner may be a missing point of the map, which is not an error.
     """
 
     text: str
@@ -72,7 +72,7 @@ class Corner:
 
 @dataclass(slots=True)
 class Marks:
-    """The marks of missing points that a reader has met, counted by what they say."""
+    """The marks of missing points that a reader has found, with the number of each."""
 
     counts: Counter[str] = field(default_factory=Counter)
 
@@ -95,7 +95,7 @@ class Marks:
         return number
 
     def notes_and_warnings(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return notes, and warnings about marks so short that damage may have left them."""
+        """Return notes, and warnings about marks so short that they may come from damage."""
         notes: list[str] = []
         warnings: list[str] = []
         for text, count in self.counts.items():
@@ -107,9 +107,9 @@ class Marks:
 def parse_table(text: str, *, points: bool = False) -> Table:
     """Return the table in a text separated by blanks, tabs, semicolons or commas.
 
-    Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood beside any
-    separator but the comma itself, and in quotes. A list of `points` may stand under any words, with empty lines
-    between its points, which have places of their own.
+    Lines such as ``width = 1 mm`` may stand above it, without a ``#`` too. A decimal comma is understood with any
+    separator except the comma, and in quotes. A list of `points` may stand under any words and contain empty lines,
+    because each point has its coordinates.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def parse_table(text: str, *, points: bool = False) -> Table:
             rows.append((number, line))
     if not rows:
         raise ContentError("it holds no numbers", _PLAIN)
-    # The rows come first: one that holds no numbers says more about the file than the hole after it.
+    # Errors in the rows come first: a row without numbers is a better message than the gap after it.
     table = _numbers(rows)
     if interrupted:
         raise ContentError(
@@ -163,17 +163,17 @@ def _is_header(line: str, among_statements: bool) -> bool:
 
 
 def _holds_a_point(line: str) -> bool:
-    """Whether a line is that of a point, be one of its numbers damaged."""
+    """Whether a line is that of a point, even if one of its numbers is damaged."""
     return sum(is_number(text.replace(",", ".")) for text in fields_of(line)) > 1
 
 
 def require_rows(comments: Iterable[str], found: int) -> None:
-    """Refuse a text of fewer rows than a comment states."""
+    """Refuse a text with fewer rows than a comment states."""
     stated = stated_rows(comments)
     if stated is not None and stated > found:
         raise ContentError(
-            f"{found} rows are there where it states {stated}: it is cut short",
-            "copy or export it again, or take out that line if it says something else",
+            f"it holds {found} rows and states {stated}: it is cut short",
+            "copy or export it again, or remove that line if it has another meaning",
         )
 
 
@@ -184,7 +184,7 @@ def stated_rows(comments: Iterable[str]) -> int | None:
 
 
 def unended(text: str) -> tuple[str, ...]:
-    """Return a warning where the last line has no end: its last number may lack digits."""
+    """Return a warning if the last line has no end: its last number may lack digits."""
     last = text.rpartition("\n")[2].strip()
     if not last or last.startswith("#"):
         return ()
@@ -195,11 +195,11 @@ def decode(data: bytes) -> str:
     """Return the text with newlines as line ends; the numbers are ASCII in every encoding tried."""
     encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
     if len(data) >= _TELLING and data[1:_TELLING:2] == bytes(_TELLING // 2):
-        encoding = "utf-16-le"  # without its mark
+        encoding = "utf-16-le"  # without a byte-order mark
     try:
         text = data.decode(encoding)
     except UnicodeDecodeError:
-        text = data.decode("latin-1")  # older Western exports: only comments are concerned
+        text = data.decode("latin-1")  # older Western exports: only comments are affected
     if "\0" in text:
         raise ContentError(
             "it is not a text: it holds zero bytes", "rename it to the extension of its format"
@@ -210,7 +210,7 @@ def decode(data: bytes) -> str:
 
 
 def last_digit(number: str) -> float:
-    """Return the unit of the last digit of a number that is printed."""
+    """Return the unit of the last digit of a printed number."""
     mantissa, _, exponent = number.casefold().partition("e")
     return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
@@ -220,7 +220,7 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
     fields = [fields_of(line) for _, line in rows]
     if len(rows) > 1 and not all(map(is_number, fields[0])):
         fields[0] = fields_of(rows[0][1], like=rows[1][1])
-    # A separator closing every row is a habit of some programs; one closing only some rows leaves holes.
+    # Some programs end every row with a separator; if only some rows end with one, values are missing.
     if all(len(row) > 1 and row[-1] == EMPTY for row in fields):
         fields = [row[:-1] for row in fields]
     names: tuple[str, ...] = ()
@@ -248,14 +248,14 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
 
 
 def _are_names(fields: list[list[str]]) -> bool:
-    """Whether the first of two lines names the columns of the other: at least two words; rows may be named too."""
+    """Whether the first of two lines names the columns of the other: at least two words; rows may also be named."""
     if len(fields) < 2 or len(fields[0]) < 2 or not 0 <= len(fields[1]) - len(fields[0]) <= 1:
         return False
     return all(text[0].isalpha() and not is_mark(text) for text in fields[0][fields[0][0] == EMPTY :] if text)
 
 
 def _corner(rows: list[list[str]], where: list[str]) -> Corner | None:
-    """Put NaN where the first row has a word, or nothing at all, above a column; return what stood there."""
+    """Put NaN where the first row has a word, or nothing, above a column; return the original text there."""
     first = rows[0]
     if len(rows) < 2 or not all(map(is_number, first[1:])):
         return None

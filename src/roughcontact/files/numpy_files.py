@@ -36,11 +36,12 @@ __all__ = [
     "write_npy",
 ]
 
-# Keys beside the heights that say what the numbers mean: lengths in metres, first axis y.
+# Keys beside the heights that give the numbers their meaning: lengths in metres, first axis y.
 _MEANINGS = ("spacing", "size", "unit", "periodic", "history", "mask")
 _MAGIC = b"\x93NUMPY"
 _LONGEST = 10_000  # bytes of a header, as in NumPy
-# NumPy evaluates the header as Python; numbers need no more than these, and nothing that can warn. Python 2 wrote 3L.
+# NumPy evaluates the header as Python; arrays of numbers need only these characters, which cannot cause warnings.
+# Python 2 wrote 3L.
 _DESCR = re.compile(r"""['"]descr['"]\s*:\s*['"]([<>|=]?[biufcSUVmM?]\d*(?:\[\w+\])?)['"]""")
 _ORDER = re.compile(r"""['"]fortran_order['"]\s*:\s*(True|False)""")
 _SHAPE = re.compile(r"""['"]shape['"]\s*:\s*\(((?:\d{1,18}L?\s*,\s*)*(?:\d{1,18}L?\s*)?)\)""")
@@ -48,7 +49,7 @@ _SHAPE = re.compile(r"""['"]shape['"]\s*:\s*\(((?:\d{1,18}L?\s*,\s*)*(?:\d{1,18}
 
 @dataclass(frozen=True, slots=True)
 class NpyHeader:
-    """Type and shape of an array, and where in the file its values begin."""
+    """Type and shape of an array, and the position of its values in the file."""
 
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
@@ -66,7 +67,7 @@ class NpyHeader:
         return self.offset + self.points * self.dtype.itemsize
 
     def array(self, data: bytes) -> npt.NDArray[Any]:
-        """Return the values in `data`, the whole file, as they lie there."""
+        """Return the values in `data`, the whole file, without a copy."""
         values: npt.NDArray[Any] = np.ndarray(
             self.shape, self.dtype, data, self.offset, order="F" if self.fortran else "C"
         )
@@ -106,7 +107,7 @@ def read_npy_header(stream: IO[bytes]) -> NpyHeader:
 def read_npy(data: bytes) -> HeightMap:
     """Return the one array of a ``.npy`` file; it states neither unit nor size.
 
-    Points and places beside heights are no heights, see ``heights_alone``.
+    Points, and coordinates beside the heights, are separated from the heights, see ``heights_alone``.
     """
     return heights_alone(HeightMap(as_heights(_array(data)), "npy"))
 
@@ -116,8 +117,8 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
 
     The array is `channel`, or the one named ``heights``, or the only map in the file. The keys ``unit`` (a
     name or metres per unit), ``spacing`` (dy, dx) [m], ``size`` (Ly, Lx) [m], ``periodic`` (one truth value, or
-    one an axis), ``history`` (lines of text) and ``mask`` (true where not measured, as NumPy has it) say what it
-    means, where they are present. Under another key than ``heights`` numbers may be points, or hold places.
+    one an axis), ``history`` (lines of text) and ``mask`` (true where not measured, as in NumPy) give its meaning, if
+    they are present. Under another key than ``heights`` numbers may be points, or hold coordinates.
     """
     arrays = _arrays(data)
     names = _channels(arrays)
@@ -142,7 +143,7 @@ def read_npz(data: bytes, channel: str | int | None) -> HeightMap:
 
 
 def list_npz(data: bytes) -> tuple[Channel, ...]:
-    """Return the arrays of a ``.npz`` file, the keys with a meaning of their own left out."""
+    """Return the arrays of a ``.npz`` file, without the keys of its metadata."""
     arrays = _arrays(data)
     unit = _unit(arrays["unit"]) if "unit" in arrays else None
     found = []
@@ -157,17 +158,17 @@ def list_npz(data: bytes) -> tuple[Channel, ...]:
 
 
 def whole_npy_header(stream: IO[bytes], size: int) -> NpyHeader:
-    """Return the header of an array that fills a file of so many bytes: nothing is missing, left over or pickled.
+    """Return the header of an array that fills a file of `size` bytes exactly, without pickled objects.
 
     Raises
     ------
     ContentError
-        If it does not.
+        If it does not fill the file.
     """
     try:
         header = read_npy_header(stream)
         if header.size > size:
-            raise InputError(f"{size} of {header.size} bytes are there")
+            raise InputError(f"it holds {size} of {header.size} bytes")
     except (ValueError, OverflowError) as error:
         raise _not_whole(error) from error
     if header.size < size:
@@ -221,7 +222,7 @@ def _unit(value: npt.NDArray[Any]) -> str | float:
 
 
 def _periodic(arrays: Mapping[str, npt.NDArray[Any]], ndim: int) -> bool | tuple[bool, ...]:
-    """Return whether the file says that the surface repeats itself: one word, or one for each axis."""
+    """Return whether the file states that the surface repeats itself: one value, or one for each axis."""
     value = arrays.get("periodic", np.array(False))
     if value.size not in (1, ndim) or value.dtype.kind not in "biu":
         raise ContentError(f"its key 'periodic' holds {value!r}", "save one truth value, True or False")
@@ -262,7 +263,7 @@ def npy_bytes(surface: Surface) -> bytes:
 
 
 def write_npy(heights: SlabArray, path: str | os.PathLike[str]) -> None:
-    """Write heights in slabs as ``numpy.save`` would, by all processes: each its rows."""
+    """Write heights in slabs like ``numpy.save``: each process writes its rows."""
     functions, mine = heights.functions, np.ascontiguousarray(heights.local, "<f8")
     before = heights.edges[functions.rank] * math.prod(heights.shape[1:]) * mine.itemsize
 
@@ -287,7 +288,7 @@ def write_npy(heights: SlabArray, path: str | os.PathLike[str]) -> None:
 
 
 def npz_bytes(surface: Surface) -> bytes:
-    """Return a surface with all that it knows as a ``.npz`` file."""
+    """Return a surface with all its metadata as a ``.npz`` file."""
     stream = BytesIO()
     np.savez_compressed(
         stream,

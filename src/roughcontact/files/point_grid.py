@@ -16,7 +16,7 @@ __all__ = ["PointGrid", "grid_of_points"]
 
 # Coordinates are printed with few digits: a point may lie this far from its place, in steps of the grid.
 _SLACK = 0.1
-# Places of scattered points, printed with few digits, lie on a grid too; they fill much less of it.
+# Scattered points that are printed with few digits also lie on a grid, but fill much less of it.
 _LEAST_FILLED = 0.02
 _REMEDY = "give points on a regular grid, one a place; interpolate scattered points first"
 
@@ -25,7 +25,7 @@ _REMEDY = "give points on a regular grid, one a place; interpolate scattered poi
 class PointGrid:
     """Heights (ny, nx), the row of the smallest y first, the steps (dy, dx) between them, and warnings.
 
-    `numbered` says whether the coordinates number the places, 0, 1, 2, ... or from 1, along both axes.
+    `numbered` is true if the coordinates only number the points, 0, 1, 2, ... or from 1, along both axes.
     """
 
     heights: Array
@@ -81,10 +81,10 @@ def _places(coordinates: Array, axis: str) -> tuple[npt.NDArray[np.intp], float]
             "give a two-dimensional map, or use read_line on places and heights",
         )
     gaps = np.diff(levels)
-    # The smallest gap is off by the printed digits; the median of those like it is not.
+    # The smallest gap has the rounding error of printed digits; the median of similar gaps has not.
     step = float(np.median(gaps[gaps < 1.5 * gaps.min()]))
     counted = np.rint(gaps / step)
-    # Places are counted gap by gap, so that rounding does not add up along the axis.
+    # Points are counted gap by gap: rounding does not add up along the axis.
     if counted.sum() > 4 * len(coordinates) or (np.abs(gaps / step - counted) > _SLACK).any():
         raise ContentError(f"its points are scattered: the steps in {axis} are not equal", _REMEDY)
     places = np.concatenate([[0], np.cumsum(counted)]).astype(np.intp)

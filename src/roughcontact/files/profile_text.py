@@ -20,7 +20,7 @@ from roughcontact.validation import Array
 
 __all__ = ["read_profile"]
 
-# Places may lie so far from even ones: in steps, or in units of their last printed digit.
+# Largest deviation of places from even ones: in steps, or in units of their last printed digit.
 _SLACK = 0.1
 _PRINTED = 1.001
 _UNIT = r"[^\W\d_]{1,10}"
@@ -34,9 +34,9 @@ def read_profile(data: bytes) -> HeightMap:
 
     Lines of words come first; their last one may name the units of two columns, in brackets or as last words
     (``Lateral um, Raw Micrometer``). Then every line is a row of one or two numbers to the end of the file. A line
-    such as ``Length, 1500 um`` is compared with the places. A third column that the words call ``valid`` says by 1 and
-    0 which heights were measured, as in the profiles headed ``X;Y;valid`` and ``[mm];[mm];[1/0]``. A line such as
-    ``nodata = -9999`` states what stands where nothing was measured, as in a map.
+    such as ``Length, 1500 um`` is compared with the places. A third column named ``valid`` marks by 1 and 0 which
+    heights were measured, as in the profiles headed ``X;Y;valid`` and ``[mm];[mm];[1/0]``. A line such as ``nodata =
+    -9999`` states the mark of points that were not measured, as for a map.
     """
     text = decode(data)
     if dialect_of(text) is not None:
@@ -82,7 +82,7 @@ def read_profile(data: bytes) -> HeightMap:
 
 
 def _unclear(lateral: str | None, unit: str | None, places: Array) -> str | None:
-    """Return why the unit of places is open; None where they may be in that of the heights, as nothing states one."""
+    """Return why the unit of the places is unclear; None without any unit, when that of the heights may apply."""
     if lateral is not None:
         return f"places in {lateral!r}"
     if unit is not None:
@@ -93,7 +93,7 @@ def _unclear(lateral: str | None, unit: str | None, places: Array) -> str | None
 def _without_name(
     words: list[str], rows: list[list[str]]
 ) -> tuple[list[str], list[list[str]], tuple[str, ...]]:
-    """Return rows without a first one that is 0, the name that data frames give to a lone column of heights."""
+    """Return rows without a first row 0, the name that data frames give to a single column."""
     if rows[0] == ["0"] and len(rows) > 2 and all("." in row[0] or is_mark(row[0]) for row in rows[1:]):
         return words, rows[1:], ("its first number, 0, is taken for the name of the column, and left out",)
     return words, rows, ()
@@ -125,14 +125,14 @@ def _split(text: str) -> tuple[list[str], list[list[str]]]:
 
 
 def _trimmed(fields: list[str], fewest: int) -> list[str]:
-    """Return fields without the empty ones at their end, where at least so many are left."""
+    """Return fields without the empty ones at their end, of which at least `fewest` fields are left."""
     while len(fields) > fewest and fields[-1] == EMPTY:
         fields = fields[:-1]
     return fields
 
 
 def _is_row(fields: list[str], judged: bool) -> bool:
-    """Whether fields are a row: a number, then numbers or marks of missing points; a lone mark is one too."""
+    """Whether fields are a row: a number, then numbers or marks of missing points; or a single mark."""
     known = [is_number(field.replace(",", ".")) for field in fields]
     if not fields or not all(number or is_mark(field) for number, field in zip(known, fields, strict=True)):
         return False
@@ -144,20 +144,20 @@ def _is_row(fields: list[str], judged: bool) -> bool:
 
 
 def _of_validity(words: list[str]) -> bool:
-    """Whether the last two lines of words call the third of three columns that of validity."""
+    """Whether the last two lines of words name the third of three columns as that of validity."""
     columns = (re.split(r"\s*[,;\t]\s*|\s+", line) for line in words[-2:])
     return any(len(each) == 3 and VALIDITY.fullmatch(each[2]) for each in columns)
 
 
 def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
-    """Return the step of places that are even but for their printed digits, and a remark where that matters."""
+    """Return the step of places that are even except for their printed digits, and a remark where that matters."""
     count = len(places)
     step = float((places[-1] - places[0]) / (count - 1))
     if not step > 0:
         raise ContentError(f"its places run from {places[0]:g} to {places[-1]:g}", "sort the rows by place")
     digit = min(last_digit(text) for text in printed)
     error = float(np.abs(places - places[0] - step * np.arange(count)).max())
-    # The two ends are rounded as well: half a digit of each place, and of the line through the ends.
+    # The two ends are also rounded: half a digit of each place, and of the line through the ends.
     if not error <= max(_SLACK * step, _PRINTED * digit, 1e-6 * abs(places).max()):
         raise ContentError(
             f"its places are not even: one is {error:g} off steps of {step:g}",
@@ -169,7 +169,7 @@ def _step(places: Array, printed: list[str]) -> tuple[float, tuple[str, ...]]:
 
 
 def _announced(words: list[str], span: float) -> tuple[str, ...]:
-    """Return a warning where a line of words announces another length [m] than the places cover."""
+    """Return a warning if a line of words announces another length [m] than the places cover."""
     for line in words:
         parts = re.fullmatch(rf"(?:scan )?length\s*[,:;=\t]\s*([\d.]+\s*{_UNIT})", line, re.IGNORECASE)
         if parts is None:

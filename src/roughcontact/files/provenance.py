@@ -1,4 +1,4 @@
-"""Where a result comes from: versions, inputs and their fingerprint, settings, time."""
+"""The origin of a result: versions, inputs and their fingerprint, settings, time."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ def provenance(
     command: Sequence[str] | str | None = None,
     recipe: Mapping[str, Any] | None = None,
 ) -> dict[str, str | float]:
-    """Return what a result needs to be understood and repeated, as attributes of a file.
+    """Return the information that is needed to understand and repeat a result, as attributes of a file.
 
     Parameters
     ----------
     surface : Surface, optional
-        The surface that was pressed: its history is written down, its heights and grid are hashed.
+        The surface that was pressed: its history is recorded, its heights and grid are hashed.
     modulus : float, optional
         Reduced modulus [Pa].
     control : str, optional
-        What was prescribed, in words with units: ``"force = 10.0 N"``.
+        The prescribed quantity, in words with units: ``"force = 10.0 N"``.
     tolerance : float, optional
-        Tolerance asked of the certificate.
+        Requested tolerance of the certificate.
     command : str or sequence of str, optional
-        The command line, where there was one.
+        The command line, if there was one.
     recipe : mapping, optional
         The job as plain values, which are written as JSON.
 
@@ -79,7 +79,7 @@ def provenance(
 
 
 def _plain(value: str | float) -> str | float:
-    """Return words that every file can hold: bytes of a file name that are no letters become question marks."""
+    """Return text that every file can hold: bytes of a file name that are not letters become question marks."""
     return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 
 

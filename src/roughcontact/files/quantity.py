@@ -1,4 +1,4 @@
-"""A number with its unit, as people write it, to plain SI: "10 N", "110GPa", "1e-6 m"."""
+"""Numbers with units in ordinary notation, converted to SI: "10 N", "110GPa", "1e-6 m"."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ __all__ = [
     "unit_in",
 ]
 
-# A number in the way programs write it, then whatever is left as the unit.
+# A number as programs write it; the rest is the unit.
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
-# A product or quotient of names with small powers; arithmetic beyond it could take for ever.
+# A product or quotient of names with small powers; more general arithmetic could take very long.
 _NAME = r"[^\W\d_]+(?:(?:\*\*|\^)?-?\d|[²³])?"
 _PRODUCT = rf"{_NAME}(?:\s*[*·]\s*{_NAME})*"
 _UNIT = re.compile(rf"{_NAME}(?:\s*[*/·]\s*{_NAME})*|{_PRODUCT}\s*/\s*\(\s*{_PRODUCT}\s*\)")
-# Powers of ten of SI units that no body, force or pressure comes near; squares and products of them stay finite.
+# SI values far beyond any body, force or pressure; their squares and products stay finite.
 _SMALLEST, _LARGEST = 1e-30, 1e30
-# Before N, m and Pa: pint, which knows all other units, takes longer to load than a small contact to solve.
+# For N, m and Pa: pint, which reads all other units, takes longer to load than a small contact takes to solve.
 _PREFIXES = {
     **{"p": 1e-12, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2},
     **{"k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12},
@@ -70,7 +70,7 @@ def parse(text: str, kind: Kind) -> float:
     Raises
     ------
     ValueError
-        If the text is no finite number with a unit of that kind.
+        If the text is not a finite number with a unit of that kind.
     """
     remedy = f"write {kind.name} such as {kind.example}"
     match = _NUMBER.fullmatch(text)
@@ -83,19 +83,17 @@ def parse(text: str, kind: Kind) -> float:
     if not math.isfinite(value):
         raise InputError(f"{text!r} is not a finite number", remedy)
     if value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
-        raise InputError(
-            f"{text!r} is beyond anything of this world", f"check its exponent and unit; {remedy}"
-        )
+        raise InputError(f"{text!r} is out of range", f"check its exponent and unit; {remedy}")
     return value
 
 
 def has_unit(text: str) -> bool:
-    """Return whether anything stands behind the number in a text."""
+    """Return whether anything follows the number in a text."""
     return unit_in(text) != ""
 
 
 def unit_in(text: str) -> str:
-    """Return what stands behind the number in a text; all of a text without a number."""
+    """Return the text after the number; the whole text if it does not begin with a number."""
     match = _NUMBER.fullmatch(text)
     return text if match is None else match[2]
 
@@ -106,7 +104,7 @@ def parse_number(text: str, example: str) -> float:
     Raises
     ------
     ValueError
-        If the text is no finite number.
+        If the text is not a finite number.
     """
     remedy = f"write a number such as {example}"
     match = _NUMBER.fullmatch(text)
@@ -119,13 +117,15 @@ def parse_number(text: str, example: str) -> float:
 
 def _factor(unit: str, kind: Kind, text: str) -> float:
     """Return how many SI units of `kind` one `unit` is."""
-    prefix = unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit  # not of m^2: (mm)^2 is none of it
+    prefix = (
+        unit.removesuffix(kind.unit) if kind.unit.isalpha() else unit
+    )  # not for m^2: mm^2 is not 1e-3 m^2
     if prefix != unit and prefix in _PREFIXES:
         return _PREFIXES[prefix]
     from roughcontact.units import registry  # late: it brings NumPy, and pint when it is called
 
     remedy = f"write {kind.name} such as {kind.example}"
-    # Asked for a unit that is right first: a broken pint is not the fault of the given one.
+    # A correct unit is tried first: an error there means that pint is broken, not that the given unit is wrong.
     units = registry()
     wanted = units.parse_units(kind.unit).dimensionality
     try:
@@ -133,7 +133,7 @@ def _factor(unit: str, kind: Kind, text: str) -> float:
             raise InputError(unit)
         given = units.Quantity(1.0, units.parse_units(unit))
         right = given.check(wanted)
-    except Exception as error:  # pint answers a bad unit with many classes, those of its tokenizer among them
+    except Exception as error:  # pint raises many classes for a bad unit, also those of its tokenizer
         raise InputError(f"unknown unit {unit!r} in {text!r}", remedy) from error
     if not right:
         raise InputError(f"{text!r} is not {kind.name}", remedy)

@@ -54,17 +54,16 @@ def read(
     channel : str or int, optional
         Name of the channel, or its position counted from 0. Without it the height is found by name and unit.
     unit : str or float, optional
-        Unit of the heights in the file, such as ``"nm"``, any length that pint knows, or metres per unit. It goes
-        before what the file states.
+        Unit of the heights in the file, such as ``"nm"``, any length that pint reads, or metres per unit. It overrides
+        the unit in the file.
     size : length or pair of lengths, optional
-        Width Lx of a map of square cells, or ``(Ly, Lx)``: numbers [m] or texts such as ``"10 um"``. Lengths
-        are those of all cells, ``n * spacing``. It goes before what the file states.
+        Width Lx of a map of square cells, or ``(Ly, Lx)``: numbers [m] or texts such as ``"10 um"``. Lengths are those
+        of all cells, ``n * spacing``. It overrides the size in the file.
     periodic : bool or pair of bool, optional
-        Whether the surface repeats itself (along y and x). Without it the file decides; one that is silent
-        is read as free.
+        Whether the surface repeats itself (along y and x). By default as the file states; free if it states nothing.
     slabs : Slabs, optional
-        Processes that read it together, as a surface in slabs: of ``.npy`` each reads its rows, any other file is
-        read by the first, which deals it out. Spikes and noise of ``.npy`` are not looked for.
+        Processes that read it together, as a surface in slabs: each process reads its rows of a ``.npy`` file; any
+        other file is read by the first process, which distributes it. Spikes and noise in ``.npy`` are not searched.
 
     Returns
     -------
@@ -75,16 +74,16 @@ def read(
     Raises
     ------
     ReadError
-        If the file is missing, empty, damaged, not a map, or silent about a unit or size not given here.
+        If the file is missing, empty, damaged or not a map, or states no unit or size and none is given here.
     ValueError
         If `unit` or `size` is not a length.
 
     Warns
     -----
     SurfaceWarning
-        If several channels may be meant, if numbers were left out that are places and no heights, or read as missing
-        points without a word of the file, or if the size or the heights are rarely those of a surface: lone spikes,
-        slopes or heights beyond measure, one number again and again, random numbers.
+        If several channels fit, if coordinates beside the heights were left out, if numbers were read as missing
+        points though the file does not state them, or if the size or the heights are unusual: spikes, steep slopes,
+        large heights, one number that is repeated, random numbers.
 
     Examples
     --------
@@ -117,22 +116,22 @@ def read_line(
     channel : str or int, optional
         Name of the channel, or its position counted from 0, as for `read`.
     unit : str or float, optional
-        Unit of the heights in the file, such as ``"nm"``, or metres per unit. It goes before what the file states.
+        Unit of the heights in the file, such as ``"nm"``, or metres per unit. It overrides the unit in the file.
     size : length, optional
-        Length of the profile, ``n * spacing``: a number [m] or a text such as ``"10 um"``. It goes before what the
-        file states.
+        Length of the profile, ``n * spacing``: a number [m] or a text such as ``"10 um"``. It overrides the length in
+        the file.
     periodic : bool, optional
-        Whether the profile repeats itself. Without it the file decides; one that is silent is read as free.
+        Whether the profile repeats itself. By default as the file states; free if it states nothing.
 
     Returns
     -------
     Surface
-        To be pressed, it needs an operator of its own kind: ``press(line, modulus, operator=...)``.
+        To press it, pass an operator for lines: ``press(line, modulus, operator=...)``.
 
     Raises
     ------
     ReadError
-        If the file is missing, empty, damaged, a map, unevenly spaced, or silent about a unit or size not given.
+        If the file is missing, empty, damaged, a map or unevenly spaced, or states no unit or size and none is given.
     ValueError
         If `unit` or `size` is not a length.
 
@@ -160,9 +159,9 @@ def read_either(
     size: Size | None = None,
     periodic: bool | None = None,
 ) -> Surface:
-    """Return the map of heights in a file, or the profile where it holds one instead.
+    """Return the map of heights in a file, or the profile if it holds a profile instead.
 
-    For what serves both alike. The arguments, errors and warnings are those of `read` and `read_line`; a file that
+    For functions that accept both. The arguments, errors and warnings are those of `read` and `read_line`; a file that
     may be either, such as a text of two columns under a header of a map, counts as a map.
     """
     return _read(path, either, None, channel, unit, size, periodic)
@@ -194,7 +193,7 @@ def _read(
     if unit is not None:
         length_factor(unit)  # a wrong keyword is refused before the file is touched
     if size is not None:
-        # Where the file decides between a map and a line, one length or two may be right.
+        # If the file decides between a map and a line, one length or two can be right.
         axes = ndim or (len(size) if isinstance(size, tuple) and len(size) == 2 else 1)
         cell_of(size, (1,) * axes)
     stated: dict[str, Any] = {"unit": unit, "size": size, "periodic": periodic}
@@ -220,7 +219,7 @@ def _read(
 def _dealt(
     slabs: Slabs, read: Callable[[], tuple[Surface, tuple[str, ...]]]
 ) -> tuple[Surface, tuple[str, ...]]:
-    """Return a surface in slabs, which the first process reads and deals out, and its warnings."""
+    """Return a surface in slabs, which the first process reads and distributes, and its warnings."""
     whole: list[Array] = []
 
     def read_here() -> tuple[Any, ...]:
@@ -239,7 +238,9 @@ def _npy_rows(path: str | os.PathLike[str], slabs: Slabs) -> tuple[HeightMap, st
     def look() -> tuple[NpyHeader, str]:
         with named(path), ordinary_file(path) as stream:
             header = whole_npy_header(stream, os.fstat(stream.fileno()).st_size)
-            as_heights(np.zeros((1,) * len(header.shape), header.dtype))  # refuses what is none
+            as_heights(
+                np.zeros((1,) * len(header.shape), header.dtype)
+            )  # refuses arrays that are not heights
             require_map(HeightMap(np.broadcast_to(0.0, header.shape), "npy"))
             _require_heights_alone(_mapped(stream, header))
             stream.seek(0)
@@ -263,10 +264,10 @@ def _mapped(stream: Any, header: NpyHeader) -> npt.NDArray[Any]:
 
 
 def _require_heights_alone(values: npt.NDArray[Any]) -> None:
-    """Refuse points and axes, which are recognised where one process reads the file."""
+    """Refuse points and axes, which are only recognised if one process reads the file."""
     require_no_list(values.shape)
     if values.ndim == 2 and (points_in(values) is not None or axes_of(values) is not None):
         raise ContentError(
             "it holds points x, y, z, or places in its first row or column, beside heights",
-            "read it by one process, or save the heights alone",
+            "read it by one process, or save only the heights",
         )

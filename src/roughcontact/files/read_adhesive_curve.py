@@ -1,4 +1,4 @@
-"""Read a path of surfaces that stick back from the file that `write` made of it."""
+"""Read a path of adhesive contact from a file that `write` has written."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _SCALARS = (*_SCALES, "unresolved", "adhesion_range", "allow_unresolved")
 
 
 def read_adhesive_curve(path: str | os.PathLike[str]) -> AdhesiveCurve:
-    """Return the path of surfaces that stick in a ``.nc`` file that `write` made of it.
+    """Return the path of adhesive contact in a ``.nc`` file that `write` has written.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def read_adhesive_curve(path: str | os.PathLike[str]) -> AdhesiveCurve:
     Returns
     -------
     AdhesiveCurve
-        To the last bit the one that was written.
+        Identical to the last bit to the curve that was written.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Read a loading curve back from the file that `write` made of it."""
+"""Read a loading curve from a file that `write` has written."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _SCALES, _FLOW = names_of(SCALES), names_of(FLOW)
 
 
 def read_curve(path: str | os.PathLike[str]) -> Curve:
-    """Return the loading curve in a ``.nc`` file that `write` made of it.
+    """Return the loading curve in a ``.nc`` file that `write` has written.
 
-    Columns that others have added to the file, such as theories and conductances, are passed over.
+    Further columns of the file, such as theories and conductances, are ignored.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
     Returns
     -------
     Curve
-        To the last bit the one that was written.
+        Identical to the last bit to the curve that was written.
 
     Raises
     ------

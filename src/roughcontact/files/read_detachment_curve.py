@@ -1,4 +1,4 @@
-"""Read a curve of stuck surfaces that are drawn back from the file that `write` made of it."""
+"""Read a curve of detachment from a file that `write` has written."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _SCALES = ("modulus", "nominal_area", "rms", "preload_too_small")
 
 
 def read_detachment_curve(path: str | os.PathLike[str]) -> DetachmentCurve:
-    """Return the curve of stuck surfaces in a ``.nc`` file that `write` made of it.
+    """Return the curve of detachment in a ``.nc`` file that `write` has written.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def read_detachment_curve(path: str | os.PathLike[str]) -> DetachmentCurve:
     Returns
     -------
     DetachmentCurve
-        To the last bit the one that was written.
+        Identical to the last bit to the curve that was written.
 
     Raises
     ------

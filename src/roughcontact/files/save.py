@@ -1,4 +1,4 @@
-"""Write a surface or a loaded state, in the format that the extension asks for."""
+"""Write a surface or a loaded state in the format of the extension."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 __all__ = ["csv_of", "require_surface_file", "write", "write_solution"]
 
 Field = npt.NDArray[np.generic]
-# Components by their place, name and sign in a picture whose rows are turned up.
+# Components by index, name and sign in a picture whose rows are reversed.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
 Pressed = Solution | TangentialSolution | AdhesiveState | DetachmentState
 Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
@@ -63,12 +63,12 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
                 loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
                 adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
     ``.csv``    a curve, a loop, or the table of an interface: one line a load
-    ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, but for ``periodic`` and the
+    ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, except ``periodic`` and the
                 history, for which the format has no place
     ``.txt``    a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
-                read back but for ``periodic`` and the history, the spacing to rounding
-    ``.npy``    the heights of a surface [m] and nothing else: unit and size are to be stated when it is read
-    ``.vti``    a surface or the fields of a solution for ParaView; y points up, as its pictures do
+                read back except ``periodic`` and the history, the spacing to rounding
+    ``.npy``    only the heights of a surface [m]: state unit and size when you read it
+    ``.vti``    a surface or the fields of a solution for ParaView; y points up, as in its pictures
     ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in the `units` of a model
     ``.table``  the table of an interface: energy and force against mean gap for LAMMPS (``units si``)
     ==========  ==================================================================================================
@@ -78,17 +78,17 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
     Parameters
     ----------
     what : Surface, Solution, Curve or another answer
-        What is written.
+        Object to write.
     path : str or path
-        File to write; one that is there is replaced. ``"-"`` is standard output, for a surface as ``.npz``, ``"nc:-"``
+        File to write; an existing file is replaced. ``"-"`` is standard output, for a surface as ``.npz``, ``"nc:-"``
         for one of the other formats.
     units : {"SI", "mm"}
-        Of ``.inp``: metres, newtons and pascals, or millimetres, newtons and megapascals. All other files are in SI.
+        For ``.inp``: metres, newtons and pascals, or millimetres, newtons and megapascals. All other files are in SI.
 
     Raises
     ------
     InputError
-        If `units` is neither, or not SI for another file than ``.inp``.
+        If `units` is neither of these, or not SI for another file than ``.inp``.
     WriteError
         If the extension is not in the table or not for this value, or if the file cannot be written.
 
@@ -103,7 +103,7 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
     if units not in UNIT_SYSTEMS or (units != "SI" and kind_of(path) != ".inp"):
         raise InputError(
             f"{path} is not written in the units {units!r}",
-            "leave units out, or choose SI or mm for a file .inp",
+            "omit units, or choose SI or mm for a file .inp",
             "units",
         )
     if isinstance(what, Curves):
@@ -124,7 +124,7 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
     formats: Mapping[str, Callable[[Any], bytes]] = (
         _OF_A_SURFACE if isinstance(what, Surface) else _OF_A_SOLUTION
     )
-    hint = "; write solution.problem.surface for its heights alone" if isinstance(what, Solution) else ""
+    hint = "; write solution.problem.surface for only its heights" if isinstance(what, Solution) else ""
     kind = _require_kind(path, type(what).__name__, formats, hint)
     encoded = analysed_on_host(formats[kind])
     here = what.on_host() if isinstance(what, Solution | TangentialSolution) else what
@@ -142,7 +142,7 @@ def csv_of(curve: Curves | InterfaceTable, path: str | os.PathLike[str]) -> None
     ----------
     curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve or InterfaceTable
     path : str or path
-        File to write, whatever its extension; one that is there is replaced.
+        File to write, whatever its extension; an existing file is replaced.
 
     Raises
     ------
@@ -188,7 +188,7 @@ def write_solution(
 
 
 def require_surface_file(path: str | os.PathLike[str], *, in_slabs: bool = False) -> None:
-    """Refuse, before any work is done, a file that `write` could not write a surface to.
+    """Refuse, before any work is done, a path to which `write` could not write a surface.
 
     Raises
     ------
@@ -235,7 +235,7 @@ def _solution_vti(solution: Pressed) -> bytes:
 
 
 def _pressed(solution: Pressed) -> Solution | AdhesiveState | DetachmentState:
-    """Return the state under the normal force alone."""
+    """Return the state under the normal force only."""
     return solution.problem.pressed if isinstance(solution, TangentialSolution) else solution
 
 
@@ -250,7 +250,7 @@ def _fields(solution: Solution | AdhesiveState | DetachmentState, surface: Body 
 
 
 def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
-    """Return components by name; with the picture, which is turned up, those along y change their sign."""
+    """Return components by name; those along y change their sign, because the rows of the picture are reversed."""
     vectors = {"traction": on_host(solution.traction), "slip": on_host(solution.slip)}
     parts = {
         f"{name}_{axis}": sign * field[at] for name, field in vectors.items() for at, axis, sign in _UPRIGHT
@@ -274,13 +274,13 @@ def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
     """Return cell fields, each of the shape of the grid, as ImageData of VTK: an XML header, and the numbers appended.
 
     NaN stays NaN, truth values are 0 and 1.
-    The first row is the top of the picture: rows are turned round, so that y counts upwards from the lower left
-    corner of the map.
+    The first row is the top of the picture: rows are reversed, and y counts upwards from the lower left corner of the
+    map.
 
     Raises
     ------
     ValueError
-        If the grid is one of rings, which image data cannot hold.
+        If the grid has rings, which image data cannot hold.
     """
     if isinstance(grid, RadialGrid):
         raise InputError("ParaView's image data hold cells in rows, not rings", "write another format")

@@ -24,13 +24,13 @@ _STEPS = ("Xscale", "Yscale", "Zscale")
 _FLAGS = ("Compression", "DataType", "CheckType")
 _NAMES = (*_COUNTS, *_STEPS, *_FLAGS)
 _WORDS = 34  # bytes: the manufacturer and two dates
-_OLYMPUS = struct.pack("<2I", 5, 1)  # behind the header of files that Olympus software writes
+_OLYMPUS = struct.pack("<2I", 5, 1)  # after the header of files that Olympus software writes
 _MISSING = {"bad", "nan"}
 _AGAIN = "copy the file again, or export it as X3P"
 
 
 def read_sdf(data: bytes) -> HeightMap:
-    """Return the one map or profile of the file, its first profile as the first row."""
+    """Return the one map or profile of the file, with its first profile as the first row."""
     mark = _MARK.match(data)
     if mark is None:
         raise ContentError(
@@ -68,7 +68,7 @@ def _binary_header(data: bytes, mark: re.Match[bytes]) -> tuple[dict[str, float]
 
 
 def _text_header(data: bytes) -> tuple[dict[str, float], int, str]:
-    """Return the numbers of a header in text, by name, and the text behind it; a ; begins a comment."""
+    """Return the numbers of a header in text, by name, and the text after it; a ; begins a comment."""
     text = re.sub(r";[^\n]*", "", decode(data))
     end = re.search(r"^[ \t]*\*", text, re.MULTILINE)
     if end is None:
@@ -91,7 +91,7 @@ def _text_header(data: bytes) -> tuple[dict[str, float], int, str]:
 
 
 def _checked(header: dict[str, float]) -> tuple[tuple[int, int], tuple[float, float, float]]:
-    """Return (ny, nx) and the steps (x, y, z) [m] of a header without anything that is not read here."""
+    """Return (ny, nx) and the steps (x, y, z) [m] of a header; refuse values that are not supported."""
     for name in (*_COUNTS, *_FLAGS):
         least = 1 if name in _COUNTS else 0
         if not (header[name] >= least and header[name] == int(header[name])):
@@ -102,7 +102,7 @@ def _checked(header: dict[str, float]) -> tuple[tuple[int, int], tuple[float, fl
     if header["DataType"] >= len(_TYPES):
         raise ContentError(f"its heights are of type {header['DataType']:g}, not one of 0 to 7", _AGAIN)
     for name in _STEPS:
-        # The distance of profiles has no meaning where there is one.
+        # The distance between profiles has no meaning if there is only one.
         alone = name == "Yscale" and header["NumProfiles"] == 1
         if not alone and not (math.isfinite(header[name]) and header[name] > 0):
             raise ContentError(f"its header states {header[name]:g} for {name}", _AGAIN)
@@ -113,14 +113,14 @@ def _checked(header: dict[str, float]) -> tuple[tuple[int, int], tuple[float, fl
 def _binary(
     data: bytes, start: int, shape: tuple[int, int], dtype: np.dtype[np.generic]
 ) -> tuple[Array, tuple[str, ...]]:
-    """Return the numbers behind a binary header, and a warning where other bytes than a text follow them."""
+    """Return the numbers after a binary header, and a warning if other bytes than a text follow them."""
     size = math.prod(shape) * dtype.itemsize
     if data[start:].startswith(_OLYMPUS) and len(data) - start == size + len(_OLYMPUS):
         start += len(_OLYMPUS)
     rest = data[start + size :]
     if len(data) < start + size:
         raise ContentError(
-            f"{len(data) - start} of {size} bytes of heights are there: it is cut short", _AGAIN
+            f"it holds {len(data) - start} of {size} bytes of heights: it is cut short", _AGAIN
         )
     warnings: tuple[str, ...] = ()
     if rest and not (rest.isascii() and re.match(rb"\s*[*<\w]", rest) and len(rest) > dtype.itemsize):
@@ -143,21 +143,22 @@ def _listed(text: str, shape: tuple[int, int]) -> tuple[Array, tuple[str, ...]]:
         try:
             values.append(math.nan if entry.casefold() in _MISSING else float(entry.replace("_", "?")))
         except ValueError:
-            raise ContentError(f"its height {index + 1} is {entry[:30]!r}, no number", _AGAIN) from None
+            raise ContentError(f"its height {index + 1} is {entry[:30]!r}, not a number", _AGAIN) from None
     return np.array(values).reshape(shape), () if ended else unended(text)
 
 
 def _not_measured(
     values: Array, dtype: np.dtype[np.generic], old: bool
 ) -> tuple[npt.NDArray[np.bool_], tuple[str, ...]]:
-    """Return the points that carry the mark of their type, and a warning where that mark is a height to other readers.
+    """Return the points that carry the mark of their type, and a warning if other readers treat that mark as a height.
 
-    ISO 25178-71 takes the lowest number, for unsigned ones the highest; the BCR proposal takes the highest, but files
-    with its mark and the lowest exist. A range of 256 steps leaves no room for a mark that all readers know.
+    ISO 25178-71 uses the lowest number, for unsigned ones the highest; the BCR proposal uses the highest, but files
+    with its mark and the lowest number exist. A range of 256 steps leaves no room for a mark that all readers agree
+    on.
     """
     missing = np.isnan(values)
     if dtype.kind == "f":
-        # As text its lowest and highest numbers are rounded.
+        # In text the lowest and highest numbers are rounded.
         return missing | (np.abs(values) > (1 - 1e-6) * float(np.finfo(dtype.name).max)), ()
     limits = np.iinfo(dtype.name)
     lowest, highest = values == limits.min, values == limits.max

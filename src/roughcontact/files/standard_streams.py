@@ -15,35 +15,33 @@ from roughcontact.files.file_errors import ContentError
 __all__ = ["kind_of", "standard", "standard_input", "write_standard_output"]
 
 _NAME = re.compile(r"(?:(\w+):)?-")
-_FORMAT = "npz"  # which keeps everything
+_FORMAT = "npz"  # this format keeps everything
 
 
 def standard(path: str | os.PathLike[str]) -> str | None:
-    """Return the extension of the format in which a path stands for standard input or output; None of other paths."""
+    """Return the extension of the format if a path stands for standard input or output, otherwise None."""
     match = _NAME.fullmatch(os.fsdecode(path))
     return None if match is None else f".{match[1] or _FORMAT}".casefold()
 
 
 def kind_of(path: str | os.PathLike[str]) -> str:
-    """Return the extension of a file, or of the format that standard input or output has, in small letters."""
+    """Return the extension of a file, or of the format of standard input or output, in lower case."""
     return standard(path) or os.path.splitext(os.fsdecode(path))[1].casefold()
 
 
 def standard_input(path: str | os.PathLike[str]) -> bytes:
-    """Return what came in by standard input, again and again; a format that is not named is looked for.
+    """Return the bytes of standard input, the same at each call; a format that is not named is detected.
 
     Raises
     ------
     ContentError
-        If nothing came in, or something else than a path without a format stands for.
+        If standard input is empty, or not in the default format and no format is named.
     """
     data = _read(sys.stdin)
     if not data:
-        raise ContentError(
-            "nothing came in by standard input", "see whether the command before the pipe failed"
-        )
+        raise ContentError("standard input is empty", "check whether the command before the pipe failed")
     if os.fsdecode(path) == "-" and not _is_npz(data):
-        raise ContentError("what came in is no .npz", "name its format, such as x3p:- or txt:-")
+        raise ContentError("it is not .npz", "name its format, such as x3p:- or txt:-")
     return data
 
 

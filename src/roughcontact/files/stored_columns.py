@@ -1,4 +1,4 @@
-"""Columns of a curve in a NetCDF file: that they are there, and are numbers, words or outcomes."""
+"""Columns of a curve in a NetCDF file: checks that they exist and are numbers, words or outcomes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from roughcontact.units import word_of
 
 __all__ = ["REMEDY", "numbers_of", "require_columns", "sizes_of", "statuses_of", "word_of"]
 
-REMEDY = "give a .nc file that rc.write, or the command line, made of a curve"
+REMEDY = "give a .nc file of a curve that rc.write, or the command line, has written"
 
 
 def require_columns(variables: Mapping[str, StoredVariable], names: Iterable[str]) -> None:
@@ -25,7 +25,7 @@ def require_columns(variables: Mapping[str, StoredVariable], names: Iterable[str
     Raises
     ------
     ContentError
-        If one is missing, or nothing lies along ``load``.
+        If a column is missing, or no variable lies along ``load``.
     """
     missing = [name for name in names if name not in variables]
     if missing or variables["force"].dimensions != ("load",):
@@ -42,12 +42,12 @@ def numbers_of(
             f"its {name} of shape {variable.shape} and type {variable.dtype} is not that of a curve",
             REMEDY,
         )
-    # As they were written: a NaN of ours is no mark of a missing value.
+    # Unchanged: a NaN in a curve is not a mark of a missing value.
     return np.asarray(variable.load(), dtype=np.float64)
 
 
 def statuses_of(variable: StoredVariable, shape: tuple[int, ...]) -> tuple[Status, ...]:
-    """Return the outcomes that a column names."""
+    """Return the outcomes in a column of names."""
     words = [word_of(value) for value in variable.load().reshape(-1).tolist()]
     known = {status.value: status for status in Status}
     unknown = [word for word in words if word not in known]
@@ -59,7 +59,7 @@ def statuses_of(variable: StoredVariable, shape: tuple[int, ...]) -> tuple[Statu
 def sizes_of(
     variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any]
 ) -> tuple[Geometry, dict[str, Any]]:
-    """Return what the cells are, and the sides, the spacing and the periodicity of their grid."""
+    """Return the kind of the cells, and the sides, the spacing and the periodicity of their grid."""
     kind = word_of(attributes.get("geometry", ""))
     if kind not in {geometry.value for geometry in Geometry}:
         raise ContentError(f"its geometry is {kind!r}", REMEDY)

@@ -67,7 +67,7 @@ def read_sur(data: bytes) -> HeightMap:
         warnings = (*warnings, f"{int(outside.sum())} heights lie outside the range that its header states")
     heights: Array = np.where(missing, np.nan, counts * float(header["dz"]))
     if (inversion := int(header["inversion"])) in (1, 2, 3):
-        # 2 and 3 mirror as well; the same reading as that of Gwyddion.
+        # Modes 2 and 3 also mirror; read in the same way as by Gwyddion.
         heights = -{1: heights, 2: heights[:, ::-1], 3: heights[::-1]}[inversion]
         notes = (f"the file marks its heights as inverted (mode {inversion}): turned back",)
     steps = (float(header["dy"]), float(header["dx"]))
@@ -92,7 +92,7 @@ def read_sur(data: bytes) -> HeightMap:
 
 
 def _header(data: bytes) -> Any:
-    """Return the header; each of its statements on which the data depend is checked."""
+    """Return the header; each statement that affects the data is checked."""
     if not data.startswith((b"DIGITAL SURF", b"DSCOMPRESSED")) or len(data) < _HEADER.itemsize:
         raise ContentError("it has no whole header of Digital Surf", _AGAIN)
     header = np.frombuffer(data, dtype=_HEADER, count=1)[0]
@@ -118,7 +118,7 @@ def _header(data: bytes) -> Any:
 
 
 def _counts(data: bytes, header: Any) -> tuple[npt.NDArray[np.int64], int]:
-    """Return the whole numbers (ny, nx) behind the header and its two appendices, and how many bytes follow them."""
+    """Return the whole numbers (ny, nx) after the header and its two appendices, and the number of bytes left."""
     dtype = np.dtype(f"<i{header['bits'] // 8}")
     expected = int(header["points"]) * dtype.itemsize
     rest = data[_HEADER.itemsize + int(header["comment"]) + int(header["private"]) :]
@@ -127,13 +127,13 @@ def _counts(data: bytes, header: Any) -> tuple[npt.NDArray[np.int64], int]:
         require_memory(BYTES_PER_POINT * int(header["points"]))
         rest, unread = _unpacked(rest, expected)
     if len(rest) < expected:
-        raise ContentError(f"{len(rest)} of {expected} bytes of heights are there: it is cut short", _AGAIN)
+        raise ContentError(f"it holds {len(rest)} of {expected} bytes of heights: it is cut short", _AGAIN)
     counts = np.frombuffer(rest, dtype=dtype, count=int(header["points"])).astype(np.int64)
     return counts.reshape(int(header["ny"]), int(header["nx"])), unread
 
 
 def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
-    """Return the contents of the zlib streams behind a table of their lengths, and how many bytes are no part of it.
+    """Return the contents of the zlib streams after a table of their lengths, and the number of bytes after them.
 
     Each stream is checked by its checksum.
     """

@@ -51,11 +51,11 @@ def surface_dataset(surface: Surface) -> xarray.Dataset:
 
 
 def dataset_without_heights(surface: Surface, maps: dict[str, Any]) -> xarray.Dataset:
-    """Return what is stored of a surface beside its heights, and `maps` with it."""
+    """Return the metadata that is stored with a surface, together with `maps`."""
     grid, geometry = surface.grid, Geometry.of(surface.grid)
     dataset = dataset_of(sizes(grid) | maps, centres(grid, geometry), "heights of a surface", geometry)
     for axis, length, periodic in zip(geometry.axes, grid.lengths, grid.periodic, strict=True):
-        # A single array of the dataset takes its coordinates with it, and nothing else.
+        # A single array of the dataset keeps its coordinates, and no other variable.
         dataset[axis].attrs |= {"length": length, "periodic": int(periodic)}
     return dataset.assign_attrs(provenance(surface))
 
@@ -76,11 +76,12 @@ def surface_of(
         Coordinates of even steps with a unit state the size of the cells; their ``attrs["periodic"]`` states whether
         the surface repeats itself.
     unit : str or float, optional
-        Unit of the heights, as for `roughcontact.read`: it goes before what the array states.
+        Unit of the heights, as for `roughcontact.read`: it overrides the unit of the array.
     size : length or pair of lengths, optional
-        Width Lx, or ``(Ly, Lx)``, as for `roughcontact.read`: it goes before what the coordinates state.
+        Width Lx, or ``(Ly, Lx)``, as for `roughcontact.read`: it overrides the coordinates.
     periodic : bool or pair of bool, optional
-        Whether the surface repeats itself (along y and x). Without it the coordinates state it, or the surface is free.
+        Whether the surface repeats itself (along y and x). By default as the coordinates state; free if they state
+        nothing.
 
     Returns
     -------
@@ -89,7 +90,7 @@ def surface_of(
     Raises
     ------
     ReadError
-        If the array is silent about a unit or size that is not given here, or its coordinates are not even.
+        If the array states no unit or size and none is given here, or its coordinates are not even.
     ValueError
         If it is not an array of xarray, or `unit` or `size` is not a length.
 
@@ -110,7 +111,7 @@ def surface_of(
     """
     if not hasattr(array, "coords"):
         raise InputError(
-            f"an xarray.DataArray is wanted, not a {type(array).__name__}",
+            f"an xarray.DataArray is needed, not a {type(array).__name__}",
             "give Surface(heights, grid)",
             place="array",
         )
@@ -127,7 +128,7 @@ def surface_of(
 
 
 def _stored(array: xarray.DataArray) -> StoredVariable:
-    """Return an array as a variable of a file; one around quantities of pint states their unit."""
+    """Return an array as a variable of a file; for quantities of pint, their unit is stored."""
     values, attributes = array.data, dict(array.attrs)
     if hasattr(values, "units"):
         attributes["units"], values = "m", in_si(values, "m", str(array.name or "heights"))

@@ -14,11 +14,11 @@ __all__ = ["read_surfer"]
 
 _BLANK = 2.0**127  # printed as 1.70141e+38
 _HEAD = 9  # fields before the heights
-_ROUNDING = 1e-6  # of the range: its printed digits
+_ROUNDING = 1e-6  # relative to the range: its printed digits
 
 
 def read_surfer(text: str) -> HeightMap:
-    """Return the heights of a grid, largest y first; its places are in the unit of its heights, which is open."""
+    """Return the heights of a grid, largest y first; x and y are in the unit of its heights, which is not stated."""
     fields = text.split()
     nx, ny, *ends = (number_of(field.replace(",", ".")) for field in fields[1:_HEAD])
     if len(ends) < 6 or not (2 <= nx <= 1e9 and 2 <= ny <= 1e9) or nx != int(nx) or ny != int(ny):

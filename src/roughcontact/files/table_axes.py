@@ -1,4 +1,4 @@
-"""Places in the first row and column of a table, which are no heights: numbers of columns and rows, or axes."""
+"""Places in the first row and column of a table, which are not heights: numbers of columns and rows, or axes."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from roughcontact.validation import Array
 
 __all__ = ["Axes", "axes_of", "counts", "even_step"]
 
-# Measured heights do not lie on a line: a row that does, beside one that does not, holds places. By how many steps
-# places are off a line at most, those of both sides, which may be printed short, and the row beside them at least:
+# Measured heights do not lie on a line: a row that does, beside one that does not, holds places. Largest deviation
+# of places from a line, in steps, for both sides, which may have few digits; smallest deviation of the row beside:
 _EVEN, _ROUNDED, _UNEVEN = 0.1, 0.25, 0.5
-_EXACT = 0.01  # and a few places at most
-# Numbers that are enough beside a corner without one, of both sides, and of one alone; and if they count 0, 1, 2, ...
+_EXACT = 0.01  # and at most a few places
+# Numbers needed beside a corner without a number, on both sides, and on only one; and if they count 0, 1, 2, ...
 _NAMED, _BOTH, _ALONE, _COUNTED = 3, 5, 8, 4
-_RISING = 12  # sorted numbers along both sides that are places, even or not
-_TELLING = 3  # heights in a row that can be off a line
+_RISING = 12  # sorted numbers along both sides that count as places, even or not
+_TELLING = 3  # heights needed in a row to show a deviation from a line
 _KEEP = "to keep them as heights, save the table as .npz under the key 'heights'"
 
 
@@ -30,9 +30,9 @@ class Axes:
     Parameters
     ----------
     heights : array, shape (ny, nx)
-        What is left.
+        The remaining heights.
     x, y : array, optional
-        What stood in the first row and in the first column.
+        Numbers of the first row and of the first column.
     """
 
     heights: Array
@@ -41,33 +41,33 @@ class Axes:
 
     @property
     def warning(self) -> str:
-        """What was left out, and how to keep it."""
+        """Message about what was left out, and how to keep it."""
         rows = (("row", self.x), ("column", self.y))
         parts = [f"its first {name} ({_shown(places)})" for name, places in rows if places is not None]
         verb = "holds places" if len(parts) == 1 else "hold places"
-        return f"{' and '.join(parts)} {verb}, no heights, and {'is' if len(parts) == 1 else 'are'} left out; {_KEEP}"
+        return f"{' and '.join(parts)} {verb}, not heights, and {'is' if len(parts) == 1 else 'are'} left out; {_KEEP}"
 
     def steps(self) -> tuple[float, float] | None:
-        """Return the steps (dy, dx) of two axes; None where one is missing or only numbers the points."""
+        """Return the steps (dy, dx) of two axes; None if one is missing or only numbers the points."""
         if self.x is None or self.y is None or counts(self.x) or counts(self.y):
             return None
         return abs(even_step(self.y)), abs(even_step(self.x))
 
 
 def axes_of(values: Array) -> Axes | None:
-    """Return a table (rows, columns) without places in its first row and column; None where it holds heights only.
+    """Return a table (rows, columns) without places in its first row and column; None if it holds only heights.
 
-    Places are even; the row or column beside them is not, or the table is a slope.
+    Places are even; the row or column beside them is not, unless the table is a slope.
 
     Raises
     ------
     ContentError
-        If both a row and a column rise or fall all along as only uneven places do.
+        If both the first row and the first column are monotonic like uneven places.
     """
     if values.ndim != 2 or min(values.shape) < 3:
         return None
     body, x, y = values[1:, 1:], values[0, 1:], values[1:, 0]
-    fewest = _NAMED if np.isnan(values[0, 0]) else _BOTH  # a corner without a number, as data frames have
+    fewest = _NAMED if np.isnan(values[0, 0]) else _BOTH  # a corner without a number, as in data frames
     both = _are_places(x, fewest, _ROUNDED) and _are_places(y, fewest, _ROUNDED)
     if both and (_is_uneven(body) or _is_uneven(body.T)):
         return Axes(body, x, y)
@@ -83,7 +83,7 @@ def axes_of(values: Array) -> Axes | None:
         and not (_is_sorted(body[0]) or _is_sorted(body[:, 0]))
     ):
         raise ContentError(
-            "its first row and its first column are sorted and uneven, as places are and heights beside them are not",
+            "its first row and its first column are sorted and uneven, like places, and unlike the heights beside them",
             f"interpolate to even steps first, or, {_KEEP}",
         )
     return None
@@ -105,14 +105,14 @@ def _are_places(places: Array, fewest: int, most: float = _EVEN) -> bool:
 
 
 def _are_heights(rows: Array, places: Array) -> bool:
-    """Whether rows beside places are no slope, or hold fractions beside places that count."""
-    with np.errstate(all="ignore"):  # of infinite ones
+    """Whether rows beside places are not a slope, or hold fractions beside places that count."""
+    with np.errstate(all="ignore"):  # infinite numbers
         fractions = counts(places) and bool((rows % 1 > 0).any())
     return fractions or _is_uneven(rows)
 
 
 def _is_uneven(rows: Array) -> bool:
-    """Whether the first row with enough heights to tell is no slope."""
+    """Whether the first row with enough heights is not a slope."""
     for row in rows:
         if np.count_nonzero(np.isfinite(row)) >= _TELLING:
             return _off(row[np.isfinite(row)], np.flatnonzero(np.isfinite(row))) > _UNEVEN
@@ -122,13 +122,13 @@ def _is_uneven(rows: Array) -> bool:
 def _is_sorted(places: Array) -> bool:
     with np.errstate(all="ignore"):  # as below
         steps = np.diff(places)
-    return bool((steps > 0).all() or (steps < 0).all())  # a missing one is neither
+    return bool((steps > 0).all() or (steps < 0).all())  # a missing number is neither
 
 
 def _off(places: Array, at: npt.NDArray[np.intp] | None = None) -> float:
-    """Return how far places lie off a line through their ends, in steps; infinite where none is or has a step."""
+    """Return the deviation of places from a line through their ends, in steps; infinite without a step."""
     at = np.arange(len(places)) if at is None else at
-    with np.errstate(all="ignore"):  # of what a damaged file holds
+    with np.errstate(all="ignore"):  # numbers of a damaged file
         step = (places[-1] - places[0]) / (at[-1] - at[0])
         off = float(np.abs(places - places[0] - step * (at - at[0])).max() / abs(step))
     return off if np.isfinite(off) else np.inf

@@ -23,8 +23,8 @@ _COORDINATES = 8  # rows from which two or three bare columns are taken for coor
 def read_text(data: bytes) -> HeightMap:
     """Return a matrix of heights; without a header it states neither unit nor size.
 
-    A header are lines that begin with ``#`` or read ``name = value`` or ``name: value``, or what a program of
-    ``text_dialects`` writes. Places in the first row and column are no heights.
+    A header consists of lines that begin with ``#`` or read ``name = value`` or ``name: value``, or of the lines that
+    a program of ``text_dialects`` writes. Places in the first row and column are not heights.
     """
     text = decode(data)
     if (dialect := dialect_of(text)) is not None:
@@ -42,8 +42,8 @@ def read_text(data: bytes) -> HeightMap:
     header = header_of(table.comments, (ny, nx))
     if header.columns is not None and header.columns != nx:
         raise ContentError(
-            f"its rows hold {nx} numbers where it states {header.columns}",
-            "copy or export it again, or take out that line if it says something else",
+            f"its rows hold {nx} numbers and it states {header.columns}",
+            "copy or export it again, or remove that line if it has another meaning",
         )
     notes, warnings = table.notes, (*warnings, *header.warnings)
     if axes is not None:
@@ -92,7 +92,7 @@ def _cell_of(axes: Axes | None, lateral: str | None) -> tuple[float, float] | No
 
 
 def _rows_missing(header: TextHeader, shape: tuple[int, int]) -> tuple[str, ...]:
-    """Return a warning where the height in the header has room for more rows of square cells than there are."""
+    """Return a warning if the height in the header has room for more rows of square cells than the table has."""
     if header.width is None or header.height is None:
         return ()
     ny, nx = shape
@@ -100,15 +100,15 @@ def _rows_missing(header: TextHeader, shape: tuple[int, int]) -> tuple[str, ...]
     if not expected * (1 - header.rounding) > ny + 0.5:
         return ()
     return (
-        f"its height has room for {expected:.0f} rows of square cells, and {ny} are there: it may be cut short",
+        f"its height has room for {expected:.0f} rows of square cells, and it holds {ny}: it may be cut short",
     )
 
 
 def text_bytes(surface: Surface) -> bytes:
     """Return the heights [m] as rows separated by tabs, under the header that Gwyddion writes; NaN as ``nan``.
 
-    A profile becomes two columns, places of the cells' centres and heights. Every number has all its digits. The
-    provenance follows the header for people to read.
+    A profile becomes two columns, positions of the cell centres and heights. Every number has all its digits. The
+    provenance follows the header.
     """
     history = [f"# History: {' | '.join(line.splitlines())}" for line in surface.provenance]
     if surface.grid.ndim == 1:

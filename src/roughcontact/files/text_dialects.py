@@ -1,4 +1,4 @@
-"""Texts that are known by their first lines: grids of maps and exports of instruments."""
+"""Texts that are recognised by their first lines: grids of maps and exports of instruments."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from roughcontact.files.wyko_text import read_wyko
 
 __all__ = ["DIALECTS", "dialect_of"]
 
-# What a text begins with, or a Keyence text holds near its beginning, and its reader.
+# Pattern at the beginning of a text, for Keyence near it, and the reader.
 DIALECTS: dict[str, Callable[[str], HeightMap]] = {
     r"\s*(ncols|nrows)[ \t]+\d+[ \t]*\n": read_esri,
     r"\s*DSAA\s": read_surfer,
@@ -30,7 +30,7 @@ _NOT_READ = {
 
 
 def dialect_of(text: str) -> Callable[[str], HeightMap] | None:
-    """Return the reader of a text that is known by its first lines; refuse one that is known and not read."""
+    """Return the reader of a text that is recognised by its first lines; refuse texts that are not supported."""
     for begins, name in _NOT_READ.items():
         if re.match(begins, text):
             raise ContentError(

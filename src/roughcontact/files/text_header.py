@@ -11,8 +11,8 @@ from roughcontact.files.numbers import last_digit
 
 __all__ = ["TextHeader", "header_of"]
 
-# What programs call it, in lower case, with blanks for underscores and hyphens. Width and height in the languages of
-# Gwyddion's menus that Western files come in.
+# Names that programs use, in lower case, with blanks for underscores and hyphens. Width and height also in the
+# Western languages of Gwyddion's menus.
 _LABELS = {
     "channel": r"channel( name)?|kanal|kanál|canal|canale|канал|チャネル|채널",
     "width": r"width|breite|largeur|anchura|larghezza|largura|šířka|ширина|幅|폭",
@@ -36,11 +36,11 @@ _LABELS = {
 _LABELS_OF = {name: re.compile(words) for name, words in _LABELS.items()}
 _SIDES = ("width", "height", "dx", "dy")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_THOUSANDS = re.compile(r"[1-9]\d{0,2}(,\d{3})+(?!\d)")  # or three decimals: who can say
+_THOUSANDS = re.compile(r"[1-9]\d{0,2}(,\d{3})+(?!\d)")  # or three decimals: ambiguous
 _LABELLED = re.compile(r"([^\d=:]+?)[\s,;]\s*([-+]?\.?\d[^=:]*)")
 _DIGIT = re.compile(r"[-+.]*\d")
 _PIXELS = re.compile(r"\d+\s*(px|pix|pixels?|points?|pts|samples?|cells?)?\.?", re.IGNORECASE)
-# What changes heights and is no unit: a reader that does not know it must say so.
+# Entries that change heights and are not units: they are not applied, so the reader warns about them.
 _SCALES = re.compile(
     r"(z|height|data) scale|scale (z|data)|bit2nm|multiplier"
     r"|((z|height|data|value|scale|scaling|conversion) )*factor( .*)?"
@@ -49,7 +49,7 @@ _SCALES = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class TextHeader:
-    """What a header states; None where it is silent.
+    """The values that a header states; None for those that it does not state.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class TextHeader:
     dx, dy : float, optional
         Sides of a cell [m].
     rounding : float
-        By how much of themselves the printed sides of the map may be off.
+        Relative rounding error of the printed sides of the map.
     columns : int, optional
         Number of heights in a row.
     unit : str, optional
@@ -68,11 +68,11 @@ class TextHeader:
     lateral : str, optional
         Unit of lengths along the map.
     missing : tuple of float
-        Numbers that stand where nothing was measured.
+        Marks of points that were not measured.
     unclear : str, optional
-        A side of the map or of a cell in words that are not understood here.
+        A side of the map or of a cell in words that are not understood.
     warnings : tuple of str
-        What was read and may be otherwise.
+        Values that were read and may be wrong.
     """
 
     channel: str | None = None
@@ -90,18 +90,18 @@ class TextHeader:
 
     @property
     def states_a_size(self) -> bool:
-        """Whether it is that of a map."""
+        """Whether it is the header of a map."""
         return any(each is not None for each in (self.width, self.height, self.dx, self.dy, self.columns))
 
     @property
     def unit_unknown(self) -> str | None:
-        """The unit of heights where it is no length known here, which says nothing of places either."""
+        """The unit of heights if it is not a known length; it cannot be used for places either."""
         return None if is_length(self.unit) else self.unit
 
     def spacing(self, shape: tuple[int, int]) -> tuple[float, float] | None:
-        """Return the cell (dy, dx) of a map of a shape (ny, nx) [m]; with one side of a cell alone it is a square.
+        """Return the cell (dy, dx) [m] of a map of a shape (ny, nx); if only one side is stated, the cell is a square.
 
-        None where a side that is needed is not stated, or not understood.
+        None if a side that is needed is not stated, or not understood.
         """
         dy = self.dy if self.height is None else self.height / shape[0]
         dx = self.dx if self.width is None else self.width / shape[1]
@@ -111,7 +111,7 @@ class TextHeader:
 
 
 def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
-    """Return what lines such as ``Width: 10 µm``, ``x-length = 10`` or ``nodata = -9999`` state of a map (ny, nx).
+    """Return the statements about a map (ny, nx) in lines such as ``Width: 10 µm`` or ``nodata = -9999``.
 
     A side of the map in pixels states nothing; any other bare number is in the lateral unit, in SPIP's files in
     nanometres.
@@ -140,7 +140,7 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
     elif lateral is None and "any" in stated and _bare(stated):
         lateral = stated["any"]
         warnings.append(
-            f"its one unit, {lateral}, is taken for lengths along the map as for heights; else pass size="
+            f"its one unit, {lateral}, is assumed for lengths along the map as for heights; pass size= if that is wrong"
         )
     along_y = stated.get("lateral y", lateral)
     units = {"width": lateral, "height": along_y, "dx": lateral, "dy": along_y}
@@ -160,7 +160,7 @@ def header_of(lines: Iterable[str], shape: tuple[int, int]) -> TextHeader:
 
 
 def _unclear(stated: dict[str, str], lengths: dict[str, float | None]) -> str | None:
-    """Return the first side that is stated by a number, neither understood nor in pixels."""
+    """Return the first side that is stated with a number but is neither understood nor in pixels."""
     sides = {name: stated[name] for name in _SIDES if name in stated and lengths[name] is None}
     unclear = (name for name, text in sides.items() if _DIGIT.match(text) and not _PIXELS.fullmatch(text))
     return next((f"{name} = {sides[name][:40]}" for name in unclear), None)
@@ -169,7 +169,7 @@ def _unclear(stated: dict[str, str], lengths: dict[str, float | None]) -> str | 
 def _parts(line: str) -> tuple[str, str]:
     """Return the label and the value of a line ``label = value``, ``label: value`` or ``label [unit]: value``.
 
-    A number may follow a label as it is: ``NODATA_value -9999``.
+    A number may also follow a label directly: ``NODATA_value -9999``.
     """
     bare = _LABELLED.fullmatch(line)
     label, _, value = re.sub(r"[=:]", "=", line, count=1).partition("=")
@@ -182,7 +182,7 @@ def _parts(line: str) -> tuple[str, str]:
 
 
 def _numbers(text: str) -> list[float]:
-    """Return the numbers in a list, with or without a unit behind them; a comma in a lone one is a decimal mark."""
+    """Return the numbers in a list, with or without a unit after them; a comma in a single number is a decimal mark."""
     whole = text.replace(",", ".") if re.fullmatch(rf"{_NUMBER.pattern},\d+", text.strip()) else text
     return [float(found[0]) for found in re.finditer(rf"(?<![\w.]){_NUMBER.pattern}", whole)]
 
@@ -205,7 +205,7 @@ def _length(text: str | None, lateral: str | None) -> float | None:
 
 
 def _rounding(text: str) -> float:
-    """Return by how much of itself a printed number may have been rounded."""
+    """Return the relative rounding error of a printed number."""
     number = re.match(r"\d+\.?\d*(?:[eE][-+]?\d+)?", text.replace(",", "."))
     if number is None or float(number[0]) == 0:
         return 0.0
@@ -221,5 +221,5 @@ def _value(text: str | None) -> float | None:
 
 
 def _is_one(value: str) -> bool:
-    """Whether a factor changes nothing."""
+    """Whether a factor is 1."""
     return _NUMBER.fullmatch(value) is not None and float(value) == 1.0

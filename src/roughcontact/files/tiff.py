@@ -1,4 +1,4 @@
-"""TIFF as heights: grey values of 8 to 64 bits, of which the user states unit and size; instruments' own kinds too."""
+"""TIFF as heights: grey values of 8 to 64 bits, with unit and size from the user; also formats of instruments."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _LOSSLESS = {
     50000: "Zstandard",
 }
 _NUMBERS = {1: "u", 2: "i", 3: "f"}  # sample formats
-_REDUCED, _MASK = 1, 4  # bits of a page that is a copy or a mask of another
+_REDUCED, _MASK = 1, 4  # bits of a page that is a reduced copy or a mask of another page
 _NODATA, _GDAL = 42113, 42112
 _TURNED: dict[int, Callable[[npt.NDArray[Any]], npt.NDArray[Any]]] = {
     1: lambda h: h,
@@ -79,14 +79,14 @@ def read_tiff(data: bytes, channel: str | int | None) -> HeightMap:
 
 
 def list_tiff(data: bytes) -> tuple[Channel, ...]:
-    """Return the pages of the file that can be read, or the channels where it is an instrument's."""
+    """Return the pages of the file that can be read, or the channels if an instrument has written it."""
     with _pages(data) as pages:
         return list_foreign(".tiff", data) if pages is None else _channels(pages)
 
 
 @contextmanager
 def _pages(data: bytes) -> Iterator[list[Any] | None]:
-    """Give the pages of grey values in a file, or None where an instrument wrote it."""
+    """Yield the pages of grey values in a file, or None if an instrument has written it."""
     if not data.startswith(_MARKS):
         raise ContentError("it does not begin as a TIFF", "check its extension; copy the file again")
     try:
@@ -146,7 +146,7 @@ def _problem(page: Any) -> tuple[str, str] | None:
 
 
 def _numbers(page: Any, size: int) -> npt.NDArray[Any]:
-    """Return the numbers of a page, each part of which lies in the file, once."""
+    """Return the numbers of a page; each of its parts must lie in the file exactly once."""
     shape = tuple(map(int, page.shape))
     require_memory(BYTES_PER_POINT * math.prod(shape))
     parts = sorted(zip(page.dataoffsets, page.databytecounts, strict=True))
@@ -180,7 +180,7 @@ def _not_measured(page: Any, values: npt.NDArray[Any]) -> tuple[npt.NDArray[np.b
     try:
         mark = float(text)
     except ValueError:
-        raise ContentError(f"it marks missing points by {text[:40]!r}, no number", _AGAIN) from None
+        raise ContentError(f"it marks missing points by {text[:40]!r}, not a number", _AGAIN) from None
     with np.errstate(all="ignore"):
         stored = values.dtype.type(mark) if values.dtype.kind == "f" else mark
     missing = values == stored

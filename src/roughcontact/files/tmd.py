@@ -20,11 +20,11 @@ _AGAIN = "copy the file again, or export it as X3P"
 
 
 def read_tmd(data: bytes) -> HeightMap:
-    """Return the one map of the file; a comment of any length stands before a header that fits the length exactly."""
+    """Return the one map of the file; after a comment of any length, the header must fit the length exactly."""
     if not data.startswith(_MARK):
         raise ContentError("it does not begin as a TrueMap file of version 2.0", "check its extension")
     end = data.find(b"\0", _COMMENT)
-    # A zero ends the comment; some writers fill it up with further ones.
+    # A zero ends the comment; some writers add further zeros.
     for start in range(
         end + 1 + _HEADER.size, min(end + _LONGEST + _HEADER.size, len(data)) if end >= 0 else 0
     ):

@@ -35,7 +35,7 @@ __all__ = [
 
 Attributes = Mapping[str, str | float]
 
-CHUNK = 256  # rows and columns of the parts of a map in slabs, each compressed by itself
+CHUNK = 256  # rows and columns of the parts of a map in slabs, each compressed separately
 
 
 def write_netcdf(
@@ -52,13 +52,13 @@ def write_netcdf(
     Parameters
     ----------
     dataset : Dataset
-        With the coordinates of the maps in slabs, ``y`` and ``x``.
+        Includes the coordinates of the maps in slabs, ``y`` and ``x``.
     path : str or path
-        With maps in slabs, what the first process says.
+        With maps in slabs, that of the first process is used.
     provenance : mapping, optional
     maps : mapping of str to SlabArray
-        Fields in slabs by their names in the table of variables: all processes call, and the first one takes the rows
-        in turn.
+        Fields in slabs by their names in the table of variables: all processes must call, and the first one collects
+        the rows one process at a time.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def write_netcdf(
     whole = dataset.assign_attrs(dict(provenance or {}))
     communicator = next((field.functions.communicator for field in maps.values()), OneProcess())
     with entered_by_first(communicator, lambda: written_aside(path)) as aside:
-        # Only the maps are too large to be made in memory, where a full disk does no harm to HDF5.
+        # Everything except the maps is built in memory, where a full disk does no harm to HDF5.
         by_first(communicator, lambda: aside.write_bytes(netcdf_bytes(whole)))
         for name, field in maps.items():
             for start, rows in gather_to_first(field, CHUNK):
@@ -84,7 +84,7 @@ def _write_rows(path: Path, name: str, field: SlabArray, start: int, rows: Any) 
 
 
 def _new_map(file: Any, name: str, field: SlabArray) -> Any:
-    """Return a new variable of a file, stored as xarray would: compressed without loss, truth values as numbers."""
+    """Return a new variable of a file, stored as by xarray: compressed without loss, truth values as numbers."""
     truth, real = field.dtype.kind == "b", field.dtype.kind == "f"
     stored = file.create_variable(
         name,
@@ -103,18 +103,18 @@ def _new_map(file: Any, name: str, field: SlabArray) -> Any:
 def netcdf_bytes(dataset: xarray.Dataset) -> bytes:
     """Return a dataset as the bytes of a NetCDF-4 file; maps are compressed without loss.
 
-    They are made in memory since HDF5 does not survive a disk that fills up: it takes the process down with it.
+    They are built in memory, because HDF5 crashes the process if the disk is full.
     """
     require_netcdf()
     import h5netcdf
     from xarray.backends import H5NetCDFStore
 
-    # Shuffled bytes compress better; level 4 is where more time stops buying size.
+    # Shuffled bytes compress better; higher levels than 4 take more time and save almost no space.
     maps = [name for name, values in dataset.variables.items() if values.ndim > 1 and values.size]
     encoding: dict[Any, dict[str, Any]] = {
         name: {"zlib": True, "complevel": 4, "shuffle": True} for name in maps
     }
-    # CF wants a fill value only where something can be missing: coordinates never are.
+    # CF requires a fill value only where values can be missing; coordinates are never missing.
     encoding |= {
         name: {"_FillValue": None} for name, values in dataset.coords.items() if values.dtype.kind == "f"
     }
@@ -125,12 +125,12 @@ def netcdf_bytes(dataset: xarray.Dataset) -> bytes:
 
 
 def require_netcdf() -> None:
-    """Refuse to write NetCDF where nothing can; meant to be asked before a long computation.
+    """Refuse NetCDF if no package can write it; call this before a long computation.
 
     Raises
     ------
     WriteError
-        If what writes it is not installed.
+        If the package that writes it is not installed.
     """
     if (lack := lacking("h5py", "h5netcdf")) is not None:
         raise WriteError(f"NetCDF needs {lack[0]}", lack[1])
@@ -149,7 +149,7 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
     dataset : Dataset
     path : str or path
     dimension : str, optional
-        The dimension that the points lie along; by default ``load``, and a single row where there is none.
+        The dimension of the points; by default ``load``, or a single row if there is no such dimension.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
             columns[str(name)] = values
         elif len(parts := set(values.dims) - set(along)) == 1 and parts <= {"component", "axis"}:
             columns |= in_parts(values, *parts)
-    # Points before scales; words last, so that readers of pure numbers can ask for the columns before them.
+    # Points before scales; words last: readers of pure numbers can select the columns before them.
     columns = dict(
         sorted(columns.items(), key=lambda each: (each[1].dtype.kind in "OUT", each[1].dims != along))
     )
@@ -184,9 +184,9 @@ def write_table(
     path: str | os.PathLike[str], columns: Mapping[str, xarray.DataArray], rows: Iterable[Iterable[Any]]
 ) -> None:
     """Write a line with the names and units of the columns, and the rows; the file appears whole or not at all."""
-    # Line ends as they are, on every system, so that equal results are equal files.
+    # The same line ends on every system: equal results give equal files.
     with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="\n") as file:
-        table = csv.writer(file, lineterminator="\n")  # of a real number it writes all digits, by `repr`
+        table = csv.writer(file, lineterminator="\n")  # it writes all digits of a real number, by `repr`
         table.writerow(_title(name, values.attrs.get("units", "1")) for name, values in columns.items())
         table.writerows(rows)
 
@@ -204,14 +204,14 @@ def in_parts(values: xarray.DataArray, dimension: Hashable) -> dict[str, xarray.
 
 
 def plain_cells(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return values with 1 and 0 for truths."""
+    """Return values with 1 and 0 for truth values."""
     return values.astype(np.int8) if values.dtype.kind == "b" else values
 
 
 def write_json(
     record: Mapping[str, Any], path: str | os.PathLike[str], provenance: Attributes | None = None
 ) -> None:
-    """Write a record as one JSON object, with what the provenance adds to it under ``"provenance"``.
+    """Write a record as one JSON object, with the provenance under ``"provenance"``.
 
     Raises
     ------
@@ -220,7 +220,7 @@ def write_json(
     """
     added = {name: value for name, value in (provenance or {}).items() if name not in record}
     whole = dict(record) | ({"provenance": added} if added else {})
-    # Strict JSON: a NaN here is a mistake of the record, not something to write and have refused later.
+    # Strict JSON: a NaN is an error here, because readers would refuse the file later.
     write_text(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n", path)
 
 

@@ -16,7 +16,7 @@ _NANOMETRE, _MILLIMETRE = 1e-9, 1e-3
 
 
 def read_wyko(text: str) -> HeightMap:
-    """Return the heights of a text: its lines as rows; the wavelength is in nanometres, the side of a cell in mm."""
+    """Return the heights of a text, its lines as rows; the wavelength is in nanometres, the side of a cell in mm."""
     lines = text.split("\n")
     parts = [[field.strip() for field in line.split("\t")] for line in lines]
     start = next((k for k, line in enumerate(parts) if line[0].casefold() in _HEIGHTS), None)

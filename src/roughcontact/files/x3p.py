@@ -43,7 +43,7 @@ def read_x3p(data: bytes) -> HeightMap:
         if axes.text(f"{axis}/AxisType", "I") != "I":
             raise ContentError(f"its axis {axis} is not incremental", f"{_AGAIN} on a regular grid")
     values, notes, warnings = _values(data, folder, main, root, shape)
-    # An absolute axis needs no increment, but writers of whole numbers put their scale there.
+    # An absolute axis needs no increment, but programs that write whole numbers put their scale there.
     with np.errstate(all="ignore"):
         heights = values * axes.number("CZ/Increment", 1.0) + axes.number("CZ/Offset", 0.0)
     if infinite := int(np.isinf(heights).sum()):  # some instruments mark missing points by infinity
@@ -89,7 +89,7 @@ def _shape(root: _Node) -> tuple[int, int]:
 def _values(
     data: bytes, folder: str, main: bytes, root: _Node, shape: tuple[int, int]
 ) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks and warnings."""
+    """Return the numbers of the data list or the linked file as float64, NaN where invalid; remarks, warnings."""
     kind = root.child("Record1/Axes").text("CZ/DataType")
     if kind not in _TYPES:
         raise ContentError(f"its heights are of the type {kind!r}, not one of I, L, F, D", _AGAIN)
@@ -138,7 +138,7 @@ def _binary(points: bytes, dtype: str, shape: tuple[int, int]) -> Array:
 
 
 def _listed(data_list: _Node, shape: tuple[int, int]) -> Array:
-    """Return the heights written out in the XML; an empty entry is a missing point."""
+    """Return the heights in the text of the XML; an empty entry is a missing point."""
     values = []
     for index, datum in enumerate(d for d in data_list.element if _local_name(d) == "Datum"):
         text = (datum.text or "").strip()
@@ -176,10 +176,10 @@ def _check(content: bytes, stated: str, what: str) -> None:
 def _check_main(
     stated: bytes | None, main: bytes, points: bytes, guarded: bool
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Compare the checksum of ``main.xml``, and return a note or a warning where it is another.
+    """Compare the checksum of ``main.xml``, and return a note or a warning if it differs.
 
     Some writers put the checksum of the heights there instead. Programs that edit ``main.xml`` leave a stale one: the
-    file is read where the heights have a checksum of their own, which is right.
+    file is read only if the heights have a separate checksum, which is right.
     """
     words = (stated or b"").split()
     if not words:
@@ -201,7 +201,7 @@ def _check_main(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Node:
-    """An element, its descendants found by paths of local names: writers disagree about the namespace."""
+    """An element that finds its descendants by paths of local names: writers disagree about the namespace."""
 
     element: ElementTree.Element
 
@@ -249,14 +249,14 @@ def parse_xml(main: bytes) -> _Node:
     """Return the root of ``main.xml``."""
 
     def refuse(*_: str | None) -> None:
-        raise ContentError("its main.xml declares a document type, which X3P does not know", _AGAIN)
+        raise ContentError("its main.xml declares a document type, which X3P does not have", _AGAIN)
 
     builder = ElementTree.TreeBuilder()
-    # The parser knows a document type in any encoding; it comes before all that could be made to grow.
+    # The parser reports a document type in any encoding, before any entity that could be expanded.
     target = SimpleNamespace(
         start=builder.start, end=builder.end, data=builder.data, close=builder.close, doctype=refuse
     )
-    with damage("its main.xml is damaged", _AGAIN):  # of which its declared encoding may be a part
+    with damage("its main.xml is damaged", _AGAIN):  # its declared encoding may also be wrong
         return _Node(ElementTree.fromstring(main, ElementTree.XMLParser(target=target)))
 
 
@@ -264,8 +264,8 @@ def x3p_bytes(surface: Surface) -> bytes:
     """Return the surface, or a profile, as the bytes of an ``.x3p`` file.
 
     Heights are little-endian doubles [m], NaN where nothing was measured. ``md5checksum.hex`` holds the checksum of
-    ``main.xml``, as in the samples of the standard, and ``main.xml`` that of the heights. The format has no word
-    for a surface that repeats itself; the provenance becomes its comment.
+    ``main.xml``, as in the samples of the standard, and ``main.xml`` that of the heights. The format cannot state that
+    a surface is periodic; the provenance becomes its comment.
     """
     points = np.ascontiguousarray(surface.heights, dtype="<f8").tobytes()
     main = _written(surface, hashlib.md5(points, usedforsecurity=False).hexdigest()).encode()
@@ -273,7 +273,7 @@ def x3p_bytes(surface: Surface) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
         for name, content in (("main.xml", main), (_POINTS, points), ("md5checksum.hex", checksum)):
-            # Of heights only a few bytes in eight repeat: more effort than level 1 buys little.
+            # Only a few bytes in eight of the heights repeat: levels above 1 save almost nothing.
             archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 1)
     return stream.getvalue()
 

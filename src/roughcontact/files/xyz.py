@@ -16,14 +16,15 @@ from roughcontact.files.text_header import header_of
 
 __all__ = ["read_xyz"]
 
-_ZYGO = "Zygo XYZ Data File"  # its header, numbers among them, ends with a line of #
+_ZYGO = "Zygo XYZ Data File"  # its header, which contains numbers, ends with a line of #
 
 
 def read_xyz(data: bytes) -> HeightMap:
     """Return the points on their grid; a place without a point is NaN, the first row has the smallest y.
 
     A header such as ``# x [um]  y [um]  z [um]`` states the units. Without it all three columns are in the unit of the
-    heights, unless the places are numbered 0, 1, 2, ...: then the size is open. Its names give the order of columns.
+    heights, unless x and y are the numbers 0, 1, 2, ...: then the size is unknown. The names in the header give the
+    order of the columns.
     """
     text = decode(data)
     if text.startswith(_ZYGO):
@@ -51,7 +52,7 @@ def read_xyz(data: bytes) -> HeightMap:
 
 
 def _three_columns(table: Table) -> tuple[list[int], tuple[str, ...]]:
-    """Return where x, y and z stand, a column that numbers the points left out, and a warning where there was one."""
+    """Return the columns of x, y and z, without a column that numbers the points, and a warning if there was one."""
     columns = table.values.shape[1]
     order = list(column_order(table.comments, columns))
     if columns == 4 and counts(table.values[:, 0]):
@@ -64,7 +65,7 @@ def _three_columns(table: Table) -> tuple[list[int], tuple[str, ...]]:
 def _cells(
     grid: PointGrid, lateral: Sequence[str | None], unit: str | None
 ) -> tuple[tuple[float, float] | None, tuple[float, float] | None, str | None]:
-    """Return the cell (dy, dx) in metres or in the unit of the heights, or what is stated and not understood."""
+    """Return the cell (dy, dx) in metres or in the unit of the heights, or the statement that is not understood."""
     if all(map(is_length, lateral)):
         dx, dy = (length_factor(each or "") for each in lateral)
         return (grid.steps[0] * dy, grid.steps[1] * dx), None, None

@@ -1,1 +1,1 @@
-"""Tangential loading of a contact that is pressed and held: full stick, partial slip, cycles."""
+"""Tangential loading of a contact under constant pressure: full stick, partial slip, cycles."""

@@ -1,4 +1,4 @@
-"""The cells in contact, and how traction on them displaces them."""
+"""The cells in contact, and their displacement under traction."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ __all__ = ["ContactCells", "Selection"]
 Cells = npt.NDArray[np.intp]
 Values = npt.NDArray[Any]
 
-# Up to so many cells a full matrix is made (32 MB of it) where it holds no more than a few numbers per cell of the
-# padded box, so that a product with it costs no more than the transforms.
+# Up to this number of cells a full matrix (32 MB) is formed, if it holds at most a few numbers per cell of the padded
+# box: then a product with it costs no more than the transforms.
 DENSE_LIMIT = 1000
 NUMBERS = 10
 
@@ -34,11 +34,11 @@ class Selection:
     Parameters
     ----------
     mask : bool array
-        Of any library; values and fields are arrays of the same.
+        Array of any library; values and fields are arrays of the same library.
     cells : int array, shape (n,)
         Their flat indices.
     places : int array, shape (number of all cells,), or None
-        Where each cell stands in the list, n for one that does not; None on the host, which does without.
+        Position of each cell in the list, n for cells that are not in it; None on the host, where it is not needed.
     """
 
     mask: Mask
@@ -73,7 +73,7 @@ class Selection:
             field = np.zeros((k, self.mask.size), dtype=values.dtype)
             field[:, self.cells] = values
             return field.reshape(k, *self.mask.shape)
-        # No library but a few can write to a list of places, and all can read from one.
+        # Only a few libraries can write to a list of places, but all can read from one.
         xp = namespace(values)
         nothing = xp.zeros((k, 1), dtype=values.dtype, device=values.device)
         field = xp.take(xp.concat([values, nothing], axis=1), self.places, axis=1)
@@ -87,9 +87,9 @@ class ContactCells:
     Parameters
     ----------
     operator : ShearOperator
-        On the box that holds the cells, or on the cells alone.
+        On the box around the cells, or only on the cells.
     exact : ShearOperator
-        The same without the error of its sum, for the certificate. Most sums are exact themselves.
+        The same operator without the error of its sum, for the certificate. Most sums are exact.
     region : Selection
         The cells on the operator's grid.
     basis : array, shape (k, 2)
@@ -120,7 +120,7 @@ class ContactCells:
         part, region = operator, contact
         if is_numpy(contact):  # elsewhere each side of the box would cost a transfer
             box = bounding_box(contact)
-            assert box is not None  # callers have checked it
+            assert box is not None  # the callers have checked this
             part, region = operator.restrict(box), contact[box]
             if not floating and _few(region):
                 matrix = part.as_matrix(np.flatnonzero(region))
@@ -152,17 +152,17 @@ class ContactCells:
         inverse = capabilities(self.operator).approximate_inverse
         if inverse is not None:
             return self._through(inverse, displacement)
-        # What each cell alone would need; the one cell of a period never moves.
+        # The traction that each cell would need without the others; a single cell per period never moves.
         return displacement / (self.self_influence if self.self_influence > 0 else 1.0)
 
     def zeros(self) -> Array:
-        """Return zero on every cell."""
+        """Return zero in every cell."""
         xp, mask = namespace(self.contact), self.contact
         shape = (len(self.basis), self.chosen.count)
         return xp.zeros(shape, dtype=xp.float64, device=mask.device)  # type: ignore[no-any-return]
 
     def units(self) -> list[Array]:
-        """Return a unit in each direction, the same on every cell."""
+        """Return a unit vector in each direction, the same in every cell."""
         return [self.zeros() + as_like(unit[:, None], self.zeros()) for unit in np.eye(len(self.basis))]
 
     def restrict(self, field: Array) -> Array:

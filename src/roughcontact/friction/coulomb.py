@@ -1,7 +1,7 @@
 """Coulomb's law on a list of cells: tractions no larger than a limit, and slip against them.
 
 Fields have shape ``(k, n)``: k components, one or two, of n cells, in arrays of any library. Vectors of k entries that
-belong to no cell are NumPy's.
+belong to no cell are NumPy arrays.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from roughcontact.validation import Array, Mask
 __all__ = ["AT_LIMIT", "at_limit", "directions", "lengths", "projected", "projected_to_force", "violations"]
 
 
-AT_LIMIT = 1e-12  # part of the limit that is rounding: a traction as near to it is at it
-FORCE = 1e-14  # of all the limits together: how well a sum over many cells meets a force
-SINGULAR = 1e-12  # part of a slope that keeps it from being singular
-LARGE = 10.0  # times the limits: tractions with so much rounding that the force misses some of its digits
-PASSES = 100  # of Newton's method for the force, and of the search along a step of it: ten are many
+AT_LIMIT = 1e-12  # relative rounding error of the limit: a traction this close to the limit is at the limit
+FORCE = 1e-14  # relative to the sum of the limits: accuracy of a force as a sum over many cells
+SINGULAR = 1e-12  # relative shift of a slope that keeps it from being singular
+LARGE = 10.0  # times the limits: above it, rounding of the tractions costs the force some of its digits
+PASSES = 100  # of Newton's method for the force, and of its line search: usually fewer than ten
 
 
 def lengths(vectors: Array) -> Array:
@@ -36,7 +36,7 @@ def directions(vectors: Array, cells: Mask) -> Array:
 
 
 def at_limit(traction: Array, limit: Array) -> Mask:
-    """Return the cells whose traction is all that friction can hold."""
+    """Return the cells whose traction is at the limit of friction."""
     return lengths(traction) >= limit * (1 - AT_LIMIT)
 
 
@@ -49,10 +49,10 @@ def projected(traction: Array, limit: Array) -> Array:
 
 
 def violations(traction: Array, limit: Array, slip: Array) -> Array:
-    """Return by how much each cell breaks Coulomb's law [m], shape (n,).
+    """Return the violation of Coulomb's law in each cell [m], shape (n,).
 
-    Below the limit nothing may slip; at it, slip [m] is opposed to the traction, so that what counts is its distance
-    from that ray. A traction beyond the limit is no answer at all.
+    Below the limit no cell may slip. At the limit, slip [m] is opposed to the traction: its distance from that ray is
+    the violation. A traction beyond the limit is not admissible.
     """
     xp, held = namespace(traction), at_limit(traction, limit)
     normal = directions(traction, held)
@@ -65,8 +65,8 @@ def violations(traction: Array, limit: Array, slip: Array) -> Array:
 def projected_to_force(traction: Array, limit: Array, total: Array) -> Array:
     """Return the nearest traction that friction can hold and that adds up to `total` over the cells.
 
-    It is ``projected(traction - shift, limit)`` with the shift that minimises a convex function, whose slope is the sum
-    less what it exceeds `total` by: Newton's method, with a search along its steps.
+    It is ``projected(traction - shift, limit)`` with the shift that minimises a convex function, whose slope is
+    `total` less the sum. The method is Newton's, with a line search.
 
     Parameters
     ----------
@@ -78,11 +78,11 @@ def projected_to_force(traction: Array, limit: Array, total: Array) -> Array:
     nearest = _nearest(traction, limit, total)
     if inner(traction, traction) <= LARGE**2 * inner(limit, limit):
         return nearest
-    return _nearest(nearest, limit, total)  # without the rounding of large tractions
+    return _nearest(nearest, limit, total)  # again, without the rounding error of large tractions
 
 
 def _nearest(traction: Array, limit: Array, total: Array) -> Array:
-    """Return what `projected_to_force` does, whose sum is as good as the rounding of `traction`."""
+    """Return the result of `projected_to_force`, with a sum as accurate as the rounding of `traction`."""
     xp = namespace(traction)
 
     def shifted(shift: Array) -> Array:
@@ -100,14 +100,14 @@ def _nearest(traction: Array, limit: Array, total: Array) -> Array:
         if np.abs(over).max() <= enough:
             break
         direction = _newton_direction(shifted(shift), limit, over)
-        # Where the sum hardly falls any more, the direction leads far away.
+        # Where the sum has almost stopped decreasing, the Newton step is far too long.
         direction *= min(1.0, size / float(np.abs(direction).max()))
         shift, over = _searched(excess, shift, over, direction)
     return projected(shifted(shift), limit)
 
 
 def _newton_direction(shifted: Array, limit: Array, over: Array) -> Array:
-    """Return the shift that takes `over` away if the sum went on to fall as it does."""
+    """Return the shift that would remove `over` if the sum were linear."""
     xp, size = namespace(shifted), lengths(shifted)
     beyond = size > limit
     part = xp.where(beyond, limit / xp.where(beyond, size, 1.0), 1.0)
@@ -121,7 +121,7 @@ def _newton_direction(shifted: Array, limit: Array, over: Array) -> Array:
 def _searched(
     excess: Callable[[Array], Array], shift: Array, over: Array, direction: Array
 ) -> tuple[Array, Array]:
-    """Return a shift along a direction, and its excess, where the excess along it is at most half as large."""
+    """Return a shift along a direction at which the excess along it is at most half as large, and its excess."""
     least, most, part = 0.0, np.inf, 1.0
     start = float(direction @ over)
     for _ in range(PASSES):

@@ -8,20 +8,20 @@ from roughcontact.validation import Array
 
 __all__ = ["descended"]
 
-GRADIENT_STEPS = 3  # of a descent: enough to find the cells that slip; Newton's method is faster at the rest
-SUFFICIENT = 0.1  # part of what the slope promises that must come true
-SHORTER, MUCH_SHORTER = 0.5, 0.1  # bounds of what a trial that went too far is shortened by
-TRIALS = 20  # of a gradient step: what is wrong after so many is rounding
+GRADIENT_STEPS = 3  # of a descent: enough to find the cells that slip; afterwards Newton's method is faster
+SUFFICIENT = 0.1  # part of the decrease predicted by the slope that must be reached
+SHORTER, MUCH_SHORTER = 0.5, 0.1  # bounds of the factor that shortens a trial that went too far
+TRIALS = 20  # of a gradient step: after this number only rounding is left
 
 
 def descended(step: SlipStep, state: SlipState, trial: SlipState) -> tuple[SlipState, int]:
     """Return a state of lower energy than `state`, from which a `trial` went too far, and the number of products.
 
-    First to the lowest point between the two, at no cost: whatever lies between is within the limits too, and the
-    energy is quadratic. Then along its slope, projected on the limits, as far as the curvature that was last met allows
-    (Barzilai and Borwein, IMA J. Numer. Anal. 8, 141 (1988)), or less, until the energy falls in proportion
-    (Bertsekas, IEEE Trans. Autom. Control 21, 174 (1976)): a sequence of such steps cannot but end at the minimum,
-    which is the only one.
+    The first step goes to the lowest point between the two, at no cost: all states between them are within the limits,
+    and the energy is quadratic. The next steps follow the negative gradient, projected onto the limits. Their length
+    follows from the last curvature (Barzilai and Borwein, IMA J. Numer. Anal. 8, 141 (1988)) and is reduced until the
+    energy falls in proportion (Bertsekas, IEEE Trans. Autom. Control 21, 174 (1976)). A sequence of such steps
+    converges to the unique minimum.
     """
     slope, curvature, square = _between(state, trial)
     part = min(1.0, -slope / curvature) if slope < 0 < curvature else 0.0
@@ -52,7 +52,7 @@ def _between(state: SlipState, other: SlipState) -> tuple[float, float, float]:
 
 
 def _mixed(state: SlipState, other: SlipState, part: float) -> tuple[Array, Array]:
-    """Return traction and displacement a part of the way from one state to another."""
+    """Return traction and displacement at a fraction of the way from one state to another."""
     return (
         state.traction + part * (other.traction - state.traction),
         state.displacement + part * (other.displacement - state.displacement),

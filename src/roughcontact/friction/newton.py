@@ -15,10 +15,10 @@ from roughcontact.solver.control import Status
 
 __all__ = ["SlipNewton"]
 
-REDUCTION = 0.1  # of the error by each linear solve: the next guess is another problem
-# Of the residual, below its least, that an iteration must reach, so that the iteration cannot cycle.
+REDUCTION = 0.1  # of the error by each linear solve: more is wasted, because the sets change
+# Factor below the least residual so far that an iteration must reach, which prevents cycles.
 FALL = 0.9
-PATIENCE = 20  # descents without a smaller residual or energy, after which only rounding is left
+PATIENCE = 20  # descents without a smaller residual or energy after which only rounding is left
 ROUNDING = float(np.finfo(np.float64).eps)
 
 
@@ -26,15 +26,15 @@ ROUNDING = float(np.finfo(np.float64).eps)
 class SlipNewton:
     """Settings of the method.
 
-    The conditions of a step say that the energy ``q.Aq/2 - q.(slip + shift)`` is as low as tractions within their
-    limits allow. An iteration solves for the traction of the cells that stick and the direction of that of those that
-    slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, to a
-    reduction of the error by ten; the result is projected onto the limits.
+    The conditions of a step hold at the minimum of the energy ``q.Aq/2 - q.(slip + shift)`` over tractions within
+    their limits. An iteration solves for the traction of the cells that stick and the direction of that of those that
+    slip (Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30, 572 (2008)), by conjugate gradients, to a reduction
+    of the error by ten; the result is projected onto the limits.
 
-    Where many cells change state at once, the iteration may cycle. So an iteration that does not reduce the residual
-    serves as a direction only, along which the energy is reduced: see `descended`. The residual can be reduced by a
-    given part only finitely often until it is within the tolerance, and descent leads to the minimum of the energy:
-    the method converges.
+    Where many cells change state at once, the iteration may cycle. Therefore an iteration that does not reduce the
+    residual is only used as a direction along which the energy is reduced: see `descended`. A reduction of the
+    residual by a fixed factor reaches the tolerance after a finite number of iterations, and descent converges to the
+    minimum of the energy: the method converges.
     """
 
     max_steps: int = 5000
@@ -86,5 +86,5 @@ def _guessed(step: SlipStep, state: SlipState, max_steps: int) -> tuple[SlipStat
 
 
 def _certified(step: SlipStep, state: SlipState, steps: int) -> tuple[SlipState, int]:
-    """Return a state on a product of its own, and the products so far."""
+    """Return a state whose displacement is a separate exact product, and the products so far."""
     return (state, steps) if state.exact else (step.state(state.traction), steps + 1)

@@ -45,35 +45,34 @@ def slide(
 ) -> TangentialSolution:
     """Load a pressed contact tangentially at constant pressure: stick, slip and traction, with a certificate.
 
-    The work is done where the pressure lives: on arrays of other libraries traction and slip come back as arrays of
-    theirs.
+    The computation runs in the array library of the pressure: traction and slip are arrays of the same library.
 
-    Coulomb's law in every cell: traction is at most mu p, and where it is less nothing slips. The slip of a step is
-    opposed to the traction at its end: exact where slip keeps its direction within the step, as from rest along a line,
-    or back along it, for nu = 0; where it may rotate, take more steps. (Cattaneo 1938, Mindlin 1949 for a sphere;
-    Ciavarella 1998, Jaeger 1998 for any shape; thesis, chapter 7.)
+    Coulomb's law holds in every cell: traction is at most mu p, and a cell with less does not slip. The slip of a step
+    is opposed to the traction at its end. This is exact if slip keeps its direction within the step, as for loading
+    along a line, forwards or backwards, with nu = 0; if slip may rotate, take more steps. (Cattaneo 1938, Mindlin 1949
+    for a sphere; Ciavarella 1998, Jaeger 1998 for any shape; thesis, chapter 7.)
 
     Parameters
     ----------
     solution : Solution
         The pressed contact, of a surface of two axes, free or periodic.
     bodies : Solid or pair of Solids
-        Those it was pressed with; a single one against a rigid body. That normal and tangential displacements of
-        unlike bodies couple is left out; the solution says so in its notes.
+        The bodies of the pressed contact; a single one is pressed against a rigid body. The coupling of normal and
+        tangential displacements of unlike bodies is neglected; the notes of the solution state this.
     friction : float
         Coefficient of friction mu.
     force, displacement : float or pair of floats
-        Exactly one: tangential force [N], at most mu times the normal one, under which the bodies slide steadily
-        (docs/concepts/sliding.md), or displacement of body 2 against body 1 since the start [m]; as (x, y), or one
-        number along x (along `along`, if given).
+        Give exactly one: tangential force [N], at most mu times the normal force, under which the bodies slide
+        steadily (docs/concepts/sliding.md), or displacement of body 2 against body 1 since the start [m]; as (x, y),
+        or one number along x (along `along`, if given).
     initial : TangentialSolution, optional
-        The state to go on from, of the same contact with the same friction; `along` and `operator` are then as they
-        were. Without one the contact is at rest and free of traction.
+        The state to continue from, of the same contact with the same friction; its `along` and `operator` are used. By
+        default the contact is at rest and free of traction.
     along : pair of floats, optional
-        Let traction act in this direction (x, y) only, as the closed forms do, and leave out what moves the surfaces
-        across it. Without, it may rotate.
+        Let traction act only in this direction (x, y), as in the closed forms, and neglect displacements across it. By
+        default traction may rotate.
     operator : ShearOperator, optional
-        Another body than the half-spaces on the grid of the contact, or another way to sum them: see
+        Another body than the half-spaces on the grid of the contact, or another method of summation: see
         `shear_half_space`.
     tolerance : float
         Largest residual.
@@ -86,9 +85,9 @@ def slide(
     Raises
     ------
     ValueError
-        If the input makes no sense; the message names the value and the remedy.
+        If the input is invalid; the message names the value and the remedy.
     ConvergenceError
-        If the tolerance was missed. It carries the solution.
+        If the tolerance was not reached. The error holds the solution.
 
     Examples
     --------
@@ -120,18 +119,18 @@ def slide_path(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> Iterator[TangentialSolution]:
-    """Yield the state at every load, in order: the contact remembers where it has slipped.
+    """Yield the state at every load, in order: each state depends on the slip so far.
 
     Parameters
     ----------
     solution : Solution
         The pressed contact, of a surface of two axes, free or periodic.
     bodies : Solid or pair of Solids
-        Those it was pressed with; a single one against a rigid body.
+        The bodies of the pressed contact; a single one is pressed against a rigid body.
     friction : float
         Coefficient of friction mu.
     forces, displacements : array, shape (n,) or (n, 2)
-        Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+        Give exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
     along : pair of floats, optional
         Direction (x, y) of the traction, see `slide`.
     operator : ShearOperator, optional
@@ -142,12 +141,12 @@ def slide_path(
     Yields
     ------
     TangentialSolution
-        A load that missed its tolerance says so in its `status`.
+        If a load misses its tolerance, its `status` shows it.
 
     Raises
     ------
     ValueError
-        If the input makes no sense, at once and not at the first load.
+        If the input is invalid; raised immediately, not at the first load.
 
     Examples
     --------
@@ -177,7 +176,7 @@ def _follow(problem: SlipProblem, loads: list[Pull | Shift]) -> Iterator[Tangent
 
 @numeric
 def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
-    """Return loads from zero to an amplitude, and from there back and forth between it and its opposite.
+    """Return loads from zero to an amplitude, then back and forth between the amplitude and its opposite.
 
     Parameters
     ----------
@@ -191,12 +190,12 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
     Returns
     -------
     array, shape (n,) or (n, 2)
-        ``n = steps * (1 + 4 * cycles)`` loads; zero, where it begins, is not among them.
+        ``n = steps * (1 + 4 * cycles)`` loads; the initial zero is not included.
 
     Raises
     ------
     ValueError
-        If `steps` is not a whole number from 1 up, or `cycles` not one from 0 up.
+        If `steps` is not a whole number >= 1, or `cycles` not a whole number >= 0.
 
     Examples
     --------
@@ -223,7 +222,7 @@ def load_cycle(amplitude: Load, *, cycles: int = 1, steps: int = 8) -> Array:
 def advance(
     problem: SlipProblem, load: Pull | Shift, initial: TangentialSolution | None = None
 ) -> TangentialSolution:
-    """Return the state under a load, from an initial one or from rest; its status says whether it converged."""
+    """Return the state under a load, from an initial state or from rest; its status shows whether it converged."""
     interface = problem.interface
     if initial is None:
         start = slipped = moved = interface.zeros()
@@ -262,11 +261,11 @@ def advance(
 
 
 def _slid(step: SlipStep, force: Array) -> Slipped:
-    """Return the steady slide: all the traction that friction holds, along the force.
+    """Return the steady slide: the traction is at the limit of friction in every cell, along the force.
 
-    No other traction adds up to the force. It stays as it is while the bodies move on along the force, and so do the
-    elastic displacements: the slip rate of every cell is that of the bodies, opposed to the traction. Of the slip until
-    then, what lies along the force counts: none may be backward.
+    No other traction adds up to the force. The traction and the elastic displacements are constant while the bodies
+    move along the force: the slip rate of every cell is that of the bodies, opposed to the traction. Only the
+    component along the force of the slip until then counts: none may be backward.
     """
     direction, xp = force / np.sqrt(force @ force), namespace(step.limit)
     q = step.limit * as_like(direction[:, None], step.limit)

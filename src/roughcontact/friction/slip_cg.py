@@ -16,16 +16,16 @@ __all__ = ["Correction", "Freedom", "corrected"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Freedom:
-    """What a traction may change, to first order.
+    """The admissible changes of a traction, to first order.
 
     Parameters
     ----------
     normal : array, shape (k, n)
         Unit vectors in which the traction of slipping cells is fixed, zero in cells that stick.
     rotation : array, shape (n,)
-        Slip over traction of slipping cells [m/Pa]: slip rotates with the traction that it opposes.
+        Ratio of slip to traction of slipping cells [m/Pa]: slip rotates with the traction that it opposes.
     held : bool
-        Whether the force is given, so that no change may have a resultant.
+        Whether the force is given: then no change may have a resultant.
     """
 
     normal: Array
@@ -58,16 +58,16 @@ def corrected(
     interface : ContactCells
     freedom : Freedom
     error : array, shape (k, n)
-        What the change should add to the displacement.
+        Displacement that the change should add.
     reduction : float
-        Part of the error, in the norm of the preconditioner, that may stay.
+        Part of the error, in the norm of the preconditioner, that may remain.
     max_steps : int
         Largest number of products.
 
     Notes
     -----
-    Where cells stick, the preconditioner is the inverse of the half-space as if it were periodic, wave by wave. Where
-    they slip, the diagonal: next to rotation, the half-space is compliant only for long waves.
+    In cells that stick, the preconditioner is the inverse of a periodic half-space, wave by wave. In cells that slip
+    it is the diagonal: compared with rotation, the half-space is compliant only for long waves.
     """
     precondition = _preconditioner(interface, freedom)
     change, displacement, steps = interface.zeros(), interface.zeros(), 0
@@ -81,7 +81,7 @@ def corrected(
         steps += 1
         free_A_s = freedom.project(A_s) + freedom.rotation * s
         curvature = inner(s, free_A_s)
-        if not curvature > 0:  # the search direction is rounding
+        if not curvature > 0:  # the search direction is only rounding
             break
         alpha = rho / curvature
         change += alpha * s
@@ -105,7 +105,7 @@ def _preconditioner(interface: ContactCells, freedom: Freedom) -> Callable[[Arra
 
     if not freedom.held:
         return answer
-    # Answers to common displacements, of which a combination removes a resultant.
+    # Responses to common displacements; a combination of them removes a resultant.
     common = [answer(freedom.project(unit)) for unit in interface.units()]
     shares = np.linalg.pinv(np.array([on_host(xp.sum(z, axis=1)) for z in common]).T)
 

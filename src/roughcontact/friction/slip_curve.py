@@ -1,4 +1,4 @@
-"""The curve of tangential loading: force, displacement and what friction takes, load by load."""
+"""The curve of tangential loading: force, displacement and dissipated energy, load by load."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class SlipCurve:
     force, displacement : array, shape (n, 2)
         Tangential force [N] and displacement [m], x and y.
     stick_area, slip_area : array, shape (n,)
-        Area that holds and area that slips [m^2].
+        Area that sticks and area that slips [m^2].
     dissipated : array, shape (n,)
         Energy dissipated by friction in the step that ends at the point [J].
     elastic_energy : array, shape (n,)
@@ -74,7 +74,7 @@ class SlipCurve:
         return np.cumsum(self.dissipated)
 
     def __repr__(self) -> str:
-        """Say what the curve spans, not its numbers."""
+        """Return the range of the curve, not its numbers."""
         converged = sum(status.converged for status in self.status)
         largest = float(np.hypot(*self.force.T).max())
         return (
@@ -106,11 +106,11 @@ def slide_curve(
     solution : Solution
         The pressed contact, of a surface of two axes, free or periodic.
     bodies : Solid or pair of Solids
-        Those it was pressed with; a single one against a rigid body.
+        The bodies of the pressed contact; a single one is pressed against a rigid body.
     friction : float
         Coefficient of friction mu.
     forces, displacements : array, shape (n,) or (n, 2)
-        Exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
+        Give exactly one: tangential forces [N] or displacements [m] in any order, up and down; see `load_cycle`.
     along : pair of floats, optional
         Direction (x, y) of the traction, see `slide`.
     operator : ShearOperator, optional
@@ -126,7 +126,7 @@ def slide_curve(
     Raises
     ------
     ValueError
-        If the input makes no sense.
+        If the input is invalid.
 
     Examples
     --------

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["slip_curve_dataset", "slip_curve_record", "tangential_dataset", "tangential_record"]
 
-# Names in a file, where normal and tangential answers may stand side by side, and those of the attributes.
+# Names in a file, which may hold normal and tangential answers side by side, and the names of the attributes.
 _NAMES = {f"tangential_{name}": name for name in ("force", "displacement", "elastic_energy", "stiffness")}
 _OF_A_STATE = _NAMES | {
     **{name: f"problem.{name}" for name in ("friction", "capacity")},
@@ -69,7 +69,7 @@ def tangential_dataset(solution: TangentialSolution) -> xarray.Dataset:
 def tangential_record(solution: TangentialSolution) -> dict[str, Any]:
     """Return the numbers of one state as plain values that JSON can hold; vectors are pairs (x, y).
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Units stand once, under ``"units"``. JSON has neither NaN nor infinity: both become None.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def slip_curve_dataset(curve: SlipCurve) -> xarray.Dataset:
 def slip_curve_record(curve: SlipCurve) -> dict[str, Any]:
     """Return a path of tangential loads as plain numbers, words and lists that JSON can hold.
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Units stand once, under ``"units"``. JSON has neither NaN nor infinity: both become None.
 
     Parameters
     ----------

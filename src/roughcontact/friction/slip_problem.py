@@ -33,14 +33,14 @@ __all__ = [
 Load = float | Sequence[float] | Array
 """A force or a displacement: its components (x, y), or one number in the direction of the traction, by default x."""
 
-SAME = 1e-6  # relative difference of two reduced moduli that are one
+SAME = 1e-6  # relative difference below which two reduced moduli are equal
 SLIDING = 1e-9  # relative distance of a force from mu P within which the bodies slide
-PARALLEL = 1e-9  # sine of the angle between two directions that are one
+PARALLEL = 1e-9  # sine of the angle below which two directions are equal
 
 
 @dataclass(frozen=True, slots=True)
 class Pull:
-    """Pull until the contact carries the tangential force (`x`, `y`) [N]."""
+    """Prescribed tangential force (`x`, `y`) [N]."""
 
     x: float
     y: float
@@ -48,7 +48,7 @@ class Pull:
 
 @dataclass(frozen=True, slots=True)
 class Shift:
-    """Move body 2 until it stands displaced by (`x`, `y`) [m] against body 1, since the start."""
+    """Prescribed displacement (`x`, `y`) [m] of body 2 against body 1, since the start."""
 
     x: float
     y: float
@@ -56,7 +56,7 @@ class Shift:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SlipProblem:
-    """Tangential loading of a contact whose pressure is held, under Coulomb's law.
+    """Tangential loading of a contact at constant pressure, under Coulomb's law.
 
     Parameters
     ----------
@@ -66,11 +66,11 @@ class SlipProblem:
     friction : float
         Coefficient of friction mu.
     along : tuple of float, optional
-        The one direction (x, y), a unit vector, in which traction may act; without one it may rotate.
+        The only direction (x, y), a unit vector, in which traction may act; by default it may rotate.
     operator : ShearOperator
         Displacement [m] from traction [Pa] on the whole grid.
     interface : ContactCells
-        The same on the cells in contact.
+        The same operator on the cells in contact.
     tolerance : float
         Largest residual of a solution.
     """
@@ -99,11 +99,11 @@ class SlipProblem:
         return float(namespace(self.pressed.pressure).sum(self.limit)) * self.interface.area
 
     def slides_under(self, load: Pull | Shift) -> bool:
-        """Whether a force is all that friction can hold."""
+        """Whether a force is the largest that friction can hold."""
         return isinstance(load, Pull) and math.hypot(load.x, load.y) >= self.capacity * (1 - SLIDING)
 
     def load(self, *, force: Load | None = None, displacement: Load | None = None) -> Pull | Shift:
-        """Return the load that exactly one of the two states, or raise a ValueError if this contact cannot take it."""
+        """Return the load given by exactly one of the two, or raise a ValueError if this contact cannot carry it."""
         name, given = exactly_one(force=force, displacement=displacement)
         value = np.asarray(number(given, "a tangential load"))
         if value.ndim == 0:
@@ -119,11 +119,11 @@ class SlipProblem:
             if abs(load.x * ey - load.y * ex) > PARALLEL * size:
                 raise InputError(
                     f"traction acts along {self.along} only, and ({load.x:g}, {load.y:g}) does not",
-                    "leave out `along`",
+                    "omit `along`",
                 )
         if isinstance(load, Pull) and size > self.capacity * (1 + SLIDING):
             raise InputError(
-                f"friction holds at most mu P = {self.capacity:.6g} N, and {size:.6g} N makes the bodies slide away",
+                f"friction holds at most mu P = {self.capacity:.6g} N: under {size:.6g} N the bodies slide away",
                 "pull less, or press harder",
             )
         if isinstance(load, Shift) and self.interface.floating:
@@ -143,19 +143,20 @@ def make_problem(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> SlipProblem:
-    """Return the problem, or say in a ValueError what is wrong with it."""
+    """Return the problem, or raise a ValueError that describes what is wrong with it."""
     kind = pressed.problem.geometry
     if kind is not Geometry.SURFACE:
         raise InputError(
-            f"partial slip is that of a surface of two axes, not of a {kind.value}", "press a map of heights"
+            f"partial slip is computed for a surface of two axes, not for a {kind.value}",
+            "press a map of heights",
         )
     if not bool(namespace(pressed.contact).any(pressed.contact)):
-        raise InputError("the bodies do not touch: nothing to pull at", "press them first")
+        raise InputError("the bodies do not touch: there is no contact to load", "press them first")
     modulus, stated = reduced_modulus(*pair_of(bodies)), pressed.problem.modulus
     if math.isfinite(stated) and abs(modulus - stated) > SAME * stated:
         raise InputError(
             f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {stated:.6g} Pa",
-            "press and pull the same",
+            "use the same bodies for both",
         )
     body = shear_body(pressed.problem.grid, bodies, operator)
     direction = None if along is None else _unit(along)
@@ -173,29 +174,29 @@ def continued(
     operator: ShearOperator | None = None,
     tolerance: float = 1e-8,
 ) -> SlipProblem:
-    """Return an earlier problem, whose operator is at hand, to another tolerance; all else must be the same."""
+    """Return an earlier problem, with its operator, for another tolerance; everything else must be the same."""
     if earlier.pressed is not pressed:
         raise InputError("the initial state is that of another contact: the pressure must stay as it is")
     given = (bodies, friction, earlier.along if along is None else _unit(along))
     if given != (earlier.bodies, earlier.friction, earlier.along):
         raise InputError(
             f"the initial state has bodies {earlier.bodies}, friction {earlier.friction} and along={earlier.along}",
-            "go on with the same",
+            "continue with the same",
         )
     if operator is not None and operator is not earlier.operator:
         raise InputError(
-            "the initial state was found with another operator", "go on with the same, or name none"
+            "the initial state was found with another operator", "pass the same operator, or none"
         )
     return replace(earlier, tolerance=tolerance)
 
 
 def shear_body(grid: AnyGrid, bodies: Bodies, operator: ShearOperator | None = None) -> ShearOperator:
-    """Return `operator`, which must lie on `grid`; without one the half-spaces of the bodies.
+    """Return `operator`, which must have the grid `grid`; by default that of the half-spaces of the bodies.
 
     Raises
     ------
     ValueError
-        If the operator lies on another grid, or the grid has not two axes.
+        If the operator has another grid, or the grid has not two axes.
     """
     if operator is None:
         return shear_half_space(grid, bodies)

@@ -1,4 +1,4 @@
-"""The answer of a step of tangential loading, and everything that follows from it."""
+"""The solution of a step of tangential loading, and the quantities computed from it."""
 
 from __future__ import annotations
 
@@ -23,43 +23,46 @@ from roughcontact.validation import Array, Mask
 __all__ = ["TangentialSolution"]
 
 
-UNLIKE = 1e-3  # of Dundurs's parameter: below, the bodies count as alike
+UNLIKE = 1e-3  # of Dundurs's parameter: below it, the bodies count as alike
 
 
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class TangentialSolution:
-    """A traction, the displacement of the bodies, and a certificate; the rest is computed when asked for.
+    """A traction, the displacement of the bodies, and a certificate; other quantities are computed on access.
 
-    Fields have shape ``(2, ny, nx)``: x component, then y component; they live where the pressure does. Vectors that
-    belong to no cell are NumPy's. Traction, force and displacement are those that body 2 forces upon body 1.
+    Fields have shape ``(2, ny, nx)``: x component, then y component; they are arrays of the library of the pressure.
+    Vectors that belong to no cell are NumPy arrays. Traction, force and displacement are those that body 2 imposes on
+    body 1.
 
     Attributes
     ----------
     problem : SlipProblem
     load : Pull or Shift
-        What was prescribed.
+        The prescribed load.
     traction : array, shape (2, ny, nx)
         Tangential traction [Pa], zero outside the contact.
     displacement : array, shape (2,)
-        Displacement of body 2 against body 1, far from the contact, since the start [m]. Where the bodies slide under
-        a given force it is the least at which every cell has slipped forward.
+        Displacement of body 2 against body 1, far from the contact, since the start [m]. If the bodies slide under a
+        given force, it is the smallest displacement at which every cell has slipped forward.
     slip : array, shape (2, ny, nx)
-        How far surface 1 has slipped over surface 2 since the start [m]; zero, to the residual, where they have stuck
-        throughout, and outside the contact, where it means nothing.
+        Slip of surface 1 over surface 2 since the start [m]; zero, within the residual, in cells that have always
+        stuck, and outside the contact, where it has no meaning.
     dissipated : float
         Energy dissipated by friction in this step [J].
     status : Status
         How the solve ended.
     residual : float
-        Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, on a product of
-        the exact operator with this traction. Where the bodies slide under a given force the law is that of the slip
-        rate of the steady slide, and of the slip of the step only what lies along the force counts: none is backward.
+        Largest violation of Coulomb's law in this step, relative to the largest displacement of a cell, from a product
+        of the exact operator with this traction. If the bodies slide under a given force, the law is that of the slip
+        rate of the steady slide, and only the component along the force of the slip of the step counts: none is
+        backward.
     steps : int
         Number of products with the operator.
     step_residual : float
-        The same by all of the slip of this step. Only where the bodies slide under a given force is it another number:
-        what slipped across the force before the slide was steady, which no finite displacement opposes to the traction.
+        The same violation with the whole slip of this step. It differs from `residual` only if the bodies slide under
+        a given force: it then includes the slip across the force before the slide was steady, which no finite
+        displacement opposes to the traction.
 
     Examples
     --------
@@ -94,19 +97,19 @@ class TangentialSolution:
 
     @cached_property
     def slipping(self) -> Mask:
-        """Mask of the cells in contact whose traction is all that friction holds."""
+        """Mask of the cells in contact whose traction is at the limit of friction."""
         interface = self.problem.interface
         held = at_limit(interface.restrict(self.traction), self.problem.limit)
         return interface.chosen.prolong(held[None, :])[0, ...]
 
     @property
     def sticking(self) -> Mask:
-        """Mask of the cells in contact that hold."""
+        """Mask of the cells in contact that stick."""
         return self.problem.interface.contact & ~self.slipping
 
     @property
     def stick_area(self) -> float:
-        """Area of the cells that hold [m^2]."""
+        """Area of the cells that stick [m^2]."""
         return _count(self.sticking) * self.problem.interface.area
 
     @property
@@ -129,12 +132,12 @@ class TangentialSolution:
 
     @cached_property
     def frozen(self) -> TangentialStiffness:
-        """The response of the cells that hold, displaced as one, while the traction of the others stays as it is."""
+        """The response of the cells that stick to a common displacement, at constant traction of the other cells."""
         return frozen_shear(self.problem.operator, self.sticking)
 
     @property
     def stiffness(self) -> Array:
-        """Tangential stiffness dQ/d(displacement) of the cells that hold [N/m], shape (2, 2)."""
+        """Tangential stiffness dQ/d(displacement) of the cells that stick [N/m], shape (2, 2)."""
         return self.frozen.matrix
 
     def on_host(self) -> TangentialSolution:
@@ -143,7 +146,7 @@ class TangentialSolution:
         Returns
         -------
         TangentialSolution
-            The same object if it is there already.
+            The same object if it is already in NumPy's memory.
         """
         if is_numpy(self.traction):
             return self
@@ -154,33 +157,33 @@ class TangentialSolution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        """Notes on these numbers, in sentences, the most important first."""
         return in_order(self._notes())
 
     def _notes(self) -> Iterator[Note]:
         if not self.status.converged:
             yield Note(Rank.WRONG, f"Residual {self.residual:.1e}: {self.status.message}")
         if not self.problem.pressed.status.converged:
-            yield Note(Rank.WRONG, "The pressure itself missed its tolerance.")
+            yield Note(Rank.WRONG, "The pressure missed its tolerance.")
         bodies = self.problem.bodies
         beta = dundurs_parameter(*((bodies,) if isinstance(bodies, Solid) else bodies))
         if abs(beta) > UNLIKE:
             yield Note(
                 Rank.DOUBTFUL,
-                f"The bodies are unlike (Dundurs's parameter {beta:.2g}): that traction changes the pressure, and "
-                "pressure shears the surfaces, is left out.",
+                f"The bodies are unlike (Dundurs's parameter {beta:.2g}): the coupling of traction and "
+                "pressure is neglected.",
             )
         if self.sliding:
             text = "Every cell slips: the bodies slide."
             if self.status.converged and self.step_residual > self.problem.tolerance:
                 text += (
-                    " This is the steady slide, whose slip rate is opposed to the traction; of the slip until then, up "
-                    f"to {self.step_residual:.1e} of the largest displacement is not."
+                    " This is the steady slide, whose slip rate is opposed to the traction; the slip until "
+                    f"then deviates by up to {self.step_residual:.1e} of the largest displacement."
                 )
             yield Note(Rank.LIMITED, text)
 
     def __repr__(self) -> str:
-        """Say what was found, not the fields."""
+        """Return a summary without the fields."""
         (qx, qy), (x, y) = self.force, self.displacement
         slips, cells = _count(self.slipping), self.problem.interface.chosen.count
         return (

@@ -1,4 +1,4 @@
-"""One step of tangential loading: what is asked, and how far an answer is from it."""
+"""One step of tangential loading: the problem, and the residual of a state."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class SlipStep:
     limit : array, shape (n,)
         Largest traction of each cell [Pa].
     traction, slip : array, shape (k, n)
-        Where the step starts [Pa], and how far the cells have slipped until then [m].
+        Traction at the start of the step [Pa], and slip of the cells until then [m].
     force, shift : NumPy array, shape (k,), or None
-        One of them: the force [N] or the displacement of the bodies [m] at the end of the step.
+        One of the two: the force [N] or the displacement of the bodies [m] at the end of the step.
     scale : float
         Largest displacement of a cell at the start [m].
     tolerance : float
@@ -53,7 +53,7 @@ class SlipStep:
     tolerance: float
 
     def state(self, traction: Array, displacement: Array | None = None) -> SlipState:
-        """Return the state of a traction that friction can hold; its exact displacement is found if none is given."""
+        """Return the state of a traction that friction can hold; by default with its exact displacement."""
         moved = self.interface.apply(traction) if displacement is None else displacement
         normal = directions(traction, at_limit(traction, self.limit))
         shift = self.shift_of(moved, normal)
@@ -62,7 +62,7 @@ class SlipStep:
         return SlipState(traction, moved, displacement is None, normal, shift, slipped, residual)
 
     def energy(self, state: SlipState) -> float:
-        """Return what is lowest at the end of the step [J per area of a cell]."""
+        """Return the energy that is minimal at the end of the step [J per area of a cell]."""
         stored = inner(state.traction, state.displacement / 2 - self.slip)
         if self.shift is None:  # the work of a given force is the same for all tractions that add up to it
             return stored
@@ -75,7 +75,7 @@ class SlipStep:
         return projected_to_force(traction, self.limit, self.force / self.interface.area)
 
     def shift_of(self, displacement: Array, normal: Array) -> Array:
-        """Return the displacement of the bodies [m]: the one that is given, or that belongs to a traction.
+        """Return the displacement of the bodies [m]: the given one, or that of a traction.
 
         `normal` are unit vectors of the traction in the cells at their limit, zero elsewhere.
         """
@@ -92,8 +92,8 @@ class SlipStep:
     def residual(self, traction: Array, displacement: Array, slipped: Array) -> float:
         """Return the largest violation of Coulomb's law relative to the largest displacement of the step.
 
-        What is rounding of what the largest traction does in its own cell counts as no more: uniform traction on all
-        cells of a period moves nothing, and there all is rounding.
+        The scale is at least the rounding error of the largest displacement by the traction of the same cell: a
+        uniform traction on all cells of a period displaces nothing, and only rounding is left.
         """
         xp = namespace(traction)
         violation = float(xp.max(violations(traction, self.limit, slipped)))
@@ -107,20 +107,20 @@ class SlipStep:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SlipState:
-    """A traction that friction can hold, and how far it is from the end of the step.
+    """A traction that friction can hold, and its residual in the step.
 
     Parameters
     ----------
     traction, displacement : array, shape (k, n)
         Of the cells [Pa], [m].
     exact : bool
-        Whether the displacement is the exact product of this very traction: what a certificate stands on.
+        Whether the displacement is the exact product of this traction, as a certificate requires.
     normal : array, shape (k, n)
         Unit vectors of the traction in cells at their limit, zero elsewhere.
     shift : NumPy array, shape (k,)
         Displacement of the bodies [m].
     slipped : array, shape (k, n)
-        Slip of the step [m], which is the slope of the energy.
+        Slip of the step [m], the gradient of the energy.
     residual : float
     """
 
@@ -135,7 +135,7 @@ class SlipState:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Slipped:
-    """The end of a step: traction [Pa], its displacement [m] on the cells, that of the bodies [m], and how good."""
+    """The end of a step: traction [Pa], its displacement [m] on the cells, that of the bodies [m], and its residual."""
 
     traction: Array
     displacement: Array
@@ -146,14 +146,14 @@ class Slipped:
 
 
 def _common_displacement(level: Array, normal: Array, limit: Array, self_influence: float) -> Array:
-    """Return the displacement [m] that the free parts of `level` have in common, shape (k,), as NumPy's array.
+    """Return the displacement [m] that the free parts of `level` have in common, shape (k,), as a NumPy array.
 
     Parameters
     ----------
     level : array, shape (k, n)
-        Displacement of the cells less what they had slipped before [m]: less the answer it is their slip now.
+        Displacement of the cells less their earlier slip [m]; less the result it is their present slip.
     normal : array, shape (k, n)
-        Unit vectors of the traction in cells at their limit, where only what lies across is free; zero elsewhere.
+        Unit vectors of the traction in cells at their limit, where only changes across them are free; zero elsewhere.
     limit : array, shape (n,)
         Largest traction [Pa].
     self_influence : float
@@ -161,8 +161,8 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
 
     Notes
     -----
-    The mean with the weights of the preconditioner: a cell that slips far under little traction follows any
-    displacement, and does not determine it.
+    It is the mean with the weights of the preconditioner: a cell that slips far under little traction follows any
+    displacement and does not determine it.
     """
     xp = namespace(level)
 
@@ -171,7 +171,7 @@ def _common_displacement(level: Array, normal: Array, limit: Array, self_influen
 
     across = level - xp.sum(level * normal, axis=0) * normal
     weight = xp.ones_like(limit)
-    for _ in range(2):  # the weights need a first answer: which cells slip, and how far
+    for _ in range(2):  # the weights need a first result: which cells slip, and how far
         free = float(xp.sum(weight)) * np.eye(level.shape[0]) - on_host((weight * normal) @ normal.T)
         shift = np.asarray(np.linalg.lstsq(free, on_host(across @ weight), rcond=None)[0], np.float64)
         forward = forward_of(shift)

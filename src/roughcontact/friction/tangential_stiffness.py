@@ -22,19 +22,19 @@ from roughcontact.validation import Array, Mask
 __all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
 
 
-TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
+TOLERANCE = 1e-7  # of the unit displacement; the relative error of the stiffness is about its square
 MAX_STEPS = 5000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TangentialStiffness:
-    """The response of a region that sticks and is displaced as one.
+    """The response of a sticking region to a common displacement.
 
     Attributes
     ----------
     matrix : array, shape (2, 2)
-        Force along x and y [N] per displacement along x and y [m]; symmetric. Zero for an empty region, infinite on the
-        diagonal for the whole of a periodic grid.
+        Force along x and y [N] per displacement along x and y [m]; symmetric. Zero for an empty region, infinite on
+        the diagonal for the whole periodic grid.
     residual : float
         Largest error of the unit displacements.
 
@@ -72,18 +72,19 @@ def tangential_stiffness(
 ) -> TangentialStiffness:
     """Return the stiffness of a given contact region against tangential displacement, if no cell slips.
 
-    Of a disc it is 2 G* a in every direction (Mindlin 1949; thesis, eq. 4.5), and so E*/G* times less than the normal
-    stiffness. Of other regions it depends on the direction: along the longer side of a rectangle it is smaller.
+    For a disc it is 2 G* a in every direction (Mindlin 1949; thesis, eq. 4.5), which is the normal stiffness divided
+    by E*/G*. For other regions it depends on the direction: along the longer side of a rectangle it is smaller.
 
     Parameters
     ----------
     mask : bool array, shape ``grid.shape``
-        The cells in contact, for instance ``solution.contact``. On arrays of other libraries the work is done where
-        they live.
+        The cells in contact, for instance ``solution.contact``. For arrays of another library the computation runs in
+        that library.
     grid : Grid
         Of two axes, free or periodic.
     bodies : Solid or pair of Solids
-        One solid: against a rigid body. That normal and tangential displacements of unlike bodies couple is left out.
+        A single solid is pressed against a rigid body. The coupling of normal and tangential displacements of unlike
+        bodies is neglected.
     operator : ShearOperator, optional
         Another body than the half-spaces on the grid.
     tolerance : float
@@ -117,7 +118,7 @@ def tangential_stiffness(
     frozen = frozen_shear(body, cells, tolerance=tolerance)
     if not frozen.residual <= tolerance:
         raise RuntimeError(
-            f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
+            f"the residual of the stiffness is only {frozen.residual:.1e}; ask for a larger tolerance"
         )
     return frozen
 
@@ -126,7 +127,7 @@ def tangential_stiffness(
 def frozen_shear(
     operator: ShearOperator, region: Mask, *, tolerance: float = TOLERANCE
 ) -> TangentialStiffness:
-    """Return what `tangential_stiffness` does, with whatever residual was reached."""
+    """Return the result of `tangential_stiffness` with the residual that was reached, whatever it is."""
     if not bool(namespace(region).any(region)):
         return TangentialStiffness(np.zeros((2, 2)), 0.0)
     interface = ContactCells.of(operator, region)
@@ -134,7 +135,7 @@ def frozen_shear(
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
     answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
-    # By what the errors are to the tractions, the matrix is good to the product of two errors, beside the diagonal too.
+    # With the products of errors and tractions added, the error of the whole matrix is a product of two errors.
     matrix = np.array(
         [
             [float(xp.sum(traction[of, :])) + inner(other, error) for of, (other, _) in enumerate(answers)]
@@ -146,7 +147,7 @@ def frozen_shear(
 
 
 def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
-    """Return the traction that displaces the cells by what is wanted, and its errors on a product of its own."""
+    """Return the traction for the given displacements of the cells, and its errors from a separate exact product."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)
     error, worst, steps = wanted, 1.0, 0
@@ -157,6 +158,6 @@ def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tupl
         traction = traction + found.traction
         error = wanted - interface.apply(traction)
         before, worst, steps = worst, float(xp.max(xp.abs(error))), steps + found.steps + 1
-        if worst > 0.9 * before:  # rounding allows no more
+        if worst > 0.9 * before:  # rounding prevents further progress
             break
     return traction, error

@@ -59,7 +59,7 @@ ADHESION = columns("""
     adhesion_range | m | length over which the attraction falls | | range of the attraction
     allow_unresolved | | whether an attraction that varies from cell to cell was allowed
 """)
-"""What a law has besides its work of adhesion, which may be a map."""
+"""Columns of a law in addition to its work of adhesion, which may be a map."""
 
 _POINTS = (DEPTH, FORCE, AREA, FRACTION, STIFFNESS, CONTACT_STIFFNESS, MEAN_GAP)
 _ENERGIES = (_OF["elastic_energy"], ADHESIVE_ENERGY, ENERGY)

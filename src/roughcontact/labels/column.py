@@ -1,4 +1,4 @@
-"""A column: what is said about one quantity of an answer wherever it appears."""
+"""A column: name, unit and description of one quantity of an answer, wherever it appears."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ class Column:
     name : str
         In files, records and on the command line; the attribute of the answer has the same name as a rule.
     unit : str
-        Unit in UDUNITS style, as the CF conventions want it: ``"N m-1"``; ``"1"`` for a pure number.
+        Unit in UDUNITS style, as the CF conventions require: ``"N m-1"``; ``"1"`` for a pure number.
         Empty for words.
     long_name : str
-        The quantity in words, complete enough to stand alone in a file.
+        The quantity in words, understandable in a file without context.
     shown : str
-        Where it is shown to a person, in words apart: ``"patch"`` and ``"joint"`` are tables of loads on a screen, of a
-        free and of a periodic map; ``"path"`` that of a path of surfaces that stick; ``"page"`` that of the page in the
-        browser; ``"facts"`` the lines about one state.
+        Where it is displayed, words separated by blanks: ``"patch"`` and ``"joint"`` are tables of loads on a screen,
+        for a free and for a periodic map; ``"path"`` is the table of a path of adhesive surfaces; ``"page"`` the table
+        in the browser; ``"facts"`` the lines about one state.
     label : str
         The quantity on the axis of a picture and in a table, without its unit; by default its name.
     digits : str
-        How its numbers are written in a table on a screen.
+        Number format in a table on a screen.
     """
 
     name: str
@@ -59,9 +59,9 @@ class Column:
 Table: TypeAlias = Mapping[tuple[str, ...], tuple[Column, ...]]
 """The columns of an answer by the dimensions that their values have."""
 
-# On a line all that adds up over the contact is per unit length.
+# For a line contact, sums over the contact are per unit length.
 _ON_A_LINE = {"N": "N m-1", "N m-1": "N m-2", "m2": "m", "m3": "m2", "J": "J m-1"}
-# Springs feel a force per length, and touch over a length; their modulus stays a pressure.
+# Springs carry a force per length, and touch over a length; their modulus stays a pressure.
 _ON_SPRINGS = {"Pa": "N m-1", "m2": "m", "m3": "m2", "Pa m-1": "N m-2"}
 
 
@@ -76,7 +76,7 @@ def names_of(columns: Iterable[Column]) -> tuple[str, ...]:
 
 
 def stored_in(answer: type, columns: Iterable[Column]) -> tuple[str, ...]:
-    """Return the names of the columns that a curve holds as arrays; the others follow from them."""
+    """Return the names of the columns that a curve holds as arrays; the other columns are computed from them."""
     return tuple(each.name for each in columns if answer.__annotations__.get(each.name) == "Array")
 
 

@@ -1,6 +1,6 @@
 """The tables of a loaded state, a loading curve, a loop, the law of an interface, and of what a contact conducts.
 
-A new column is one line here. Files, records, tables on a screen and on the page, and the labels of pictures follow.
+A new column is one line here: files, records, tables on a screen and on the page, and labels of pictures use it.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ POINTS = columns("""
     mean_gap | m | gap averaged over the measured cells | patch joint page facts
     elastic_energy | J | elastic energy of the bodies | page facts
 """)
-"""What a loaded state has, and a curve at each load."""
+"""Columns of a loaded state, and of a curve at each load."""
 CERTIFICATES = columns("""
     residual | 1 | violation of the contact conditions, recomputed on the answer | patch joint page | | .1e
     stiffness_residual | 1 | residual of the linear problem of the stiffness
@@ -60,7 +60,7 @@ SCALES = (
         nominal_area | m2 | area of all cells
     """),
 )
-"""What a curve is measured by."""
+"""Scales of a curve."""
 SIZES = columns("""
     lengths | m | side lengths of the map, cells times spacing | | length
     spacing | m | size of a cell
@@ -76,7 +76,7 @@ FLOW = columns("""
     unloading_interfacial_stiffness | N m-1 | \
         normal stiffness against the mean gap as the load is reduced, contact region held fixed
 """)
-"""What a state and a curve have besides where a hardness limits the pressure."""
+"""Further columns of a state and of a curve where a hardness limits the pressure."""
 FLOW_DEPTH = Column("flow_depth", "m", "depth by which the surface has flowed", "", "depth of flow")
 FLOW_RISE = Column("flow_rise", "m", "rise of the whole surface by what has flowed", "", "rise")
 
@@ -146,7 +146,7 @@ STATE_NAMES = MappingProxyType(
         **{name: f"problem.grid.{name}" for name in ("lengths", "spacing", "periodic")},
     }
 )
-"""Attributes of a state that have not the name of their column."""
+"""Attributes of a state whose name differs from that of the column."""
 
 LOOP: Table = {
     (CELLS,): (
@@ -175,7 +175,7 @@ UNLOADED = tuple(
     for column in POINTS
     if column.name not in ("force", "nominal_pressure")
 )
-"""What a loop has on unloading under the loads of first loading, in tables with a row for each of these."""
+"""Columns of unloading, interpolated at the loads of first loading, in tables with a row for each of these loads."""
 BRANCH = Column("branch", "", "branch of the loop: first loading, unloading or reloading")
 
 _OF_POINTS = {column.name: column for column in POINTS}
@@ -209,7 +209,7 @@ ERRORS = columns("""
     corrected_contact_fraction | 1 | relative real contact area, corrected for the perimeter of its cells | | \
         A/A0, corrected
 """)
-"""What is quoted with its error besides the columns of a state."""
+"""Quantities that are quoted with an error, in addition to the columns of a state."""
 PLACES = columns("""
     x | m | position along the rows of the picture, centre of the cell
     y | m | position down the picture from its top, centre of the cell

@@ -1,4 +1,4 @@
-"""The pieces that labelled answers are made of: variables with units, plain values."""
+"""Parts of labelled answers: variables with units, plain values."""
 
 from __future__ import annotations
 
@@ -38,17 +38,17 @@ __all__ = [
 Variables: TypeAlias = dict[str, tuple[Any, Any, dict[str, str]]]
 """Dimensions, values and attributes of each variable, as xarray takes them."""
 Names: TypeAlias = Mapping[str, str]
-"""Attributes of an answer, dotted where they are those of a part, that have not the name of their column."""
+"""Attributes of an answer whose name differs from that of the column; dotted for those of a part."""
 _SAME: Names = MappingProxyType({})
 
 
 def values_of(answer: Any, columns: Iterable[Column], names: Names = _SAME) -> dict[Column, Any]:
-    """Return what an answer holds of columns."""
+    """Return the values of an answer for some columns."""
     return {column: attrgetter(names.get(column.name, column.name))(answer) for column in columns}
 
 
 def variables_of(answer: Any, table: Table, geometry: Geometry, names: Names = _SAME) -> Variables:
-    """Return what an answer holds of a table as variables with units and long names."""
+    """Return the values of an answer for a table, as variables with units and long names."""
     return {
         column.name: (
             tuple(axis for each in along for axis in (geometry.axes if each == CELLS else (each,))),
@@ -63,14 +63,14 @@ def variables_of(answer: Any, table: Table, geometry: Geometry, names: Names = _
 def record_of(variables: Variables, geometry: Geometry, **more: Any) -> dict[str, Any]:
     """Return variables as plain values that JSON can hold, with `more` of them; units stand once, under ``"units"``.
 
-    JSON knows neither NaN nor infinity: both become None.
+    JSON has neither NaN nor infinity: both become None.
     """
     record = {name: plain_values(values) for name, (_, values, _) in variables.items()} | more
     return record | {"geometry": geometry.value, "units": units_of(record, geometry)}
 
 
 def _array(value: Any) -> Any:
-    """Return an array in NumPy's memory, truths as truths, and words for what is one of several."""
+    """Return a NumPy array: truth values stay, members of an enumeration become words."""
     if isinstance(value, tuple) and value and isinstance(value[0], Enum):
         return np.array([each.value for each in value])
     if isinstance(value, Enum):
@@ -88,7 +88,7 @@ def variable(
 
 
 def attributes_of(column: Column, geometry: Geometry = Geometry.SURFACE) -> dict[str, str]:
-    """Return what a variable says of itself: its name in words, and its unit if it has one."""
+    """Return the attributes of a variable: its name in words, and its unit if it has one."""
     unit = column.unit_on(geometry)
     return {"long_name": column.long_name} | ({"units": unit} if unit else {})
 
@@ -126,13 +126,13 @@ def dataset_of(
 
 
 def units_of(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:
-    """Return the units of those names in a record that have one."""
+    """Return the units of the names in a record, where a name has one."""
     units = {name: VARIABLES[name].unit_on(geometry) for name in record if name in VARIABLES}
     return {name: unit for name, unit in units.items() if unit}
 
 
 def plain_values(value: Any) -> Any:
-    """Return a number, an array or a sequence as built-in types, with None for what is not finite."""
+    """Return a number, an array or a sequence as built-in types, with None for values that are not finite."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     elif isinstance(value, np.generic):

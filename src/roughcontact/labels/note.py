@@ -1,4 +1,4 @@
-"""What a reader of an answer should know: sentences, and how much each of them matters."""
+"""Notes on an answer: sentences, and the importance of each."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ __all__ = ["Note", "Rank", "in_order"]
 
 
 class Rank(IntEnum):
-    """How much a note matters, the most important first; it stands where the note is made."""
+    """The importance of a note, the most important first; it is set where the note is made."""
 
     WRONG = 0
-    """A number is wrong: it missed its tolerance, or the grid sets it."""
+    """A number is wrong: it missed its tolerance, or it is set by the grid."""
     DOUBTFUL = 1
-    """A number may be wrong: a unit, a spike, a theory at its end."""
+    """A number may be wrong: a unit, a spike, a theory beyond its range."""
     LIMITED = 2
-    """A number holds, for less than a reader may think."""
+    """A number is right, but its scope is smaller than a reader may think."""
     USUAL = 3
-    """What most maps have."""
+    """A property of most maps."""
 
 
 class Note(NamedTuple):
@@ -30,5 +30,5 @@ class Note(NamedTuple):
 
 
 def in_order(notes: Iterable[Note]) -> tuple[str, ...]:
-    """Return the sentences of notes, each once: what makes a number wrong first, what is usual last."""
+    """Return the sentences of notes, each once: errors first, usual properties last."""
     return tuple(dict.fromkeys(note.text for note in sorted(notes, key=lambda note: note.rank)))

@@ -21,9 +21,9 @@ def records(kind: type[T], curve: Any, more: Any = None) -> Iterator[T]:
     kind : type
         Each of its fields has the name of a column of the curve; those with a default are columns of `more`.
     curve : object
-        What has the columns.
+        Object with the columns as attributes.
     more : object, optional
-        What has further columns; without it their fields keep the default.
+        Object with further columns; without it their fields keep the default.
     """
     sources = {each.name: curve if each.default is MISSING else more for each in fields(kind)}  # type: ignore[arg-type]
     columns = {name: getattr(source, name) for name, source in sources.items() if source is not None}

@@ -27,7 +27,7 @@ AREAS = columns("""
 ENERGY = Column("tangential_elastic_energy", "J", "elastic energy of the tangential displacement")
 CAPACITY = Column("capacity", "N", "largest tangential force that friction holds")
 DIRECTION = "direction"
-"""Of the displacement, beside the component of the force."""
+"""The component of the displacement, beside that of the force."""
 
 SLIP_CURVE: Table = {
     ("load", "component"): (FORCE, DISPLACEMENT),

@@ -1,6 +1,6 @@
-"""Every quantity that leaves the library, by its name, of all tables of answers.
+"""Every quantity of the tables of answers, by its name.
 
-Datasets, files and pictures take units and names from the tables and from nowhere else.
+Datasets, files and pictures take units and names only from these tables.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ __all__ = ["VARIABLES", "force_unit", "unit_of"]
 
 
 def _columns(value: Any) -> Iterator[Column]:
-    """Yield the columns of a table, of a tuple of them, or the one that it is."""
+    """Yield the columns of a table, of a tuple of columns, or of a single column."""
     if isinstance(value, Column):
         yield value
     elif isinstance(value, tuple | dict):
@@ -26,7 +26,7 @@ def _columns(value: Any) -> Iterator[Column]:
             yield from _columns(part)
 
 
-# Of quantities that several answers have, the words are those of a contact that does not stick: its tables come last.
+# For quantities of several answers, the words of non-adhesive contact apply: its tables come last.
 VARIABLES: Mapping[str, Column] = MappingProxyType(
     {
         column.name: column

@@ -30,7 +30,7 @@ if TYPE_CHECKING or _LATE is None:
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]
 
 
-if not TYPE_CHECKING:  # to which it would be a module that has any name
+if not TYPE_CHECKING:  # to a type checker, the module would have any name
 
     def __getattr__(name: str) -> Any:
         return open_name(globals(), _LATE, name)

@@ -1,4 +1,4 @@
-"""The Winkler foundation on which the method of dimensionality reduction presses its lines."""
+"""The Winkler foundation of the method of dimensionality reduction."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class Foundation:
 
     @property
     def capabilities(self) -> Capabilities:
-        """What it can do beyond the protocol."""
+        """Its capabilities beyond the protocol."""
         return Capabilities(
             geometry=Geometry.FOUNDATION,
             modulus=self.modulus,
             positive=True,
-            semidefinite=False,  # it sinks under a constant pressure, whether or not the line repeats itself
+            semidefinite=False,  # it sinks under a constant pressure, whether or not the line is periodic
             submatrix=self.submatrix,
         )
 
@@ -78,7 +78,7 @@ class Foundation:
         return pressure / self.modulus
 
     def as_matrix(self, cells: Cells | None = None) -> Array:
-        """Return the diagonal matrix [m^2/N] between `cells` (all without).
+        """Return the diagonal matrix [m^2/N] between `cells`, by default all.
 
         Parameters
         ----------
@@ -129,7 +129,7 @@ def foundation(grid: Grid, modulus: Modulus) -> Foundation:
     Parameters
     ----------
     grid : Grid
-        Of one axis; the springs sit side by side. Whether it repeats itself makes no difference to them.
+        Of one axis; the springs are adjacent. Periodicity makes no difference.
     modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
 
@@ -140,7 +140,7 @@ def foundation(grid: Grid, modulus: Modulus) -> Foundation:
     Raises
     ------
     ValueError
-        If the grid has two axes, or is one of rings.
+        If the grid has two axes, or rings.
 
     Examples
     --------

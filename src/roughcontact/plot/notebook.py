@@ -1,4 +1,4 @@
-"""The display of values in a notebook: a table of the main numbers beside a picture."""
+"""How a notebook shows a value: a table of the most useful numbers beside a picture."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _LEFT = "text-align:left"
 def surface_html(surface: Surface) -> str | None:
     """Return size, missing points, heights and history of a surface beside its picture.
 
-    It returns None for heights on another device, to leave them there: the notebook then uses ``repr``.
+    Heights on another device stay there: the result is None, and the notebook shows ``repr``.
     """
     if not is_numpy(surface.heights):
         return None
@@ -129,7 +129,7 @@ def _noted(notes: Sequence[str], name: str = "note") -> list[tuple[str, str]]:
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:
-    """Return a table; if it has many rows, only the first and the last."""
+    """Return a table; of a long one only the first and the last rows."""
     if len(rows) > _SHOWN:
         left_out = ["..."] * len(header)
         rows = [*rows[: _SHOWN // 2], left_out, *rows[-_SHOWN // 2 :]]

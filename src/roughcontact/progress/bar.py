@@ -48,7 +48,7 @@ def bar(**options: object) -> Iterator[None]:
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
             'rc.progress.bar needs the package tqdm: run pip install "roughcontact[notebook]", or give '
-            "rc.progress.listening a function of your own",
+            "rc.progress.listening your function",
             name=error.name,
         ) from error
     shown: dict[int, Any] = {}
@@ -77,5 +77,5 @@ def bar(**options: object) -> Iterator[None]:
         with listening(show, interval=_INTERVAL):
             yield
     finally:
-        for one in shown.values():  # of generators that were left open
+        for one in shown.values():  # the bars of generators that were left open
             one.close()

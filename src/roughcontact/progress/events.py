@@ -1,7 +1,7 @@
 """Progress of long tasks as events, sent to a listener. Nothing is printed here.
 
 A task reports in the thread that computes, and only to a listener of that thread's context: threads that a caller
-starts and worker processes report nothing, so that of a study in several processes the parent reports finished cases.
+starts and worker processes report nothing. For a study in several processes, the parent reports finished cases.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """How far a task is.
+    """The progress of a task.
 
     Parameters
     ----------
     task : str
-        What is done, in words.
+        Description of the task.
     state : {"started", "running", "finished", "stopped"}
         The first event of a task is "started", its last one "finished", or "stopped" if an error, an interrupt or the
         caller ended it early.
     done : float
-        How much is done, in `unit`; it never falls.
+        Amount done, in `unit`; it never decreases.
     total : float or None
-        How much there is to do; None if that is not known before the end.
+        Total amount; None if it is not known before the end.
     unit : str
         What is counted, such as "loads" or "cases"; empty for a task that counts nothing.
     note : str
-        What else is known, such as "2 failed".
+        Further information, such as "2 failed".
     number : int
         Names the task among those of one listener: 1, 2, ...
     level : int
@@ -81,7 +81,7 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
     ----------
     callback : function
         Takes an `Event`. It is called by the thread that computes, which waits for it; an exception that it raises ends
-        the computation. Inside another such block the inner function alone is called.
+        the computation. Inside another such block only the inner function is called.
     interval : float
         Least time in seconds between two events of a task that runs. A task inside another one is reported once it has
         lasted so long. First and last events of outer tasks are always reported.
@@ -116,7 +116,7 @@ def listening(callback: Callable[[Event], None], *, interval: float = 0.0) -> It
 
 @dataclass(slots=True, eq=False)
 class RunningTask:
-    """A task that somebody listens to.
+    """A task with a listener.
 
     Examples
     --------
@@ -146,14 +146,14 @@ class RunningTask:
         return self
 
     def reached(self, done: float, note: str = "") -> None:
-        """Report how much is done in all; it neither falls nor exceeds the total.
+        """Report the total amount done; it neither decreases nor exceeds the total.
 
         Parameters
         ----------
         done : float
             In the unit of the task.
         note : str
-            What else is known, such as "2 failed".
+            Further information, such as "2 failed".
         """
         last = self._last
         done = max(done if last.total is None else min(done, last.total), last.done)
@@ -182,7 +182,7 @@ class RunningTask:
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self._listener.level -= 1
         last = self._last
-        # Whoever takes a known number of states of a path need not ask whether another one follows.
+        # A caller that takes a known number of states does not ask whether another one follows.
         whole = kind is None or (kind is GeneratorExit and last.done == last.total)
         if self._sent:
             self._send(replace(last, state="finished" if whole else "stopped"))
@@ -199,25 +199,25 @@ _UNHEARD: AbstractContextManager[None] = nullcontext()
 def task(
     words: str, total: float | None = None, unit: str = "", *, done: float = 0, shape: Sequence[int] = ()
 ) -> AbstractContextManager[RunningTask | None]:
-    """Return a task as a block that reports how far it is.
+    """Return a task as a block that reports its progress.
 
     Parameters
     ----------
     words : str
-        What is done, such as "Reading part.x3p".
+        Description, such as "Reading part.x3p".
     total : float, optional
-        How much there is to do, if that is known.
+        Total amount, if it is known.
     unit : str
         What is counted, such as "loads".
     done : float
-        How much was done before.
+        Amount done before.
     shape : sequence of int
-        Cells of an array that the words are followed by.
+        Shape of an array, which is appended to the description.
 
     Returns
     -------
     context manager
-        Its value is a `RunningTask`, or None if nobody listens. A task that returns is "finished", with what was
+        Its value is a `RunningTask`, or None if there is no listener. A task that returns is "finished", with what was
         reported as done; one that raises is "stopped".
 
     Examples
@@ -244,18 +244,18 @@ def task(
 
 
 def tracked(items: Iterable[T], words: str, unit: str, total: int | None = None) -> Iterator[T]:
-    """Yield items as they come, and report how many there were.
+    """Yield items, and report their number.
 
     Parameters
     ----------
     items : iterable
-        What takes long to make, such as the states of a path.
+        Items that take long to compute, such as the states of a path.
     words : str
-        What is done.
+        Description.
     unit : str
         What is counted.
     total : int, optional
-        Number of items; without, their length if they have one.
+        Number of items; by default their length if they have one.
 
     Yields
     ------
@@ -280,7 +280,7 @@ def tracked(items: Iterable[T], words: str, unit: str, total: int | None = None)
             if here is not None:
                 here.advance()
             yield item
-            del item  # which may be large, before the next one is made
+            del item  # it may be large: released before the next one is made
 
 
 def solving(tolerance: float, shape: Sequence[int]) -> AbstractContextManager[RunningTask | None]:
@@ -292,4 +292,4 @@ def decades(residual: float) -> float:
     """Return how many decades a residual lies below 1, to a tenth."""
     if residual == 0:
         return math.inf
-    return round(max(0.0, -math.log10(residual)), 1) if residual > 0 else 0.0  # of NaN none
+    return round(max(0.0, -math.log10(residual)), 1) if residual > 0 else 0.0  # 0 for NaN

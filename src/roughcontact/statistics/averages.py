@@ -1,4 +1,4 @@
-"""A study on the average: means and errors of all that it computed, and the power laws of its loading curves."""
+"""Averages of a study: means and errors of all its numbers, and the power laws of its loading curves."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["averages", "combinations", "sample_dimensions"]
 
 _CONVERGED = [status.value for status in Status if status.converged]
-# Along these lie independent draws: those of a study, and those of a case that draws many lines at once.
+# Dimensions of independent samples: those of a study, and those of a case that draws many lines at once.
 _SAMPLES = ("sample", "line")
 
 
@@ -37,7 +37,7 @@ def sample_dimensions(dataset: xarray.Dataset) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        ``sample``, and ``line`` where each sample is many lines.
+        ``sample``, and ``line`` if each sample consists of many lines.
 
     Examples
     --------
@@ -56,16 +56,16 @@ def averages(
     rng: RngLike,
     samples: str | Sequence[str] | None = None,
 ) -> xarray.Dataset:
-    """Return means, scatter and errors of all that a study computed, and the power laws of its loading curves.
+    """Return means, scatter and errors of all numbers of a study, and the power laws of its loading curves.
 
-    Points that missed their tolerance have no part in it.
+    Points that missed their tolerance are ignored.
 
     Parameters
     ----------
     dataset : Dataset
         As `roughcontact.study.export` makes it.
     window : Window, optional
-        In which power laws are fitted, see `fit_power_laws`.
+        Window in which power laws are fitted, see `fit_power_laws`.
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         For the intervals of the laws.
     samples : str or sequence of str, optional
@@ -74,12 +74,12 @@ def averages(
     Returns
     -------
     Dataset
-        ``NAME_mean``, ``NAME_standard_error`` and all else of `summary`, of every number that differs from sample to
-        sample; what is the same in all of them as it is. Of loading curves also the laws of `fit_power_laws`, whose
-        numbers of forces and samples are called ``law_count`` and ``law_samples``, and the attribute ``window``; where
-        there are no laws, the attribute ``no_power_law`` says why. ``cases`` counts the cases that are done,
-        ``resolved_samples`` the samples in which a load is resolved, and ``law_resolved`` the forces of a law that are
-        resolved in half of the samples or more.
+        ``NAME_mean``, ``NAME_standard_error`` and the other statistics of `summary`, for every number that varies
+        between samples; constants are kept. For loading curves also the laws of `fit_power_laws`, with ``law_count``
+        and ``law_samples`` as the numbers of forces and samples, and the attribute ``window``; without laws, the
+        attribute ``no_power_law`` holds the reason. ``cases`` counts the completed cases, ``resolved_samples`` the
+        samples in which a load is resolved, and ``law_resolved`` the forces of a law that are resolved in at least
+        half of the samples.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def averages(
     if not over or any(d not in dataset.sizes for d in over):
         raise InputError(
             f"no samples lie along {' or '.join(over or _SAMPLES)}",
-            "take what study.export makes",
+            "pass the dataset of study.export",
             place="samples",
         )
     answered = dataset.assign(
@@ -134,7 +134,7 @@ def averages(
 
 
 def combinations(averaged: xarray.Dataset) -> Iterator[tuple[dict[str, Any], xarray.Dataset]]:
-    """Yield the parameters that vary, by name, and what is known on the average, for each combination of them.
+    """Yield, for each combination of the varying parameters, their values by name and the averages.
 
     Parameters
     ----------
@@ -166,14 +166,14 @@ def combinations(averaged: xarray.Dataset) -> Iterator[tuple[dict[str, Any], xar
 
 
 def _varying(averaged: xarray.Dataset) -> tuple[str, ...]:
-    """Return the names of the parameters that vary: the dimensions of the cases, and what lies along their rows."""
+    """Return the names of the varying parameters: the dimensions of the cases, and the variables along their rows."""
     dims = averaged["cases"].dims
     in_rows = [name for name, values in averaged.coords.items() if values.dims == ("row",) and name != "row"]
     return tuple(str(name) for d in dims for name in (in_rows if d == "row" else [d]))
 
 
 def _on_common_forces(dataset: xarray.Dataset, over: Sequence[str]) -> xarray.Dataset:
-    """Return loading curves at forces that all of them reach, where the curve of each sample stands at its own.
+    """Return loading curves interpolated at common forces that all of them reach, if samples have different forces.
 
     Raises
     ------
@@ -213,11 +213,11 @@ def _resolved_forces(
 
 def _done(status: xarray.DataArray, over: Sequence[str]) -> xarray.DataArray:
     done = (status == "done").sum([d for d in over if d in status.dims])
-    return done.assign_attrs(long_name="samples of the combination that are done", units="1")
+    return done.assign_attrs(long_name="completed samples of the combination", units="1")
 
 
 def _answered(dataset: xarray.Dataset, values: xarray.DataArray) -> xarray.DataArray:
-    """Return numbers along the loads with NaN where a load missed its tolerance."""
+    """Return numbers along the loads, NaN where a load missed its tolerance."""
     if values.dtype.kind != "f" or "status" not in dataset:
         return values
     status = dataset["status"]

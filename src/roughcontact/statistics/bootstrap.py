@@ -1,4 +1,4 @@
-"""How certain the power law of an ensemble is, by drawing its samples again with replacement."""
+"""Uncertainty of the power law of an ensemble, by drawing its samples again with replacement."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ __all__ = ["counts_of", "interval", "resampled_laws"]
 
 
 def counts_of(uniform: Array, there: Mask) -> Array:
-    """Return how often each sample is drawn, shape (replicates, samples); one that is not there never.
+    """Return how often each sample is drawn, shape (replicates, samples); missing samples are never drawn.
 
     Parameters
     ----------
     uniform : array, shape (replicates, samples)
-        Random numbers from 0 to 1. Ensembles with the same samples get the same draws from the same numbers, so that
-        samples that are paired between ensembles stay so in every replicate.
+        Random numbers from 0 to 1. Ensembles with the same samples get the same draws from the same numbers: samples
+        that are paired between ensembles stay paired in every replicate.
     there : bool array, shape (samples,)
     """
     size, replicates = int(there.sum()), len(uniform)
@@ -55,27 +55,27 @@ def resampled_laws(ln_force: Array, stiffness: Array, counts: Array, mean: Mean)
 
 
 def interval(values: Array, level: float, samples: int) -> Array:
-    """Return the limits between which a share `level` of the intervals of many ensembles hold the truth.
+    """Return confidence limits: a share `level` of the intervals of many ensembles contains the true value.
 
     Parameters
     ----------
     values : array, shape (replicates, ...)
-        What the replicates say.
+        Values of the replicates.
     level : float
     samples : int
-        Number of samples that were drawn from.
+        Number of samples from which the replicates were drawn.
 
     Returns
     -------
     array, shape (2, ...)
-        Percentiles of the replicates; of fewer than two samples NaN.
+        Percentiles of the replicates; NaN for fewer than two samples.
 
     Notes
     -----
-    Replicates scatter less than ensembles, by ``sqrt(1 - 1/n)``, and know nothing of the uncertainty of their own
-    scatter. The percentiles are those that make up for both where the statistic is a mean of n normal samples:
-    ``Phi(-sqrt(n/(n-1)) t)`` instead of ``(1 - level)/2``, with Student's t of n - 1 (T. C. Hesterberg, What
-    teachers should know about the bootstrap, Am. Stat. 69, 371 (2015), expanded percentiles).
+    Replicates scatter less than ensembles, by ``sqrt(1 - 1/n)``, and do not include the uncertainty of their scatter.
+    The percentiles compensate for both if the statistic is a mean of n normal samples: ``Phi(-sqrt(n/(n-1)) t)``
+    instead of ``(1 - level)/2``, with Student's t of n - 1 (T. C. Hesterberg, What teachers should know about the
+    bootstrap, Am. Stat. 69, 371 (2015), expanded percentiles).
     """
     from scipy.special import ndtr, stdtrit
 

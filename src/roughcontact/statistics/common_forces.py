@@ -1,4 +1,4 @@
-"""Records on common forces, where each was computed on its own."""
+"""Records at common forces, interpolated from records with different forces."""
 
 from __future__ import annotations
 
@@ -27,16 +27,15 @@ def on_common(
 
     Numbers are interpolated on straight lines between the logarithms of neighbouring points, exact for power laws,
     and never beyond the first or the last: there they are NaN, as between two points of which one is missing or not
-    above zero. A truth holds between two points where it holds at both; a word stays where both say it, else it is
-    empty.
+    above zero. A truth value is true between two points if it is true at both; a word is kept if both points have it,
+    otherwise it is empty.
 
     Parameters
     ----------
     dataset : Dataset
         As `roughcontact.study.export` makes it.
     values : array, shape (n,)
-        Where the records are wanted, above zero: the coordinate `at` along a dimension of this name, in place of
-        `along`.
+        Values of `at` for the result, above zero: the coordinate of a dimension of this name, in place of `along`.
     at : str
         A variable along `along`, in any order.
     along : str
@@ -64,7 +63,7 @@ def on_common(
     import xarray
 
     if at not in dataset or along not in dataset[at].dims:
-        raise InputError(f"no variable {at!r} lies along {along!r}: nothing says where the points stand")
+        raise InputError(f"no variable {at!r} lies along {along!r}: the points have no positions")
     wanted = np.asarray(number(in_si(values, dataset[at].attrs.get("units"), "values"), "values"))
     if wanted.ndim != 1 or not (np.isfinite(wanted) & (wanted > 0)).all():
         raise InputError("the common values are finite numbers above zero, in one row")
@@ -87,7 +86,7 @@ def on_common(
 
 
 def _between(places: Array, wanted: Array) -> tuple[Array, Array, Array]:
-    """Return the points below and above each wanted place, and how far between them it lies: 0 to 1, else NaN."""
+    """Return the points below and above each value, and its relative position between them: 0 to 1, or NaN."""
     order = np.argsort(places, kind="stable")
     order = order[places[order] > 0]
     if not len(order):
@@ -96,7 +95,7 @@ def _between(places: Array, wanted: Array) -> tuple[Array, Array, Array]:
     x, w = np.log(places[order]), np.log(wanted)
     first = np.clip(np.searchsorted(x, w, side="right") - 1, 0, max(len(x) - 2, 0))
     second = np.minimum(first + 1, len(x) - 1)
-    # A place that differs from a point by rounding is this point, at the ends of a record above all.
+    # A value that differs from a point only by rounding is this point; this matters at the ends of a record.
     at_first, at_second = (np.abs(w - x[i]) <= ROUNDING for i in (first, second))
     step = np.where(x[second] > x[first], x[second] - x[first], np.inf)
     share = np.where(at_first, 0.0, np.where(at_second, 1.0, (w - x[first]) / step))
@@ -105,7 +104,7 @@ def _between(places: Array, wanted: Array) -> tuple[Array, Array, Array]:
 
 
 def _across(values: xarray.Variable, like: xarray.Variable) -> Array:
-    """Return values with the dimensions of `like`, which has them all and may have more."""
+    """Return values broadcast to the dimensions of `like`, which include theirs."""
     known = values.transpose(*(d for d in like.dims if d in values.dims)).to_numpy()
     return known[tuple(slice(None) if d in values.dims else np.newaxis for d in like.dims)]
 
@@ -116,7 +115,7 @@ def _read(
     pair: tuple[xarray.DataArray, xarray.DataArray],
     share: xarray.DataArray,
 ) -> xarray.Variable:
-    """Return a variable between the points of each pair."""
+    """Return a variable interpolated between the points of each pair."""
     import xarray
 
     first, second = (variable.isel({along: place.variable}) for place in pair)

@@ -1,4 +1,4 @@
-"""The power law of an ensemble of stiffness curves, and how certain it is."""
+"""The power law of an ensemble of stiffness curves, and its standard errors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["EnsembleFit", "fit_ensemble", "law_error"]
 
 @dataclass(frozen=True, slots=True)
 class EnsembleFit:
-    """A power law of a mean stiffness with the standard errors that the scatter of the samples leaves.
+    """A power law of a mean stiffness with standard errors from the scatter of the samples.
 
     Attributes
     ----------
@@ -26,8 +26,8 @@ class EnsembleFit:
     prefactor_error : float
         Standard error of the prefactor zeta.
     correlation : float
-        Of the errors of alpha and of ln zeta: near 1, since zeta is read off at a dimensionless force of 1,
-        far outside the window. Compare laws at a force inside, not by their zetas alone.
+        Correlation of the errors of alpha and ln zeta: near 1, because zeta is the value at a dimensionless force of
+        1, far outside the window. Compare laws at a force inside the window, not only by zeta.
     mean : {"arithmetic", "geometric"}
         Which mean over the samples.
     samples : int
@@ -63,7 +63,7 @@ def law_error(
 ) -> Array:
     """Return the standard error of ``ln zeta + alpha ln F`` from those of alpha and ln zeta and their correlation."""
     variance = (exponent * ln_force) ** 2 + 2 * r * exponent * ln_prefactor * ln_force + ln_prefactor**2
-    # Where both cancel, rounding may leave less than nothing.
+    # If both cancel, rounding may give a negative number.
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
 
@@ -85,9 +85,9 @@ def fit_ensemble(
 
     Notes
     -----
-    Exponent and ln zeta are linear in the logarithms of the means. What a sample adds to such a logarithm is
-    ``k/mean(k) - 1``, or ``ln k - mean(ln k)`` of a geometric mean, and samples are independent while the forces of
-    one sample are not: the standard errors come from what each sample adds to the two parameters as a whole.
+    Exponent and ln zeta are linear in the logarithms of the means. A sample contributes ``k/mean(k) - 1`` to such a
+    logarithm, or ``ln k - mean(ln k)`` for a geometric mean. Samples are independent, but the forces of one sample are
+    not: the standard errors come from the total contribution of each sample to the two parameters.
     """
     stiffness = stiffness[~np.isnan(stiffness).all(axis=1)]
     samples = len(stiffness)

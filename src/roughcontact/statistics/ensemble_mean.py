@@ -15,17 +15,17 @@ Mean: TypeAlias = Literal["arithmetic", "geometric"]
 
 
 def mean_over_samples(values: Array, mean: Mean = "arithmetic", counts: Array | None = None) -> Array:
-    """Return the mean of what is there, NaN where nothing is.
+    """Return the mean of the values that are not missing; NaN if all are missing.
 
     Parameters
     ----------
     values : array, shape (samples, points)
         NaN where a sample has no value.
     mean : {"arithmetic", "geometric"}
-        The geometric mean is what averages of ln k are: lower by about half the variance of ln k. With a zero it is
-        zero; below zero there is none.
+        The geometric mean belongs to averages of ln k: it is lower by about half the variance of ln k. It is zero if a
+        value is zero, and undefined for negative values.
     counts : array, shape (..., samples), optional
-        How often each sample counts; without, once.
+        Weight of each sample; by default 1.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def mean_over_samples(values: Array, mean: Mean = "arithmetic", counts: Array | 
     with np.errstate(invalid="ignore", divide="ignore"):
         if mean == "arithmetic":
             return np.asarray(weights @ np.where(there, values, 0.0) / (weights @ there))
-        # A logarithm of zero would spoil even the means in which its sample does not count.
+        # The logarithm of zero would give NaN even in means in which the weight of its sample is zero.
         logs = np.where(values > 0, np.log(values), 0.0)
         means = np.exp(weights @ logs / (weights @ there))
         means = np.where(weights @ (values == 0) > 0, 0.0, means)
@@ -51,10 +51,10 @@ def mean_over_samples(values: Array, mean: Mean = "arithmetic", counts: Array | 
 
 
 def shares_of_samples(values: Array, mean: Mean = "arithmetic") -> Array:
-    """Return what each sample adds to the logarithm of the mean, shape (samples, points); their mean is zero.
+    """Return the contribution of each sample to the logarithm of the mean, shape (samples, points), with mean zero.
 
-    It is ``k/mean(k) - 1``, of a geometric mean ``ln k - mean(ln k)``; nothing where a sample is missing, and the
-    more from the others there.
+    It is ``k/mean(k) - 1``, or ``ln k - mean(ln k)`` for a geometric mean; zero where a sample is missing, with larger
+    contributions from the other samples there.
     """
     there = ~np.isnan(values)
     means = mean_over_samples(values, mean)

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["fit_power_laws", "law_at"]
 
-# A load belongs to a fit where this part of the samples has an answer: a mean over few is of others.
+# A load belongs to a fit if this part of the samples has a result: a mean over few belongs to other surfaces.
 COMPLETE = 0.9
-_LEAST = 3  # points: two always lie on a line
+_LEAST = 3  # points: two points always lie on a line
 _FORCE, _STIFFNESS = "dimensionless_force", "dimensionless_stiffness"
 _CONVERGED = [status.value for status in Status if status.converged]
 _NUMBERS = ("count", "samples")
@@ -66,41 +66,41 @@ def fit_power_laws(
 ) -> xarray.Dataset:
     """Return the power law k/(E* L) = zeta (F/(E* h L))^alpha (thesis, eq. 4.53) of every ensemble of a study.
 
-    A straight line through the logarithm of the mean over samples, by least squares. Points that did not converge
-    have no part in it, nor have forces at which less than nine tenths of the samples have an answer.
+    A straight line through the logarithm of the mean over samples, by least squares. Points that did not converge are
+    ignored, and so are forces at which fewer than nine tenths of the samples have a result.
 
     Parameters
     ----------
     dataset : Dataset
         As `roughcontact.study.export` makes it: ``dimensionless_force`` and ``dimensionless_stiffness`` along
-        the samples and ``load`` (or, from `on_common`, ``dimensionless_force``); ``status`` of each point where there
-        is one. All other dimensions tell ensembles apart.
+        the samples and ``load`` (or, from `on_common`, ``dimensionless_force``); ``status`` of each point if there is
+        one. All other dimensions distinguish ensembles.
     window : Window, optional
-        Such as `force_window` or `resolved_window` return. Without, that of the thesis, for which loading curves bring
-        along what it takes: mean stiffness above 20 cells and below 90 % of the full-contact stiffness, force up to
-        0.07. A law that is not quite a power law has another exponent in another window.
+        For example from `force_window` or `resolved_window`. By default that of the thesis: mean stiffness above 20
+        cells and below 90 % of the full-contact stiffness, force up to 0.07. A curve that is not exactly a power law
+        has another exponent in another window.
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
-        Draws the samples again. All ensembles are drawn alike, since their samples are paired.
+        Source of the resampling. All ensembles get the same draws, because their samples are paired.
     mean : {"arithmetic", "geometric"}
         Which mean over the samples.
     samples : str or sequence of str
         Dimensions of independent samples.
     replicates : int
-        How many times whole curves are drawn again; the window stays that of the full mean.
+        Number of times that whole curves are drawn again; the window stays that of the full mean.
     level : float
-        Of the intervals.
+        Confidence level of the intervals.
 
     Returns
     -------
     Dataset
-        Along the dimensions of the ensembles. Where fewer than three forces lie in the window the law is NaN and
-        ``count`` says how many do; of one sample there is a law without errors and intervals.
+        Along the dimensions of the ensembles. With fewer than three forces in the window the law is NaN, and ``count``
+        holds their number; a single sample has a law without errors and intervals.
 
     Raises
     ------
     ValueError
-        If a variable is missing, samples stand at forces of their own (see `roughcontact.statistics.on_common`), or
-        window, mean or level is not one.
+        If a variable is missing, samples have different forces (see `roughcontact.statistics.on_common`), or window,
+        mean or level is invalid.
 
     Examples
     --------
@@ -144,8 +144,8 @@ def fit_power_laws(
 def law_at(fits: xarray.Dataset, force: float | npt.ArrayLike) -> xarray.Dataset:
     """Return the stiffness of fitted laws at given forces, and its standard error.
 
-    Exponent and prefactor are strongly correlated, since zeta is read off far outside the window: laws are compared
-    by their stiffness at a force inside it.
+    Exponent and prefactor are strongly correlated, because zeta is the value at a force far outside the window.
+    Compare laws by their stiffness at a force inside it.
 
     Parameters
     ----------
@@ -216,8 +216,8 @@ def _curves(
 def _fitting(
     forces: tuple[float, float], mean: Mean, uniform: Array, level: float
 ) -> Callable[..., tuple[float, ...]]:
-    """Return the function that fits one ensemble, all by the same draws."""
-    drawn: dict[bytes, Array] = {}  # by which samples are there: all of them, for most ensembles
+    """Return the function that fits one ensemble; all ensembles use the same draws."""
+    drawn: dict[bytes, Array] = {}  # draws for each set of present samples: all samples, for most ensembles
 
     def fit(force: Array, stiffness: Array, lowest: float, highest: float) -> tuple[float, ...]:
         curves = stiffness.reshape(-1, stiffness.shape[-1])
@@ -238,12 +238,12 @@ def _fitting(
 
 
 def _common(force: Array) -> Array:
-    """Return the forces at which all samples stand, NaN where none does."""
+    """Return the forces of all samples, NaN where no sample has a value."""
     with np.errstate(invalid="ignore"):
         common = np.asarray(np.fmin.reduce(force, axis=0))
         if (np.abs(force / common - 1) > ROUNDING).any():
             raise InputError(
-                "the samples stand at forces of their own", "use roughcontact.statistics.on_common first"
+                "the samples have different forces", "use roughcontact.statistics.on_common first"
             )
     return common
 
@@ -261,7 +261,7 @@ def _inside(
 
 
 def _law(force: Array, stiffness: Array, mean: Mean) -> dict[str, float]:
-    """Return the law of one ensemble and its errors by what each sample adds."""
+    """Return the law of one ensemble, and its errors from the contributions of the samples."""
     fit = fit_ensemble(force, stiffness, (1.0, 1.0), mean)
     return {
         "exponent": fit.exponent,
@@ -275,7 +275,7 @@ def _law(force: Array, stiffness: Array, mean: Mean) -> dict[str, float]:
 
 
 def _spread(replicates: Array, law: Mapping[str, float], level: float) -> dict[str, float]:
-    """Return what the laws of the replicates, alpha and ln zeta, say about the certainty of that of one ensemble."""
+    """Return errors and intervals of the law of one ensemble from the alpha and ln zeta of its replicates."""
     samples = int(law["samples"])
     said = replicates[np.isfinite(replicates).all(axis=1)]
     if samples < 2 or len(said) < 2:

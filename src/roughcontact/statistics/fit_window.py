@@ -1,4 +1,4 @@
-"""Which points of a loading curve the grid resolves, and which of them a power law is fitted to."""
+"""The points of a loading curve that the grid resolves, and those to which a power law is fitted."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ __all__ = [
     "window_of",
 ]
 
-CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers are those of the grid
-# Of the full-contact stiffness; above it they are those of the finite size (eq. 4.14).
+CELLS = 20  # thesis, section 4.3: below twenty one-cell stiffnesses the numbers depend on the grid
+# Of the full-contact stiffness; above it the numbers depend on the finite size (eq. 4.14).
 FULL_CONTACT_SHARE = 0.9
-DECADE = 10 * (1 - ROUNDING)  # of force, that a power law must span
+DECADE = 10 * (1 - ROUNDING)  # range of forces that a power law must span
 
 
 def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt.NDArray[np.bool_]:
@@ -41,12 +41,12 @@ def is_resolved(size: npt.NDArray[np.float64], cell: float, whole: float) -> npt
 
 
 def fitted_loads(force: Array, resolved: Mask, limit: float, unit: str) -> tuple[Mask, str]:
-    """Return which loads a power law is fitted to by default, and the rule in words.
+    """Return the loads to which a power law is fitted by default, and the rule in words.
 
     Parameters
     ----------
     force : array, shape (n,)
-        In a unit.
+        Forces in any unit.
     resolved : array of bool, shape (n,)
     limit : float
         Largest force of a power law; if the resolved loads up to it span less than a decade, all of them are fitted.
@@ -62,14 +62,14 @@ def fitted_loads(force: Array, resolved: Mask, limit: float, unit: str) -> tuple
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Window:
-    """Between which forces and which mean stiffnesses a power law is fitted, all without dimension.
+    """The dimensionless forces and mean stiffnesses between which a power law is fitted.
 
     Parameters
     ----------
     force : tuple of float
         Lowest and highest F/(E* h L); both belong to the window.
     stiffness : tuple of float or DataArray
-        Limits of the mean k/(E* L), outside the window; arrays have dimensions of the ensembles.
+        Limits of the mean k/(E* L), not included; arrays have dimensions of the ensembles.
     rule : str
         The window in words.
 
@@ -129,7 +129,7 @@ def resolved_window(
     Parameters
     ----------
     cell, full_contact_stiffness : float or DataArray
-        k/(E* L) of a single cell and with all cells in contact, below 90 % of which the window ends: of N springs 1/N
+        k/(E* L) of a single cell and with all cells in contact, below 90 % of which the window ends; for N springs 1/N
         and 1.
     highest : float
         Dimensionless force.
@@ -146,7 +146,7 @@ def resolved_window(
     (0.0390625, 0.9)
     """
     for name, value in {"cell": cell, "full_contact_stiffness": full_contact_stiffness}.items():
-        if not hasattr(value, "dims"):  # along the ensembles of a dataset
+        if not hasattr(value, "dims"):  # arrays lie along the ensembles of a dataset
             scalar(value, name)
     rule = (
         f"mean stiffness above {CELLS} cells and below {FULL_CONTACT_SHARE:g} of the full-contact stiffness, "
@@ -156,7 +156,7 @@ def resolved_window(
 
 
 def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> Window:
-    """Return the window of the thesis for loading curves that say what a cell is.
+    """Return the window of the thesis for loading curves that hold the stiffness of a cell.
 
     Parameters
     ----------
@@ -170,17 +170,17 @@ def window_of(dataset: xarray.Dataset, samples: Sequence[str], points: str) -> W
     Raises
     ------
     ValueError
-        If one is missing, or the curves are those of line contacts, which have no such window.
+        If a variable is missing, or the curves are those of line contacts, which have no such window.
     """
     wanted = ("stiffness", "dimensionless_stiffness", "cell_stiffness", "full_contact_stiffness")
     if missing := [name for name in wanted if name not in dataset]:
         raise InputError(
-            f"the curves do not say what is resolved, for want of {', '.join(missing)}",
+            f"the resolved loads are unknown without {', '.join(missing)}",
             "give a window, resolved_window(cell, full_contact_stiffness) or force_window(lowest, highest)",
         )
     if dataset.attrs.get("geometry") == Geometry.LINE.value:
         raise InputError(
-            "on a line it is not the stiffness that tells what is resolved",
+            "for a line contact the stiffness does not show which loads are resolved",
             "give a window, force_window(...)",
         )
     # E* L, whatever the body is; it has no meaning where both are zero or infinite.

@@ -12,7 +12,7 @@ from roughcontact.validation import Array
 
 __all__ = ["LocalExponent", "exponent_within", "local_exponents"]
 
-WINDOW = 0.5  # decades of force: as many points as a slope needs, and few enough that a bend shows
+WINDOW = 0.5  # decades of force: wide enough for a slope, narrow enough to show a bend
 FEWEST = 4  # points: two for the line, two for its scatter
 
 
@@ -41,8 +41,8 @@ class LocalExponent:
 def local_exponents(force: Array, values: Array) -> tuple[LocalExponent, ...]:
     """Return the exponents of a curve in windows side by side, which share the range of its forces evenly.
 
-    Windows are half a decade wide, as nearly as a whole number of them fills the range; one with fewer than four
-    points is left out.
+    A whole number of windows fills the range, each about half a decade wide; windows with fewer than four points are
+    left out.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def exponent_within(force: Array, values: Array, window: tuple[float, float]) ->
     Parameters
     ----------
     force, values : array, shape (n,)
-        Values that are not positive and finite count for nothing.
+        Values that are not positive and finite are ignored.
     window : tuple of float
         Lowest and highest force; both belong to it.
     """
@@ -77,7 +77,7 @@ def exponent_within(force: Array, values: Array, window: tuple[float, float]) ->
     centred = x - x.mean()
     spread = float(centred @ centred)
     if spread == 0:
-        return None  # one force, many times
+        return None  # all points at one force
     slope = float(centred @ y) / spread
     rest = y - y.mean() - slope * centred
     return LocalExponent(slope, math.sqrt(float(rest @ rest) / (count - 2) / spread), (low, high), count)

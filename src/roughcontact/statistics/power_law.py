@@ -13,10 +13,10 @@ __all__ = ["FORCE_LIMIT", "ROUNDING", "PowerLaw", "fit_power_law"]
 
 FORCE_LIMIT = 0.07  # thesis, section 4.5: the power law is fitted up to this dimensionless force
 # Change of the exponent from one end of the window to the other. The exponents 1/(1 + H) of surfaces with H = 0.5 and
-# 0.8 differ by 0.11: a curve that bends by as much has no exponent that tells one surface from another.
+# 0.8 differ by 0.11: with such a bend, the exponent cannot distinguish two surfaces.
 BEND = 0.1
-CHANCE = 0.00135  # of a bend as large in each direction without one: three standard errors of many points
-ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, whatever its last digit
+CHANCE = 0.00135  # probability of a bend in one direction by chance: three standard errors
+ROUNDING = 1e-9  # a force is a sum: a load on the limit of a window belongs to it, despite rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class PowerLaw:
     Attributes
     ----------
     exponent, prefactor : float
-        alpha and zeta; one curve cannot say how certain they are, an ensemble can.
+        alpha and zeta; their uncertainty follows from an ensemble, not from one curve.
     scatter : float
         Standard deviation of ln k about the law.
     window : tuple of float
@@ -37,9 +37,9 @@ class PowerLaw:
         E* h L [N] and E* L [N/m].
     bend, bend_error : float
         Change of the exponent from the lowest force of the window to the highest, by the parabola through the
-        logarithms, and its standard error; infinite of three points.
+        logarithms, and its standard error; infinite for three points.
     rule : str
-        The points in words: which of how many, and why.
+        Description of the selected points: how many of all, and why.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class PowerLaw:
 
     @property
     def straight(self) -> bool:
-        """Whether it is a power law as far as the points say: the exponent changes by less than 0.1, or by chance."""
+        """Whether the points are compatible with a power law: the exponent changes by less than 0.1, or by chance."""
         if self.count < 4:
             return True
         from scipy.special import stdtrit
 
-        # By Student: few points deviate by more.
+        # By Student's distribution: few points scatter more.
         sure = -float(stdtrit(self.count - 3, CHANCE)) * self.bend_error
         return abs(self.bend) <= max(BEND, sure)
 
@@ -77,7 +77,7 @@ class PowerLaw:
     def ends(self) -> tuple[float, float]:
         """The local exponents at the lowest and at the highest force of the window, by the parabola.
 
-        Exact for points evenly spaced in the logarithm, whose slope on the mean is that of the middle.
+        Exact for points evenly spaced in the logarithm, whose mean slope is that of the middle.
         """
         return self.exponent - self.bend / 2, self.exponent + self.bend / 2
 
@@ -107,7 +107,7 @@ def fit_power_law(
     Raises
     ------
     ValueError
-        If there is no rms height that could scale the force.
+        If there is no rms height to scale the force.
     """
     require(force_scale > 0, "a flat surface has no rms height to scale the force by")
     x, y = np.log(force / force_scale), np.log(stiffness / stiffness_scale)
@@ -129,14 +129,14 @@ def fit_power_law(
 
 
 def _bend(x: Array, y: Array) -> tuple[float, float]:
-    """Return by how much the slope of the parabola through points changes over them, and its standard error."""
+    """Return the change of the slope of the parabola through the points, and its standard error."""
     width = float(np.ptp(x))
     if len(x) < 4 or width == 0:
         return 0.0, math.inf
     powers = np.vander((x - x.mean()) / width, 3)
     factors, _, rank, _ = np.linalg.lstsq(powers, y)
     if rank < 3:
-        return 0.0, math.inf  # two forces, however often
+        return 0.0, math.inf  # only two different forces
     rest = y - powers @ factors
     variance = float(rest @ rest) / (len(x) - 3) * np.linalg.inv(powers.T @ powers)[0, 0]
     return float(2 * factors[0] / width), float(2 * math.sqrt(variance) / width)

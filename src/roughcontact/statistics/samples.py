@@ -1,4 +1,4 @@
-"""What the samples of a study say together: means, scatter, standard errors.
+"""Statistics over the samples of a study: means, scatter, standard errors.
 
 All functions take labelled data and drop the dimensions of the samples; NaN is a sample that is missing.
 """
@@ -76,7 +76,7 @@ def geometric_mean(values: xarray.DataArray, samples: str | Sequence[str] = "sam
     Returns
     -------
     DataArray
-        In the unit of the values: zero with a zero among the samples, NaN with less than zero.
+        In the unit of the values: zero if a sample is zero, NaN if a sample is negative.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def standard_deviation(values: xarray.DataArray, samples: str | Sequence[str] = 
     Returns
     -------
     DataArray
-        In the unit of the values, with n - 1; NaN of one sample.
+        In the unit of the values, with n - 1; NaN for one sample.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def standard_error(values: xarray.DataArray, samples: str | Sequence[str] = "sam
     Returns
     -------
     DataArray
-        In the unit of the values; NaN of one sample.
+        In the unit of the values; NaN for one sample.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def scatter(values: xarray.DataArray, samples: str | Sequence[str] = "sample") -
 
     def ratio(v: Array) -> Array:
         deviation, over = _deviation(v), mean_over_samples(v)
-        # Before first contact nothing scatters.
+        # Before first contact all values are zero.
         return np.where(deviation == 0, 0.0, deviation / over)
 
     return _along(values, samples, ratio, "standard deviation over mean of {}", "1")
@@ -238,8 +238,8 @@ def summary(
     dataset : Dataset
         As `roughcontact.study.export` makes it.
     names : sequence of str, optional
-        Variables of numbers or truths; without, all that lie along the samples. One that does not is the same in all
-        samples, and stays as it is.
+        Variables of numbers or truth values; by default all that lie along the samples. Other variables are the same
+        in all samples, and are kept.
     samples : str or sequence of str
         Dimensions of the samples.
 
@@ -277,7 +277,7 @@ def summary(
             result[name] = values
             continue
         if values.dtype.kind == "b" and "case_status" in dataset:
-            # False of a case that is not there says nothing.
+            # False for a missing case is not a result.
             values = values.astype(np.float64).where(dataset["case_status"] == "done")
         for word, statistic in STATISTICS.items():
             result[f"{name}_{word}"] = statistic(values, over)
@@ -285,7 +285,7 @@ def summary(
 
 
 def dimensions(samples: str | Sequence[str]) -> tuple[str, ...]:
-    """Return the dimensions of samples, of which one may be given by its name alone."""
+    """Return the dimensions of samples; a single one may be given as a name."""
     return (samples,) if isinstance(samples, str) else tuple(samples)
 
 
@@ -296,7 +296,7 @@ def _along(
     words: str,
     unit: str | None = None,
 ) -> xarray.DataArray:
-    """Return `function`, of an array with the samples first, as a variable that says what it is."""
+    """Return `function`, applied to an array with the samples first, as a variable with its description."""
     over = dimensions(samples)
     if absent := [d for d in over if d not in values.dims]:
         raise InputError(
@@ -306,7 +306,7 @@ def _along(
     first = values.transpose(*over, ...)
     kept = first.isel(dict.fromkeys(over, 0), drop=True)
     table = first.to_numpy().astype(np.float64).reshape(-1, kept.size)
-    with np.errstate(all="ignore"):  # of means of nothing, and of infinities
+    with np.errstate(all="ignore"):  # empty means, and infinities
         result = kept.copy(data=function(table).reshape(kept.shape))
     result.attrs["long_name"] = words.format(values.attrs.get("long_name", values.name))
     if unit is not None:
@@ -319,7 +319,7 @@ def _there(values: Array) -> Array:
 
 
 def _deviation(values: Array) -> Array:
-    """Return the standard deviation with n - 1, of samples along the first axis."""
+    """Return the standard deviation with n - 1 over samples along the first axis."""
     there = _there(values)
     away = np.where(np.isnan(values), 0.0, values - mean_over_samples(values))
     return np.asarray(np.where(there > 1, np.sqrt((away**2).sum(axis=0) / (there - 1)), np.nan))

@@ -1,1 +1,1 @@
-"""Surfaces: heights measured or made, their preparation, spectra and parameters."""
+"""Surfaces: measured or generated heights, their preparation, spectra and parameters."""

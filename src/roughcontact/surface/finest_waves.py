@@ -1,4 +1,4 @@
-"""Whether a map is rough down to its cells, so that there are finer waves than it holds."""
+"""Test whether a map is rough down to its cells, which means that the surface has finer waves than the map."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ if TYPE_CHECKING:
 
 __all__ = ["is_rough_to_cells"]
 
-ROUGH = 1.25  # exponent H of the heights from one cell to two: 2 where they are smooth, 1.4 of waves of five cells
+ROUGH = 1.25  # H of the heights from one cell to two: 2 for smooth heights, 1.4 for waves of five cells
 
 
 def is_rough_to_cells(surface: Surface) -> bool:
     """Return whether the heights of a map are as rough from cell to cell as those of a self-affine surface.
 
-    Second differences at a distance of two cells are 2^H times those at a distance of one: of a self-affine surface
-    without a shortest wave with its Hurst exponent, and with 2 where the shortest wave has many cells. Those with a
-    missing height are left out, as is an axis of fewer than five cells.
+    Second differences at a distance of two cells are 2^H times those at a distance of one. H is the Hurst exponent for
+    a self-affine surface without a shortest wave, and 2 if the shortest wave has many cells. Differences with a
+    missing height are left out, and so is an axis of fewer than five cells.
     """
     near, far = (
         sum(_mean_square(np.moveaxis(surface.heights, axis, 0), lag) for axis in range(surface.grid.ndim))

@@ -1,4 +1,4 @@
-"""Self-affinity itself: magnification, fractal dimension, box counting."""
+"""Self-affinity: magnification, fractal dimension, box counting."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def fractal_dimension(hurst: float, dimension: int = 2) -> float:
     Raises
     ------
     ValueError
-        If H lies outside 0 to 1, where the relation ends, or `dimension` is neither 1 nor 2.
+        If H lies outside 0 to 1, where the relation does not hold, or `dimension` is neither 1 nor 2.
 
     Examples
     --------
@@ -108,8 +108,8 @@ def box_counting_dimension(surface: Surface) -> float:
     Returns
     -------
     float
-        D, a rough value: on 512 x 512 points within 0.13 of 3 - H for H from 0.5 to 0.9, but lower by
-        some 0.17 at H = 0.3 and 0.27 at 0.1, since points miss the extremes between them.
+        D, a rough value: on 512 x 512 points within 0.13 of 3 - H for H from 0.5 to 0.9, but lower by about 0.17 at H
+        = 0.3 and 0.27 at 0.1, because the extremes between points are missed.
 
     Raises
     ------
@@ -118,10 +118,10 @@ def box_counting_dimension(surface: Surface) -> float:
 
     Notes
     -----
-    The boxes are ``2^k`` cells wide and much lower than wide, so that the number that a tile needs is its range of
-    heights over their height: the limit in which the dimension does not depend on the unit of heights, the local one of
-    a self-affine set. D is the slope of the least-squares line in ln N over ln(1/width) for widths from 8 cells
-    to a quarter of the shorter side.
+    The boxes are ``2^k`` cells wide and much lower than wide. The number of boxes in a tile is therefore its range of
+    heights over the height of a box. In this limit the dimension is the local one of a self-affine set, and does not
+    depend on the unit of heights. D is the slope of the least-squares line in ln N over ln(1/width) for widths from 8
+    cells to a quarter of the shorter side.
 
     Examples
     --------
@@ -139,13 +139,13 @@ def box_counting_dimension(surface: Surface) -> float:
     widths = 2 ** np.arange(3, int(math.log2(shortest / 4)) + 1)
     ranges = np.array([_mean_range(surface.heights, int(width)) for width in widths])
     require(ranges.all(), "the surface is flat: it has no fractal dimension", place="surface")
-    # Tiles number width^-ndim, boxes in a tile range/width.
+    # The number of tiles is width^-ndim, that of boxes in a tile range/width.
     slope = np.polyfit(np.log(widths), np.log(ranges), 1)[0]
     return float(surface.grid.ndim + 1 - slope)
 
 
 def _mean_range(heights: Array, width: int) -> float:
-    """Return the mean range of heights in tiles of `width` cells, the nodes on all their sides included."""
+    """Return the mean range of heights in tiles of `width` cells, including the nodes on all sides."""
     low = high = heights
     for axis, n in enumerate(heights.shape):
         starts = np.arange(0, n - width, width)

@@ -1,4 +1,4 @@
-"""Heights at the border: real, as many as cells, finite, and in a range in which products keep their digits."""
+"""Checks of heights: real, of the shape of the grid, finite, and in a range in which products keep their digits."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def is_elsewhere(heights: Any) -> bool:
 
 
 def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
-    """Return heights as a surface keeps them: a read-only copy, of another library's array the array itself.
+    """Return heights as a surface stores them: a read-only copy, or the array of another library.
 
     Raises
     ------
@@ -33,11 +33,11 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
         if not namespace(own).isdtype(own.dtype, "real floating"):
             raise about(
                 "heights",
-                f"that are not NumPy's must be real floating numbers [m], not of type {own.dtype}",
+                f"outside NumPy must be real floating numbers [m], not of type {own.dtype}",
                 "convert whole numbers to float64",
             )
         if wants_gradient(own):
-            raise InputError("nothing here is differentiated", "give heights without gradients, .detach()")
+            raise InputError("gradients are not supported", "give heights without gradients, .detach()")
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
@@ -55,8 +55,8 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
 
 
 def height_range(heights: Array) -> tuple[float, float]:
-    """Return the lowest and the highest height, but for missing ones; of all missing no range at all."""
-    if is_numpy(heights):  # two passes, and no memory
+    """Return the lowest and the highest measured height; an empty range if all are missing."""
+    if is_numpy(heights):  # two passes, without further memory
         return float(np.fmin.reduce(heights, axis=None)), float(np.fmax.reduce(heights, axis=None))
     xp = namespace(heights)
     missing = xp.isnan(heights)
@@ -70,7 +70,7 @@ def _check_range(heights: Array) -> None:
     Raises
     ------
     ValueError
-        Naming the fault and the remedy.
+        The message names the fault and the remedy.
     """
     xp = namespace(heights)
     lowest, highest = height_range(heights)

@@ -1,4 +1,4 @@
-"""Where heights live: what NumPy alone can work on is given to it, or refused in words."""
+"""Heights outside NumPy: functions that need NumPy get a copy, or refuse them with a message."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ def _refusing(function: F, refused: Callable[[Any], bool]) -> F:
 
 
 def analysed_on_host(function: F) -> F:
-    """Return a function of surfaces that is given a copy of heights of another library in NumPy's memory.
+    """Return a function of surfaces that gets heights of another library as a copy in NumPy's memory.
 
-    For what returns numbers and NumPy's arrays. Heights in slabs are refused: no process holds all of them.
+    For functions that return numbers and NumPy arrays. Heights in slabs are refused: no process holds all of them.
     """
 
     @wraps(function)

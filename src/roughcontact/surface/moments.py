@@ -26,9 +26,9 @@ __all__ = ["Moments", "grid_moments", "surface_moments"]
 
 @dataclass(frozen=True, slots=True)
 class Moments:
-    """Profile moments m0, m2, m4, as random-field and asperity theory take them (Nayak 1971).
+    """Profile moments m0, m2, m4, as used in random-field and asperity theory (Nayak 1971).
 
-    Those of a straight cut, averaged over all directions if the surface has a lay. With the spectrum C2D of
+    The moments of a straight cut, averaged over all directions if the surface has a lay. With the spectrum C2D of
     an isotropic surface ``m0 = 2 pi int q C2D dq``, ``m2 = pi int q^3 C2D dq`` and
     ``m4 = (3 pi/4) int q^5 C2D dq``; of a line ``mn = 2 int q^n C1D dq``.
 
@@ -41,7 +41,7 @@ class Moments:
     m4 : float
         Mean square second derivative of a profile [1/m^2]; that of the Laplacian of a surface is ``8/3 m4``.
     dimension : {2, 1}
-        Whether these belong to a surface (2) or to a line (1). It decides what the three rms values mean.
+        Whether these belong to a surface (2) or to a line (1). The meaning of the three rms values depends on it.
 
     Raises
     ------
@@ -97,15 +97,15 @@ class Moments:
 
     @property
     def profile(self) -> Moments:
-        """The same moments read as those of a line: a straight cut through the surface."""
+        """The same moments as those of a line: a straight cut through the surface."""
         return replace(self, dimension=1)
 
 
 def grid_moments(grid: Grid, spectrum: Spectrum, *, support: Support = "square") -> Moments:
     """Return the moments of `spectrum` as sums over the waves of `grid`.
 
-    They are those of every surface with exact amplitudes that is synthesised on the grid with that spectrum,
-    and the means of those with Gaussian amplitudes.
+    They are the moments of every surface with exact amplitudes that is synthesised on the grid with that spectrum, and
+    the means over surfaces with Gaussian amplitudes.
 
     Parameters
     ----------
@@ -149,11 +149,10 @@ def surface_moments(
     Parameters
     ----------
     surface : Surface
-        Without tilt, which would count as slope: see `Surface.levelled`.
+        Remove its tilt first, which would count as slope: see `Surface.levelled`.
     derivative : {"spectral", "difference"}, optional
-        How slopes and curvatures are taken; by default "spectral" on a periodic grid without missing points,
-        else "difference". "spectral" takes any surface for one period of a periodic one, a step at
-        its edges included.
+        Method for slopes and curvatures; by default "spectral" on a periodic grid without missing points, otherwise
+        "difference". "spectral" treats any surface as one period of a periodic one, including a step at its edges.
 
     Returns
     -------
@@ -164,7 +163,7 @@ def surface_moments(
     Raises
     ------
     ValueError
-        If "spectral" is asked for with points missing, or no two neighbours are measured.
+        If "spectral" is given with points missing, or no two neighbours are measured.
 
     Notes
     -----
@@ -210,7 +209,7 @@ def _summed(powers: Array, grid: Grid) -> Moments:
 
 def _from_areal(height: float, gradient: float, laplacian: float, dimension: int) -> Moments:
     """Return the moments from the mean squares of height, gradient and Laplacian."""
-    # The mean over all directions of cos^2 and of cos^4.
+    # The means over all directions of cos^2 and of cos^4.
     squares, fourths = (1.0, 1.0) if dimension == 1 else (1 / 2, 3 / 8)
     return Moments(height, squares * gradient, fourths * laplacian, dimension)
 
@@ -232,5 +231,5 @@ def _by_differences(surface: Surface) -> Moments:
 def _mean_square(field: Array) -> float:
     known = field[~np.isnan(field)]
     if known.size == 0:
-        raise InputError("no point has the measured neighbours that differences need: the grid is too small")
+        raise InputError("no point has enough measured neighbours for differences: the grid is too small")
     return float(np.mean(known**2))

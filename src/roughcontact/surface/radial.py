@@ -26,18 +26,18 @@ class RadialProfile:
     Parameters
     ----------
     heights : array, shape (n,)
-        Heights of the rings [m]: of a profile f(r) measured upwards from its lowest point, ``-f(grid.radii)``.
-        NaN marks a ring that is not there. The depth counts from the touch of the highest ring: of a body with its tip
-        on the axis the innermost ring, whose middle lies ``f(grid.radii[0])`` lower than the tip.
+        Heights of the rings [m]: ``-f(grid.radii)`` for a profile f(r) measured upwards from its lowest point. NaN
+        marks a missing ring. The depth counts from the touch of the highest ring: for a body with its tip on the axis
+        this is the innermost ring, whose middle lies ``f(grid.radii[0])`` lower than the tip.
     grid : RadialGrid
         The rings.
     provenance : tuple of str
-        Where the heights come from.
+        Origin of the heights.
 
     Raises
     ------
     ValueError
-        If the heights do not fit the rings, are infinite, or hold no number.
+        If the heights do not fit the rings, are infinite, or are all NaN.
 
     Examples
     --------
@@ -59,7 +59,7 @@ class RadialProfile:
                 f"a radial profile lies on a RadialGrid, not on a {type(self.grid).__name__}", place="grid"
             )
         if is_elsewhere(self.heights):
-            raise about("the heights", "of a radial profile must be NumPy's", "bring them to the host")
+            raise about("the heights", "of a radial profile must be a NumPy array", "copy them to the host")
         object.__setattr__(self, "heights", own_heights(in_si(self.heights, "m", "heights"), self.grid.shape))
         object.__setattr__(self, "provenance", tuple(self.provenance))
 

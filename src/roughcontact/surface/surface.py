@@ -35,19 +35,19 @@ class Surface:
     ----------
     heights : array, shape ``grid.shape``
         Heights [m]. The first row is the top of the picture. NaN marks a point that was not measured. Arrays of other
-        libraries (CuPy, PyTorch, ...) stay where they are, to be pressed there in double precision. Analyses copy them
-        into NumPy's memory; prepare a surface there, before its heights go to the device.
+        libraries (CuPy, PyTorch, ...) stay on their device and are pressed there in double precision. Analyses copy
+        them into NumPy's memory. Prepare a surface in NumPy before you move its heights to a device.
     grid : Grid, float or tuple of float
-        Where the cells are and whether the surface repeats itself. The size of a cell [m], one number or ``(dy, dx)``,
-        stands for ``Grid(heights.shape, spacing)``, the grid of a surface that does not repeat itself.
+        Positions of the cells and periodicity. The size of a cell [m], one number or ``(dy, dx)``, means
+        ``Grid(heights.shape, spacing)``, the grid of a surface that is not periodic.
     provenance : tuple of str
-        Where the heights come from and what was done to them, oldest first.
+        Origin of the heights and the steps of their preparation, oldest first.
 
     Raises
     ------
     ValueError
-        If the heights do not fit the grid, are infinite, hold no measured point, or have a range below 1e-50 m (but
-        for 0) or above 1e50 m, where products lose digits.
+        If the heights do not fit the grid, are infinite, hold no measured point, or have a range below 1e-50 m (except
+        0) or above 1e50 m, where products lose digits.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class Surface:
     grid: Grid
     provenance: tuple[str, ...] = ()
 
-    # NumPy's numbers leave a product with a surface to the surface.
+    # NumPy's numbers then leave a product with a surface to the surface.
     __array_ufunc__: ClassVar[None] = None
 
     def __init__(
@@ -83,12 +83,12 @@ class Surface:
         object.__setattr__(self, "provenance", tuple(provenance))
 
     def __repr__(self) -> str:
-        """Say in a line where the heights lie and come from, not the heights."""
+        """Return grid and origin of the heights in one line, without the heights."""
         origin = shorten("; ".join(self.provenance) or "heights as given", ORIGIN, placeholder=" ...")
         return f"Surface({self.grid}, {origin})"
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        """Return a copy of the heights [m], as `numpy.asarray` asks for; with ``copy=False`` those of the surface."""
+        """Return a copy of the heights [m] for `numpy.asarray`; with ``copy=False`` the heights of the surface."""
         return np.array(on_host(self.heights), dtype, copy=True if copy is None else copy)
 
     def __add__(self, other: Surface) -> Surface:
@@ -116,31 +116,31 @@ class Surface:
     def _joined(self, other: Surface, sign: int) -> Surface:
         if is_numpy(self.heights) != is_numpy(other.heights):
             raise InputError(
-                "surfaces are added where both live: the heights of one are NumPy's, of the other not"
+                "two surfaces can only be added in one array library: the heights of only one are a NumPy array"
             )
         mine, theirs = self.grid, other.grid
-        # Spacings that were computed in two ways differ in their last digits.
+        # Spacings that were computed in different ways may differ in their last digits.
         if (mine.shape, mine.periodic) != (theirs.shape, theirs.periodic) or not np.allclose(
             mine.spacing, theirs.spacing, rtol=1e-9, atol=0
         ):
             raise InputError(
-                f"surfaces are added on one grid, not {mine} and {theirs}",
+                f"surfaces can only be added on one grid, not {mine} and {theirs}",
                 "bring one onto the other by resampled()",
             )
         line = ("plus: " if sign > 0 else "minus: ") + ("; ".join(other.provenance) or "a surface")
         return self.with_heights(self.heights + sign * other.heights, line)
 
     def with_heights(self, heights: Array, line: str, grid: Grid | None = None) -> Surface:
-        """Return a surface that was made of this one, with a line more in its provenance.
+        """Return a surface that was derived from this one, with a further line in its provenance.
 
         Parameters
         ----------
         heights : array, shape of the grid
             Its heights [m], NaN where not measured.
         line : str
-            What was done.
+            Description of the step.
         grid : Grid, optional
-            Its cells, where they are not those of this surface.
+            Its grid, if it differs from that of this surface.
 
         Returns
         -------
@@ -183,13 +183,13 @@ class Surface:
         if is_numpy(self.heights):
             return float(np.nanstd(self.heights))
         xp, there = namespace(self.heights), self.measured
-        heights = xp.astype(self.heights, xp.float64)  # squares of micrometres are nothing in half precision
+        heights = xp.astype(self.heights, xp.float64)  # squares of micrometres underflow in half precision
         count = int(xp.count_nonzero(there))
         deviation = xp.where(there, heights - xp.sum(xp.where(there, heights, 0.0)) / count, 0.0)
         return math.sqrt(float(xp.sum(deviation**2)) / count)
 
-    # What is done with a surface has its own files; each way of preparing it returns a new one, with a line more in
-    # the provenance.
+    # Functions of a surface have separate files; each step of preparation returns a new surface, with a further line
+    # in the provenance.
     despiked = methods.despiked
     masked = methods.masked
     aligned = methods.aligned

@@ -1,4 +1,4 @@
-"""Theory: pure functions of numbers and of spectral moments, beside every computed curve."""
+"""Theory: pure functions of numbers and of spectral moments, for comparison with computed curves."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ if TYPE_CHECKING or _LATE is None:
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]
 
 
-if not TYPE_CHECKING:  # to which it would be a module that has any name
+if not TYPE_CHECKING:  # to a type checker, the module would have any name
 
     def __getattr__(name: str) -> Any:
         return open_name(globals(), _LATE, name)

@@ -1,4 +1,4 @@
-"""The predictions of a theory for a loading curve, to be compared with any curve."""
+"""The predictions of a theory for a loading curve, for comparison with any curve."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["LoadingLaw", "Scope", "composed", "over_area"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scope:
-    """The contact that a law was made for.
+    """The contact for which a law was made.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class Scope:
     rms : float
         Root mean square of the heights [m].
     spectrum : Waves, measured or continuous spectrum, optional
-        That the law took from the surface; None if it needs none.
+        Spectrum that the law took from the surface; None if it needs none.
 
     Examples
     --------
@@ -58,20 +58,20 @@ class LoadingLaw:
     Parameters
     ----------
     name : str
-        Of the theory, for legends: ``"Persson"``.
+        Name of the theory, for legends: ``"Persson"``.
     source : str
         Paper, or thesis and equation number.
     quantities : mapping of str to callable
-        From the name of a curve's quantity (``"stiffness"`` [N/m], ``"interfacial_stiffness"`` [N/m],
+        Maps the name of a quantity of a curve (``"stiffness"`` [N/m], ``"interfacial_stiffness"`` [N/m],
         ``"contact_area"`` [m^2], ``"mean_gap"`` [m], ``"depth"`` [m], ``"elastic_energy"`` [J], ``"spots"`` [-]) to
         a function of an array of forces [N] that returns an array of its shape.
     domain : tuple of float
-        Lowest and highest force [N] at which the theory claims to hold.
+        Lowest and highest force [N] at which the theory holds.
     made_for : Scope, optional
-        The contact it was made for, as `roughcontact.loading_laws` knows it: the curve of another is not compared with
-        it unless that is asked for.
+        The contact for which `roughcontact.loading_laws` made it: it is compared with the curve of another contact
+        only on request.
     plastic : bool
-        Whether its stiffness counts spots that have yielded, which that of a curve under a hardness leaves out.
+        Whether its stiffness includes spots that have yielded, unlike the stiffness of a curve with a hardness.
 
     Examples
     --------
@@ -122,9 +122,7 @@ class LoadingLaw:
         array([ 5587., 22349.])
         """
         if quantity not in self.quantities:
-            raise InputError(
-                f"{self.name} says nothing about {quantity!r}, only about {sorted(self.quantities)}"
-            )
+            raise InputError(f"{self.name} has no {quantity!r}; it has {sorted(self.quantities)}")
         given = np.atleast_1d(number(force, "force [N]"))
         inside = (given >= self.domain[0]) & (given <= self.domain[1])
         values = np.full(given.shape, np.nan)
@@ -133,19 +131,19 @@ class LoadingLaw:
         return values.reshape(np.shape(force))
 
     def derived(self, quantity: str, functions: Mapping[str, Callable[[Array], Array]]) -> LoadingLaw:
-        """Return the law of what follows from one of the quantities alone.
+        """Return the law of quantities that follow from a single quantity of this law.
 
         Parameters
         ----------
         quantity : str
             Its name.
         functions : mapping of str to callable
-            From the names of what follows to functions of the quantity's values.
+            Functions of the values of this quantity, by the names of the derived quantities.
 
         Returns
         -------
         LoadingLaw
-            Of the same theory, on the same domain.
+            The law of the same theory, on the same domain.
 
         Raises
         ------
@@ -158,12 +156,12 @@ class LoadingLaw:
         return replace(self, quantities={name: composed(of, found) for name, of in functions.items()})
 
     def __repr__(self) -> str:
-        """Say whose theory it is and what it is about."""
+        """Return the name of the theory and its quantities."""
         return f"LoadingLaw({self.name}: {', '.join(sorted(self.quantities))})"
 
 
 def composed(outer: Callable[[Array], Array], inner: Callable[[Array], Array]) -> Callable[[Array], Array]:
-    """Return ``outer(inner(force))`` as a function that can be sent to another process, if both can.
+    """Return ``outer(inner(force))`` as a function that can be pickled if both can.
 
     Parameters
     ----------
@@ -189,12 +187,12 @@ def _composed(outer: Callable[[Array], Array], inner: Callable[[Array], Array], 
 
 
 def over_area(quantity: Callable[[Array], Array], area: float, force: Array) -> Array:
-    """Return what a nominal area [m^2] has in all of a quantity per area, a function of the nominal pressure [Pa].
+    """Return the total over a nominal area [m^2] of a quantity per area, a function of the nominal pressure [Pa].
 
     Parameters
     ----------
     quantity : Callable[[Array], Array]
-        Of the nominal pressure [Pa].
+        Quantity per area as a function of the nominal pressure [Pa].
     area : float
         Nominal area A0 [m^2].
     force : float or array
@@ -203,7 +201,7 @@ def over_area(quantity: Callable[[Array], Array], area: float, force: Array) -> 
     Returns
     -------
     float or array
-        The quantity of the whole area.
+        Total over the area.
 
     Examples
     --------

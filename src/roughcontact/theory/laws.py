@@ -1,4 +1,4 @@
-"""Loading laws by name: the data that each needs of a surface, and one function that makes it."""
+"""Loading laws by name: the data that each needs, and the function that makes it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["LAWS", "LawInputs", "NamedLaw", "named"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LawInputs:
-    """What is known of a rough contact; None is not known.
+    """Known data of a rough contact; None means unknown.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class LawInputs:
     rolloff : float, optional
         Length of the longest waves [m]; by default `length`.
     radius : float, optional
-        Radius of curvature of the surface at large [m].
+        Radius of curvature of the nominal shape [m].
     hardness : float, optional
         Indentation hardness of the softer body [Pa].
 
@@ -73,7 +73,7 @@ class LawInputs:
     hardness: float | None = None
 
     def completed(self) -> LawInputs:
-        """Return the inputs with the defaults that follow from others.
+        """Return the inputs with defaults that follow from other inputs.
 
         Returns
         -------
@@ -92,7 +92,7 @@ class LawInputs:
 
 
 class GivenValues(TypedDict, total=False):
-    """The fields of `LawInputs` but the modulus as keywords, as editors complete them."""
+    """The fields of `LawInputs` except the modulus as keywords, for completion in editors."""
 
     area: float
     length: float
@@ -107,14 +107,14 @@ class GivenValues(TypedDict, total=False):
 
 @dataclass(frozen=True, slots=True)
 class NamedLaw:
-    """A law that can be had by name.
+    """A law with a name.
 
     Parameters
     ----------
     about : str
         One line for a list of laws.
     needs : tuple of str
-        The inputs that it wants, in the order in which `make` takes them.
+        The inputs that it needs, in the order of the arguments of `make`.
     make : callable
         Returns the `LoadingLaw`.
 
@@ -225,7 +225,7 @@ def named(name: str, *, modulus: float | None = None, **given: Unpack[GivenValue
     modulus : float, optional
         Reduced modulus E* [Pa].
     **given
-        The other fields of `LawInputs`, as far as they are known: more than the law needs will do.
+        The other fields of `LawInputs`, as far as they are known; further fields are ignored.
 
     Returns
     -------
@@ -244,7 +244,7 @@ def named(name: str, *, modulus: float | None = None, **given: Unpack[GivenValue
     """
     require(name in LAWS, f"there is no law named {name!r}; there are {', '.join(LAWS)}")
     if strange := given.keys() - {field.name for field in fields(LawInputs)}:
-        raise InputError(f"no law asks for {', '.join(sorted(strange))}")
+        raise InputError(f"no law has the input {', '.join(sorted(strange))}")
     law, inputs = LAWS[name], LawInputs(modulus, **given).completed()
     wanted = {need: getattr(inputs, need) for need in law.needs}
     if missing := [need for need, value in wanted.items() if value is None]:

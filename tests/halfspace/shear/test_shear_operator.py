@@ -205,7 +205,7 @@ def test_dundurs_parameter():
         (rc.Grid(8, 1.0), FIRST, "two axes"),
         (rc.RadialGrid.uniform(3, 1.0), FIRST, "rings are not offered"),
         (rc.Grid((8, 8), 1.0, (True, False)), FIRST, "both axes"),
-        (rc.Grid((8, 8), 1.0), 1e9, "a Solid or a pair of Solids is wanted"),
+        (rc.Grid((8, 8), 1.0), 1e9, "a Solid or a pair of Solids is needed"),
         (rc.Grid((8, 8), 1.0), (rc.Solid(np.inf, 0.3), rc.Solid(np.inf, 0.3)), "two rigid bodies"),
     ],
 )

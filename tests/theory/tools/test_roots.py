@@ -24,7 +24,7 @@ def test_increasing():
 
 
 def test_no_root():
-    with pytest.raises(RuntimeError, match="met no root"):
+    with pytest.raises(RuntimeError, match="found no root"):
         concave_root(lambda x: (-(x**2) - 1, -2 * x), np.array([0.0]), np.array([0.3]))
 
 

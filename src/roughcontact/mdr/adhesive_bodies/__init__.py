@@ -1,1 +1,1 @@
-"""Bodies of revolution that attract what they touch."""
+"""Adhesive contact of bodies of revolution."""

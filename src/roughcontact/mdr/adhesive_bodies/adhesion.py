@@ -2,13 +2,13 @@ r"""Adhesive contact of a body of revolution in the limit of Johnson, Kendall an
 
 The outermost springs of the foundation separate at the elongation l(a) = sqrt(2 pi a w/E*) (Hess, Über die exakte
 Abbildung ausgewählter dreidimensionaler Kontakte, 2011; Popov & Hess, Method of Dimensionality Reduction, 2015),
-so that every radius a has one equilibrium:
+which gives one equilibrium for every radius a:
 
     d(a) = g(a) - l(a)          F(a) = 2 E* (a d(a) - \int_0^a g dx)
 
-For the paraboloid this is exactly the theory of Johnson, Kendall and Roberts. The contact is taken for one
-disc, under tension inside if need be: on a body whose transform falls somewhere that means that it was pressed
-together before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
+For the paraboloid this is exactly the theory of Johnson, Kendall and Roberts. The contact is assumed to be one disc,
+possibly with tension inside: for a body whose transform decreases somewhere, the body must have been pressed into full
+contact before (Guduru, J. Mech. Phys. Solids 55, 445 (2007)).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from roughcontact.validation import Array, numeric, scalar
 
 __all__ = ["Control", "JKRContact", "PullOff", "jkr"]
 
-SPAN = (1e-15, 1e6)  # contact radii searched on a body without end [m]
+SPAN = (1e-15, 1e6)  # contact radii searched for a body without end [m]
 PER_DECADE = 200
 
 
@@ -61,7 +61,7 @@ class PullOff:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JKRContact:
-    """The equilibria of a body of revolution that sticks, one for each contact radius; made by `jkr`.
+    """The equilibria of an adhesive body of revolution, one for each contact radius; made by `jkr`.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class JKRContact:
 
     @numeric
     def elongation(self, radius: float | Array) -> Array:
-        """Return l(a) = sqrt(2 pi a w/E*), that of the outermost springs [m], at contact radii [m].
+        """Return l(a) = sqrt(2 pi a w/E*), the elongation of the outermost springs [m], at contact radii [m].
 
         Parameters
         ----------
@@ -180,7 +180,7 @@ class JKRContact:
 
     @numeric
     def energy(self, radius: float, depth: float) -> float:
-        """Return the elastic energy less that of adhesion [J] of a contact held at a radius and a depth [m].
+        """Return the elastic energy less the energy of adhesion [J] of a contact held at a radius and a depth [m].
 
         Parameters
         ----------
@@ -199,7 +199,7 @@ class JKRContact:
 
     @numeric
     def at(self, radius: float) -> Indentation:
-        """Return the equilibrium of a contact radius [m] with its fields: pressure, displacement, gap.
+        """Return the equilibrium of a contact radius [m], which has pressure, displacement and gap.
 
         Parameters
         ----------
@@ -219,12 +219,12 @@ class JKRContact:
 
     @numeric
     def pull_off(self, machine_stiffness: float = 0.0) -> PullOff:
-        """Return where the contact snaps off for good when it is unloaded.
+        """Return the state from which the contact finally snaps off when it is unloaded.
 
         Parameters
         ----------
         machine_stiffness : float
-            Of what holds the body [N/m]: 0 under a given force, infinite under a given depth.
+            Stiffness of the machine that holds the body [N/m]: 0 under a given force, infinite under a given depth.
 
         Returns
         -------
@@ -233,7 +233,7 @@ class JKRContact:
         Raises
         ------
         ValueError
-            If the contact would spread without limit, or snaps off from where the body is not known.
+            If the contact would spread without limit, or snaps off beyond the known part of the body.
         """
         control = Control(self, machine_stiffness)
         a, level = control.extrema()
@@ -242,7 +242,7 @@ class JKRContact:
             raise InputError(
                 "the contact spreads to the end of the body by itself: its transform must rise faster than the square "
                 f"root of the radius somewhere below {a[-1]:g} m",
-                "take more of the body, or cut(radius)",
+                "define the body to a larger radius, or use cut(radius)",
             )
         radius = float(a[lowest])
         return PullOff(float(self.force(radius)), float(self.depth(radius)), radius)
@@ -250,13 +250,13 @@ class JKRContact:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Control:
-    """What is prescribed: the place c of the far end of a spring that holds the body, or the force.
+    """The control: the position c of the far end of a spring that holds the body, or the force.
 
     Parameters
     ----------
     adhesion : JKRContact
     machine_stiffness : float
-        c = d + F/stiffness [m] for a positive stiffness, d itself for an infinite one; for 0 c = F [N].
+        c = d + F/stiffness [m] for a positive stiffness, c = d for an infinite one; c = F [N] for 0.
 
     Examples
     --------
@@ -282,7 +282,7 @@ class Control:
 
     @property
     def compliance(self) -> float:
-        """Share of the force in c [m/N]; of no use under a given force."""
+        """Factor of the force in c [m/N]; not used under a given force."""
         return 1 / self.machine_stiffness if self.machine_stiffness else math.inf
 
     def level(self, radius: float | Array) -> Array:
@@ -318,7 +318,7 @@ class Control:
     def _combined(
         self, force: Callable[[Array], Array], depth: Callable[[Array], Array], radius: float | Array
     ) -> Array:
-        """Return what the force and the depth at contact radii make of c."""
+        """Return c from the force and the depth at contact radii."""
         radius = np.asarray(radius, dtype=np.float64)
         if self.machine_stiffness == 0:
             return force(radius)
@@ -356,7 +356,7 @@ def jkr(profile: Profile, modulus: Modulus, work: float) -> JKRContact:
     profile : Profile
         The body.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies.
     work : float
         Work of adhesion w [J/m^2].
 
@@ -367,12 +367,12 @@ def jkr(profile: Profile, modulus: Modulus, work: float) -> JKRContact:
     Raises
     ------
     ValueError
-        If the profile is no body of revolution, or the work is not positive.
+        If the profile is not a body of revolution, or the work is not positive.
 
     Notes
     -----
-    Of small strains: a soft body whose contact radius comes near its radius of curvature is beyond the theory, which
-    nothing here checks.
+    The theory holds for small strains, which is not checked: it fails for a soft body whose contact radius approaches
+    its radius of curvature.
 
     Examples
     --------
@@ -384,5 +384,5 @@ def jkr(profile: Profile, modulus: Modulus, work: float) -> JKRContact:
     """
     w = scalar(work, "work of adhesion")
     if not (math.isfinite(w) and w > 0):
-        raise about("the work", f"of adhesion must be positive [J/m^2], not {w}; without, indent serves")
+        raise about("the work", f"of adhesion must be positive [J/m^2], not {w}; without adhesion use indent")
     return JKRContact(checked_profile(profile), as_modulus(modulus), w)

@@ -1,4 +1,4 @@
-"""Approach and retreat of a body that sticks: stable equilibria, snaps between them, and what the snaps cost."""
+"""Approach and retreat of an adhesive body: stable equilibria, snaps between them, and the energy lost in the snaps."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ __all__ = ["AdhesivePath", "adhesive_path"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AdhesivePath:
-    """States of a sticking body, in the order of the history; radius 0 and force 0 where it is off.
+    """States of an adhesive body, in the order of the history; radius 0 and force 0 without contact.
 
-    A body that was pulled by more than it can hold is off: its force is 0, not the one that was asked for, and
-    `detached` tells.
+    A body that was pulled by more than its pull-off force is detached: its force is 0, not the prescribed one, and
+    `detached` is true.
 
     Attributes
     ----------
     force : array, shape (n,)
         [N], tension negative.
     depth : array, shape (n,)
-        [m]; NaN of a body that was torn off under a given force.
+        [m]; NaN for a body that was torn off under a given force.
     contact_radius : array, shape (n,)
         [m].
     dissipated : array, shape (n,)
-        Energy lost in snaps up to each state [J]; infinite from a tear under a given force on, which nothing stops.
+        Energy lost in snaps up to each state [J]; infinite after detachment under a given force, which is unlimited.
 
     Examples
     --------
@@ -50,7 +50,7 @@ class AdhesivePath:
 
     @property
     def detached(self) -> Mask:
-        """Whether the body is off after it had been on, shape (n,): where it has separated."""
+        """Whether the body has separated after contact, shape (n,)."""
         on = self.contact_radius > 0
         return np.logical_or.accumulate(on) & ~on
 
@@ -66,10 +66,10 @@ def adhesive_path(
     forces: Sequence[float] | Array | None = None,
     machine_stiffness: float = math.inf,
 ) -> AdhesivePath:
-    """Lead a sticking body, which comes from afar, through a history.
+    """Move an adhesive body, initially far away, through a history.
 
-    It sticks at first touch, depth 0. From then on the edge of the contact moves out as long as it gains
-    energy, and in as long as it must: it stays on stable equilibria and snaps where one ends.
+    It adheres at first touch, depth 0. From then on the edge of the contact moves outwards while this releases energy,
+    and inwards when it must: it stays on stable equilibria and snaps where one ends.
 
     Parameters
     ----------
@@ -78,9 +78,9 @@ def adhesive_path(
     depths : array, shape (n,), optional
         History of the depth [m], or of the far end of a spring with `machine_stiffness` [N/m] that holds the body.
     forces : array, shape (n,), optional
-        Instead: history of the force [N]. From where it pulls by more than the body can hold, the force is 0.
+        Instead: history of the force [N]. Beyond the pull-off force, the force is 0.
     machine_stiffness : float
-        Of the spring that holds the body [N/m]; infinite: the depth itself is given.
+        Stiffness of the spring that holds the body [N/m]; if infinite, the depth is given.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def adhesive_path(
     Raises
     ------
     ValueError
-        If not exactly one history is given, or the contact comes to where the body is not known.
+        If not exactly one history is given, or the contact leaves the known part of the body.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def adhesive_path(
     """
     if not isinstance(adhesion, JKRContact):
         raise InputError(
-            f"a JKRContact is wanted, such as jkr(profile, modulus, work), not {shown(adhesion)}",
+            f"a JKRContact is needed, such as jkr(profile, modulus, work), not {shown(adhesion)}",
             place="adhesion",
         )
     require((depths is None) != (forces is None), "give exactly one history, of depths or of forces")
@@ -112,9 +112,11 @@ def adhesive_path(
         )
     control = Control(adhesion, 0.0 if depths is None else machine_stiffness)
     history = np.asarray(number(forces if depths is None else depths, "the history"))
-    require(history.ndim == 1, f"a history is a list of numbers, not of shape {history.shape}")
+    require(history.ndim == 1, f"a history must be a list of numbers, not of shape {history.shape}")
     if not np.isfinite(history).all():
-        raise InputError(f"a history is a list of finite numbers, not {history[~np.isfinite(history)][0]}")
+        raise InputError(
+            f"a history must be a list of finite numbers, not {history[~np.isfinite(history)][0]}"
+        )
     track = _Track(control, *control.extrema())
     radius, lost = 0.0, 0.0
     states = []
@@ -143,14 +145,14 @@ def _state(control: Control, a: float, c: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Track:
-    """The pieces between the `extrema` of c(a), on each of which it only rises or only falls."""
+    """The monotonic pieces of c(a) between its `extrema`."""
 
     control: Control
     extrema: Array
     levels: Array
 
     def move(self, a: float, c: float) -> tuple[float, float]:
-        """Return where the edge goes from radius `a` when the control becomes `c`, and the energy it loses."""
+        """Return the new radius of the edge from radius `a` when the control becomes `c`, and the energy lost."""
         own = float(self.control.level(a)) if a > 0 else 0.0
         if c > own or (a == 0 and c == 0):
             return self._lead(a, own, c, 1)
@@ -159,21 +161,21 @@ class _Track:
         return a, 0.0
 
     def _pieces(self, a: float, way: int) -> list[tuple[float, float, float]]:
-        """Return the pieces from the one that holds `a` on, outwards or inwards: both ends, and c at the far one."""
+        """Return the pieces from the one with `a` on, outwards or inwards: both ends, and c at the far end."""
         first = int(np.searchsorted(self.extrema, a, side="right" if way > 0 else "left"))
         far = range(first, len(self.extrema)) if way > 0 else range(first - 1, -1, -1)
         ends = self.extrema.tolist()
         return [(ends[index - way], ends[index], float(self.levels[index])) for index in far]
 
     def _lead(self, a: float, level: float, c: float, way: int) -> tuple[float, float]:
-        """Return where the edge goes outwards (1) or inwards (-1) from `a` at `level`, and the energy it loses."""
+        """Return the new radius of an edge that moves outwards (1) or inwards (-1) from `a`, and the energy lost."""
         loss = 0.0
         for start, end, there in self._pieces(a, way):
             if way * there < way * level:
                 continue
             if (
                 way * start > way * a
-            ):  # c lies behind on the pieces between: a snap to where it is `level` again
+            ):  # c is beyond `level` on the pieces between: a snap to the radius where it is `level` again
                 landing = self._cross(start, end, level)
                 loss += self._energy(a, level) - self._energy(landing, level)
                 a = landing
@@ -191,7 +193,7 @@ class _Track:
         return last, loss
 
     def _cross(self, start: float, end: float, level: float) -> float:
-        """Return where c passes a level on a rising piece, given by its ends in either order."""
+        """Return the radius at which c passes a level on a rising piece, given by its ends in either order."""
         low, high = sorted((start, end))
         below, above = (float(self.control.level(a)) - level for a in (low, high))
         if below >= 0 or above <= 0:

@@ -24,7 +24,7 @@ class Term(Protocol):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Radii beside which the term is not smooth, or between which it is monotone [m]."""
+        """Radii at which the term is not smooth, or between which it is monotone [m]."""
 
     @property
     def rises(self) -> bool:
@@ -47,20 +47,20 @@ class Term(Protocol):
 class Profile:
     """A rigid body of revolution that is pressed, apex first, into an elastic half-space.
 
-    Made by the functions of `roughcontact.mdr.indenter` and by arithmetic: ``first + second`` adds heights, and with
-    them the transforms; ``2 * body`` stretches a body along its axis.
+    Made by the functions of `roughcontact.mdr.indenter` and by arithmetic: ``first + second`` adds heights and
+    transforms; ``2 * body`` stretches a body along its axis.
 
     Parameters
     ----------
     terms : tuple of (float, Term)
         Parts of the height with their factors. None: a flat face.
     radius : float
-        Where the body ends [m].
+        Radius at which the body ends [m].
     edge : bool
-        Whether it ends there in a sharp edge, to which a contact can be pinned. If not, nothing is known beyond, and
-        a load whose contact comes as far is refused.
+        Whether it ends there in a sharp edge, to which a contact can be pinned. If not, the body is unknown beyond,
+        and a load whose contact extends to this radius is refused.
     rises : bool
-        Whether the transform never falls, so that the contact is one disc at every load.
+        Whether the transform never decreases: then the contact is one disc at every load.
     """
 
     terms: tuple[tuple[float, Term], ...]
@@ -75,11 +75,11 @@ class Profile:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Radii inside the body beside which the transform is not smooth [m], increasing."""
+        """Radii inside the body at which the transform is not smooth [m], increasing."""
         return tuple(sorted({b for _, term in self.terms for b in term.breaks if 0 < b < self.radius}))
 
     def height(self, r: float | Array) -> Array:
-        """Return the height f(r) above the apex [m]; beyond the body infinite, or NaN where it is not known."""
+        """Return the height f(r) above the apex [m]; beyond the body infinite, or NaN if it is unknown."""
         r = checked_radii(r)
         inside = np.minimum(r, self.radius)
         beyond = math.inf if self.edge else math.nan
@@ -90,7 +90,7 @@ class Profile:
         return self._sum("transform", checked_radii(x))
 
     def transform_slope(self, x: float | Array) -> Array:
-        """Return g'(x) [-]; infinite beside the edge of a flat face and at a cusp."""
+        """Return g'(x) [-]; infinite at the edge of a flat face and at a cusp."""
         return self._sum("slope", checked_radii(x))
 
     def transform_integral(self, x: float | Array) -> Array:
@@ -98,7 +98,7 @@ class Profile:
         return self._sum("primitive", checked_radii(x))
 
     def _sum(self, function: str, places: Array) -> Array:
-        """Return what the terms' functions of one name add up to."""
+        """Return the sum of the functions of one name over the terms."""
         return sum((c * getattr(term, function)(places) for c, term in self.terms), np.zeros_like(places))
 
     def cut(self, radius: float) -> Profile:
@@ -107,7 +107,7 @@ class Profile:
         Raises
         ------
         ValueError
-            If the radius is not positive, or the body is not known so far out.
+            If the radius is not positive, or the body is not known up to it.
         """
         end = scalar(radius, "the radius of a cut [m]")
         if not (math.isfinite(end) and 0 < end <= self.radius):
@@ -142,7 +142,7 @@ class Profile:
     __rmul__ = __mul__
 
     def __repr__(self) -> str:
-        """Say what the body is made of."""
+        """Return the terms of the body and its radius."""
         parts = " + ".join(f"{c:g} * {term!r}" if c != 1 else repr(term) for c, term in self.terms) or "flat"
         end = (
             f", {'edge' if self.edge else 'known'} to {self.radius:g} m" if math.isfinite(self.radius) else ""
@@ -154,7 +154,7 @@ def checked_profile(profile: Profile) -> Profile:
     """Return a body of revolution, or refuse anything else."""
     if not isinstance(profile, Profile):
         raise InputError(
-            f"a body of revolution is wanted, such as indenter.paraboloid(radius), not {shown(profile)}",
+            f"a body of revolution is needed, such as indenter.paraboloid(radius), not {shown(profile)}",
             place="profile",
         )
     return profile

@@ -1,4 +1,4 @@
-"""Piecewise polynomials in Chebyshev form: a smooth function as a table that can be differentiated and integrated."""
+"""Piecewise polynomials in Chebyshev form: smooth functions as tables that can be differentiated and integrated."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ __all__ = ["Panels", "fit", "interpolate"]
 
 Function = Callable[[Array], Array]
 
-NODES = 20  # of a panel: a power of r is met to 1e-15 on a panel as long as its distance from zero
+NODES = 20  # of a panel: a power of r is accurate to 1e-15 on a panel as long as its distance from zero
 FINEST = 2.0**-40  # shortest panel, relative to the whole range
-MOST = 4000  # panels; a function that wants more is not piecewise smooth
+MOST = 4000  # panels; a function that needs more is not piecewise smooth
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,13 +38,13 @@ class Panels:
     coefficients: Array
 
     def __call__(self, x: Array) -> Array:
-        """Return the values at `x`; beyond the ends the last polynomials go on."""
+        """Return the values at `x`; beyond the ends the last polynomials are continued."""
         x = np.asarray(x, dtype=np.float64)
         flat = x.ravel()
         return self.at(flat, self.panel(flat)).reshape(x.shape)
 
     def panel(self, x: Array) -> npt.NDArray[np.intp]:
-        """Return the number of the panel that holds each place; an edge belongs to the panel on its right."""
+        """Return the index of the panel that contains each position; an edge belongs to the panel on its right."""
         found = np.searchsorted(self.edges, x, side="right") - 1
         return np.clip(found, 0, len(self.coefficients) - 1)
 
@@ -81,20 +81,20 @@ def _basis(count: int) -> tuple[Array, Array]:
 
 
 def interpolate(function: Function, edges: Array, count: int) -> Panels:
-    """Return the panels that meet `function` at `count` nodes each, both edges among them."""
+    """Return the panels that interpolate `function` at `count` nodes each, including both edges."""
     return Panels(edges, _each(function, np.stack([edges[:-1], edges[1:]], axis=1), count))
 
 
 def fit(function: Function, end: float, *, tolerance: float) -> Panels:
-    """Return a function on [0, end] as panels, halved until each of them meets it.
+    """Return a function on [0, end] as panels, halved until each is accurate.
 
-    Panels shrink towards zero in proportion to their place, so that a power of r keeps its relative
-    precision over twelve decades, and towards kinks, which need not be known.
+    Panels shrink in proportion to their distance from zero, which keeps the relative precision of a power of r over
+    twelve decades. They also shrink towards kinks, whose positions need not be known.
 
     Parameters
     ----------
     function : callable
-        Of an array of any length.
+        Function of an array of any length.
     end : float
     tolerance : float
         Last coefficients of a panel, relative to its largest value.
@@ -123,7 +123,7 @@ def fit(function: Function, end: float, *, tolerance: float) -> Panels:
             raise about("the function", f"is not finite between {where[0]:g} and {where[1]:g}")
         size = np.abs(own).sum(axis=1)
         largest = max(largest, float(size.max()))
-        # What lies below the rounding of the largest value is noise of the function itself.
+        # Values below the rounding error of the largest value are noise of the function.
         allowed = np.maximum(tolerance * size, 4 * np.finfo(float).eps * largest)
         good = np.abs(own[:, -2:]).max(axis=1) <= allowed
         good |= todo[:, 1] - todo[:, 0] <= end * FINEST * (1 + 1e-9)
@@ -147,7 +147,7 @@ def _each(function: Function, spans: Array, count: int) -> Array:
     values = np.asarray(function(places.ravel()), dtype=np.float64)
     if values.shape != (places.size,):
         raise InputError(
-            f"a function of an array is wanted: {places.size} radii gave an answer of shape {values.shape}",
+            f"a function of an array is needed: {places.size} radii gave a result of shape {values.shape}",
             place="function",
         )
     return np.asarray(values.reshape(places.shape) @ matrix.T)

@@ -1,8 +1,8 @@
-"""The contact of a body whose transform falls somewhere: one disc, or not a contact that the method can find.
+"""The contact of a body whose transform decreases somewhere: one disc, or no contact that the method can compute.
 
-A transform that never falls means a disc at every load. One that falls means that at some load the contact is no
-disc; under a larger one it may be. The solution at a load is unique, so a disc with no tension inside and no
-overlap outside is it; if no disc qualifies, the load is refused.
+If a transform never decreases, the contact is a disc at every load. If it decreases, the contact is not a disc at some
+loads, but may be one at larger loads. The solution at a load is unique: a disc without tension inside and without
+overlap outside is the solution. If there is no such disc, the load is refused.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from roughcontact.validation import Array
 
 __all__ = ["disc_radius", "sample_radii"]
 
-SAMPLES = 2000  # radii at which a transform that may fall is sampled
+SAMPLES = 2000  # radii at which a transform that may decrease is sampled
 PROBES = 128  # radii at which a disc is checked, inside and outside
-TOLERANCE = 1e-9  # of tension against the largest pressure, and of overlap against the depth
+TOLERANCE = 1e-9  # tension relative to the largest pressure, and overlap relative to the depth
 
 
 def sample_radii(profile: Profile, end: float) -> Array:
@@ -37,7 +37,7 @@ def sample_radii(profile: Profile, end: float) -> Array:
 def disc_radius(
     profile: Profile, value: Callable[[Array], Array], target: float, depth: Callable[[float], float]
 ) -> float:
-    """Return the radius of the disc at which `value` has the `target`, and which is a contact.
+    """Return the radius of the disc that is a contact and at which `value` equals `target`.
 
     Parameters
     ----------
@@ -51,10 +51,12 @@ def disc_radius(
     Raises
     ------
     ValueError
-        If the body has no end, or the contact is not one disc; the message says where.
+        If the body has no end, or the contact is not one disc; the message states where.
     """
     if not math.isfinite(profile.radius):
-        raise InputError("the transform of this body may fall", "say how far the body goes with cut(radius)")
+        raise InputError(
+            "the transform of this body may decrease", "set the radius of the body by cut(radius)"
+        )
     x = sample_radii(profile, profile.radius)
     transform = profile.transform(x)
     below = value(x) <= target
@@ -75,7 +77,7 @@ def disc_radius(
 
 
 def _objection(profile: Profile, a: float, d: float) -> str | None:
-    """Say where a disc of radius `a` and depth `d` pulls or overlaps."""
+    """Return the radius at which a disc of radius `a` and depth `d` has tension or overlap, in words."""
     if a > 0:
         r = a * (np.arange(PROBES) + 0.5) / PROBES
         p = pressure(profile, 1.0, a, d, r)
@@ -85,5 +87,5 @@ def _objection(profile: Profile, a: float, d: float) -> str | None:
     if a < profile.radius:
         gap = surface_displacement(profile, a, d, r) + profile.height(r) - d
         if gap.min() < -TOLERANCE * abs(d):
-            return f"the body would touch at r = {r[gap.argmin()]:g} m, too"
+            return f"the body would also touch at r = {r[gap.argmin()]:g} m"
     return None

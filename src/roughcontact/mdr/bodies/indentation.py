@@ -1,4 +1,4 @@
-"""A body of revolution pressed into an elastic half-space: one load, or a curve of them (thesis, appendix A.2)."""
+"""A body of revolution pressed into an elastic half-space: one load, or a curve of loads (thesis, appendix A.2)."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Indentation:
         return np.where(r <= self.contact_radius, 0.0, outside)
 
     def __repr__(self) -> str:
-        """Say the load and what it does."""
+        """Return force, depth and contact radius."""
         return (
             f"Indentation(force {self.force:.4g} N, depth {self.depth:.4g} m, "
             f"contact radius {self.contact_radius:.4g} m)"
@@ -181,7 +181,7 @@ class IndentationCurve:
         return np.array([self[index].elastic_energy for index in range(len(self))])
 
     def __repr__(self) -> str:
-        """Say what the curve spans."""
+        """Return the range of the curve."""
         return f"IndentationCurve({len(self)} points, force {self.force[0]:.4g} to {self.force[-1]:.4g} N)"
 
 
@@ -202,7 +202,7 @@ def indent(
     modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa], or what it follows from.
     force, depth, contact_radius : float
-        Exactly one: normal force [N], approach since first touch [m], or radius of the contact [m].
+        Give exactly one: normal force [N], approach since first touch [m], or radius of the contact [m].
 
     Returns
     -------
@@ -211,12 +211,12 @@ def indent(
     Raises
     ------
     ValueError
-        If the input makes no sense, the contact is not one disc, or it comes to where the body is no longer known.
+        If the input is invalid, the contact is not one disc, or it leaves the known part of the body.
 
     Notes
     -----
-    Exact for small strains, which nothing here checks: the contact radius is to be well below the radius of
-    curvature, and a soft body under a high force gets a number without a meaning.
+    Exact for small strains, which is not checked: the contact radius must be well below the radius of curvature. For a
+    soft body under a high force the result has no meaning.
 
     Examples
     --------
@@ -229,7 +229,7 @@ def indent(
     """
     name, load = exactly_one(force=force, depth=depth, contact_radius=contact_radius)
     d, a = _solve(profile, as_modulus(modulus), name, np.atleast_1d(number(load, name)))
-    require(len(d) == 1, f"one load is wanted, not {len(d)}: indentation_curve takes many")
+    require(len(d) == 1, f"one load is needed, not {len(d)}", "for several loads use indentation_curve")
     return Indentation(profile, as_modulus(modulus), float(d[0]), float(a[0]))
 
 
@@ -272,7 +272,7 @@ def indentation_curve(
     name, values = exactly_one(force=forces, depth=depths, contact_radius=contact_radii)
     loads = number(values, name)
     if loads.ndim != 1 or not len(loads):
-        raise InputError(f"a curve wants a list of loads, not an array of shape {loads.shape}")
+        raise InputError(f"a curve needs a list of loads, not an array of shape {loads.shape}")
     if len(falls := np.nonzero(np.diff(loads) <= 0)[0]):
         raise InputError(
             f"loads must increase strictly: {name} goes from {loads[falls[0]]:g} to {loads[falls[0] + 1]:g}"
@@ -281,7 +281,7 @@ def indentation_curve(
 
 
 def indented(profile: Profile, modulus: float, name: str, loads: Array) -> IndentationCurve:
-    """Return the states at loads in any order, as histories have them.
+    """Return the states at loads in any order, for histories.
 
     Parameters
     ----------
@@ -290,7 +290,7 @@ def indented(profile: Profile, modulus: float, name: str, loads: Array) -> Inden
     modulus : float
         Reduced modulus E* [Pa].
     name : {"force", "depth", "contact_radius"}
-        What the loads are.
+        Kind of the loads.
     loads : array, shape (n,)
         Forces [N], depths [m] or contact radii [m].
 
@@ -331,9 +331,9 @@ def _solve(profile: Profile, modulus: float, name: str, loads: Array) -> tuple[A
     beyond = radius >= profile.radius
     if beyond.any() and not profile.edge:
         raise InputError(
-            f"under a {name} of {loads[beyond].min():g} the contact reaches {profile.radius:g} m, and the body is not "
-            "known further out",
-            "take more of it, or give it an edge there with cut(radius)",
+            f"under a {name} of {loads[beyond].min():g} the contact reaches {profile.radius:g} m, where the known "
+            "part of the body ends",
+            "define the body to a larger radius, or give it an edge there by cut(radius)",
         )
     if name == "depth":
         return loads, radius
@@ -353,7 +353,7 @@ def _atchecked_radii(profile: Profile, radii: Array) -> tuple[Array, Array]:
         for a, d in zip(radii.tolist(), depths.tolist(), strict=True):
             found = disc_radius(profile, profile.transform, d, _depth_at(profile, "depth", d))
             if not math.isclose(found, a, rel_tol=1e-6):
-                raise InputError(f"no load makes a contact of radius {a:g} m: at its depth it is {found:g} m")
+                raise InputError(f"no load gives a contact radius of {a:g} m: at its depth it is {found:g} m")
     return depths, radii
 
 

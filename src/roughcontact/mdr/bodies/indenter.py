@@ -1,7 +1,7 @@
 """Bodies of revolution: closed forms, functions, samples, and roughness as a body (thesis, section 5.2).
 
-All stand on their apex at height 0. Profiles add: ``paraboloid(0.5) + equivalent_roughness(0.7, rms=9e-3, length=1.0)``
-is the rough sphere of the thesis' eq. 5.8, and any other smooth body may take the sphere's place.
+The apex of each has height 0. Profiles can be added: ``paraboloid(0.5) + equivalent_roughness(0.7, rms=9e-3,
+length=1.0)`` is the rough sphere of eq. 5.8 in the thesis, and any other smooth body can replace the sphere.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ __all__ = [
     "sphere",
 ]
 
-MOST_WAVES = 2000  # of ripples: each takes two panels of a table or fewer
+MOST_WAVES = 2000  # of ripples: each needs at most two panels of a table
 
 
 def power_law(exponent: float, coefficient: float, *, flat: float = 0.0) -> Profile:
@@ -146,7 +146,7 @@ def sphere(radius: float) -> Profile:
 
 
 def flat_punch(radius: float) -> Profile:
-    """Return a cylinder with a flat face and a sharp edge; radius in m. Added to a body, it cuts it.
+    """Return a cylinder with a flat face and a sharp edge; radius in m. Adding it to a body cuts the body.
 
     Parameters
     ----------
@@ -191,12 +191,12 @@ def rounded_cone(slope: float, radius: float) -> Profile:
     """
     joint = positive_scalar(slope, "slope") * positive_scalar(radius, "radius")
     body = paraboloid(radius) - paraboloid(radius, flat=joint) + cone(slope, flat=joint)
-    # A slope that does not fall makes a transform that does not fall.
+    # A slope that never decreases gives a transform that never decreases.
     return replace(body, rises=True)
 
 
 def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
-    """Return rings of waves, ``f = A (1 - cos(2 pi r / wavelength))``, to be added to a body.
+    """Return rings of waves, ``f = A (1 - cos(2 pi r / wavelength))``, for addition to a body.
 
     Parameters
     ----------
@@ -205,12 +205,12 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
     wavelength : float
         [m].
     radius : float
-        How far the body is known [m]: at most 2000 wavelengths.
+        Radius up to which the body is known [m]: at most 2000 wavelengths.
 
     Returns
     -------
     Profile
-        To 1e-14 of its values near the axis, and to the rounding of k r far out.
+        Accurate to 1e-14 of its values near the axis, and to the rounding of k r far out.
 
     Raises
     ------
@@ -230,7 +230,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
         many = (
             f"{radius / wavelength:.4g} waves within {radius:g} m are more than the {MOST_WAVES} of a table"
         )
-        raise InputError(many, "take less of the body, or a longer wavelength")
+        raise InputError(many, "use a smaller radius, or a longer wavelength")
     finite(scalar(amplitude, "amplitude"), "amplitude")
     k = 2 * math.pi / wavelength
     # The transform has an extremum between any two quarters of a wavelength.
@@ -240,7 +240,7 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
         lambda x: ripple_transform(amplitude, k, x),
         float(radius),
         quarters,
-        # The argument of a function of k r is known to its rounding.
+        # The argument k r of the function has a rounding error.
         noise=k * radius * 2.0**-52,
     )
 
@@ -249,9 +249,9 @@ def ripples(amplitude: float, wavelength: float, radius: float) -> Profile:
 def equivalent_roughness(
     hurst: float, *, rms: float, length: float, prefactor: float | None = None
 ) -> Profile:
-    """Return the power law that is pressed in like self-affine roughness on average (thesis, eqs 5.5-5.6).
+    """Return the power law with the mean indentation curve of self-affine roughness (thesis, eqs 5.5-5.6).
 
-    Added to any body of revolution it gives that body's rough contact, as 5.7-5.9 do for the sphere.
+    Added to any body of revolution it gives the rough contact of that body, like eqs 5.7-5.9 for the sphere.
 
     Parameters
     ----------
@@ -290,12 +290,13 @@ def of(height: Callable[[Array], Array], radius: float) -> Profile:
         f(r) [m] of an array of radii [m] (``np.cosh``, not ``math.cosh``). Its value at 0 is subtracted. Kinks are
         found; derivatives are not needed.
     radius : float
-        How far the body is known [m]. A load whose contact comes as far is refused; ``Profile.cut`` makes an edge.
+        Radius up to which the body is known [m]. A load whose contact extends to it is refused; ``Profile.cut`` makes
+        an edge.
 
     Returns
     -------
     Profile
-        Whose transform is within about 1e-13 of its value, and its slope within 1e-11, from 1e-10 of the `radius` on.
+        Its transform is accurate to about 1e-13 of its value, its slope to 1e-11, from 1e-10 of the `radius` on.
 
     Raises
     ------
@@ -319,9 +320,9 @@ def from_transform(transform: Callable[[Array], Array], radius: float) -> Profil
     Parameters
     ----------
     transform : callable
-        g(x) [m] of an array of places [m].
+        g(x) [m] of an array of positions [m].
     radius : float
-        How far the body is known [m].
+        Radius up to which the body is known [m].
 
     Returns
     -------
@@ -356,8 +357,8 @@ def sampled(r: Array, height: Array, *, sharp: bool = False) -> Profile:
     Notes
     -----
     The transform of the spline is exact at its nodes. For samples of a smooth body at steps D the error of the height
-    falls as D^4, that of the transform as D^3.5, that of its slope as D^2.5. A spline rounds kinks: a body with a
-    flat face or a sharp joint is better described by a function (`of`).
+    falls as D^4, that of the transform as D^3.5, that of its slope as D^2.5. A spline rounds kinks: describe a body
+    with a flat face or a sharp joint by a function (`of`).
 
     Examples
     --------
@@ -377,7 +378,7 @@ def sampled_transform(x: Array, transform: Array, *, sharp: bool = False) -> Pro
     Parameters
     ----------
     x : array, shape (n,)
-        Places, increasing from 0 [m]; the body is known up to the last.
+        Positions, increasing from 0 [m]; the body is known up to the last.
     transform : array, shape (n,)
         g(x) [m]. The first is subtracted.
     sharp : bool

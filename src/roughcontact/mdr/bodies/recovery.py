@@ -1,4 +1,4 @@
-r"""From the springs back to the surface: pressure inside and displacement outside a round contact.
+r"""From the springs to the surface: pressure inside and displacement outside a round contact.
 
 The springs carry q(x) = E* (d - g(x)) up to the contact radius a (thesis, appendix A.2, and Popov & Hess, Method of
 Dimensionality Reduction, 2015):
@@ -21,10 +21,10 @@ from roughcontact.validation import Array
 
 __all__ = ["pressure", "spring_energy", "surface_displacement"]
 
-ORIGIN = 2.0**-30  # part of the contact within which the slope of the transform is taken for a power of x
-SHARP = 1e-3  # exponent of that power up to which the tip is sharp and the pressure there infinite
-NODES = 16  # of Gauss on each piece
-HALVINGS = 12  # of the piece that begins at r, towards it: a break may lie just below r
+ORIGIN = 2.0**-30  # part of the contact in which the slope of the transform is treated as a power of x
+SHARP = 1e-3  # largest exponent of that power for which the tip is sharp and its pressure infinite
+NODES = 16  # Gauss nodes on each piece
+HALVINGS = 12  # of the piece that begins at r, towards r: a break may lie just below r
 
 
 def pressure(profile: Profile, modulus: float, radius: float, depth: float, r: Array) -> Array:
@@ -43,7 +43,7 @@ def pressure(profile: Profile, modulus: float, radius: float, depth: float, r: A
 def _stress(profile: Profile, a: float, d: float, r: float) -> float:
     """Return the bracket of p(r)."""
     surplus = d - float(profile.transform(a))
-    # Rounding of a depth that was itself computed from the radius is no edge.
+    # The rounding error of a depth that was computed from the radius is not an edge.
     if abs(surplus) <= 1e-13 * abs(d):
         surplus = 0.0
     if r >= a:
@@ -54,8 +54,9 @@ def _stress(profile: Profile, a: float, d: float, r: float) -> float:
         ends[0] = ORIGIN * ends[1]
         total += _tip(profile, ends[0])
     for left, right in pairwise(ends):
-        # x^2 = left^2 + y^2 lifts the root of the kernel, or that of the slope beside a flat face, and y = s sinh v
-        # the near root of the kernel where the piece begins just above r.
+        # x^2 = left^2 + y^2 removes the root singularity of the kernel, or of the slope beside a flat face, and y = s
+        # sinh v
+        # the near singularity of the kernel if the piece begins just above r.
         scale = np.sqrt((left - r) * (left + r)) if left > r else left
         top = float(np.arcsinh(np.sqrt((right - left) * (right + left)) / scale))
         v, weights = _pieces(top, HALVINGS if left == r else 0)
@@ -115,5 +116,5 @@ def spring_energy(profile: Profile, radius: float, depth: float) -> float:
 
 
 def _angle(x: float, r: Array) -> Array:
-    """Return the t of x = r sin t, precise beside x = r."""
+    """Return t of x = r sin t, accurate also near x = r."""
     return np.asarray(np.arctan2(x, np.sqrt((r - x) * (r + x))))

@@ -1,4 +1,4 @@
-"""Closed forms of heights and their transforms: formulae only, checked by nobody but the tests."""
+"""Closed forms of heights and their transforms: formulae without checks of their arguments."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class PowerTerm:
         return float(kappa(self.exponent)) * self.coefficient
 
     def _outside(self, x: Array) -> Array:
-        """Return 1 - (b/x)^2, 0 on the flat face; without one 1."""
+        """Return 1 - (b/x)^2, 0 on the flat face; 1 without a flat face."""
         if self.flat == 0:
             return np.ones_like(x)
         beyond = np.maximum(x, self.flat)
@@ -106,7 +106,7 @@ class SphereTerm:
     def primitive(self, x: Array) -> Array:
         """Return the integral of g from 0 to x [m^2]."""
         t = x / self.radius
-        # Far from the equator the closed form is a difference of equals.
+        # Far from the equator the closed form is a difference of almost equal numbers.
         series = sum(t ** (2 * k + 3) / ((2 * k + 1) * (2 * k + 3)) for k in range(14))
         inner = np.minimum(t, 1 - 2.0**-53)
         closed = (t - (1 - inner) * (1 + inner) * np.arctanh(inner)) / 2
@@ -126,5 +126,5 @@ class TableTerm:
     rises: bool
 
     def __repr__(self) -> str:
-        """Say how fine the table is."""
+        """Return the number of panels."""
         return f"TableTerm({len(self.transform.coefficients)} panels)"

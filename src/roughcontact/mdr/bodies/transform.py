@@ -2,8 +2,8 @@ r"""The two integrals between a body of revolution f(r) and its one-dimensional 
 
     g(x) = x \int_0^x f'(r) dr / sqrt(x^2 - r^2)          f(r) = (2/pi) \int_0^r g(x) dx / sqrt(r^2 - x^2)
 
-Both are Abel's integral of a function, and on a piecewise polynomial one routine does it to rounding: beside the
-singular end with the substitution r = x sin t, elsewhere with nodes that serve every x.
+Both are Abel's integral of a function. One routine computes it for a piecewise polynomial to rounding accuracy: near
+the singular end by the substitution r = x sin t, elsewhere with nodes that are the same for every x.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from roughcontact.validation import Array
 __all__ = ["abel", "height_of", "transform_of"]
 
 FUNCTION = 1e-14  # tolerance of the fit to a function, relative on each panel
-TRANSFORMED = 1e-13  # of the fit to its transform, which carries the rounding of the integral
-FAR = 12  # Gauss nodes of a panel that lies at least its own length below x: exact to rounding
-NEAR = 24  # of one beside x
+TRANSFORMED = 1e-13  # of the fit to its transform, which has the rounding error of the integral
+FAR = 12  # Gauss nodes of a panel that lies at least its length below x: exact to rounding
+NEAR = 24  # Gauss nodes of a panel closer to x
 CHUNK = 2_000_000  # kernel values held at once
 
 
@@ -35,10 +35,10 @@ def height_of(transform: Panels) -> Panels:
 
 
 def _matched(function: Function, source: Panels) -> Panels:
-    """Return the function as panels of its own; on coarse panels, those of samples, on theirs."""
+    """Return the function on new panels; if the given panels are coarse, as for samples, on the given panels."""
     nodes = source.coefficients.shape[1]
     if nodes < NEAR // 2:
-        # The cubics hold no more than their knots; finer panels would only repeat their jumps.
+        # Cubic splines contain no more information than their knots: finer panels would only resolve their jumps.
         return interpolate(function, source.edges, nodes + 3)
     return fit(function, float(source.edges[-1]), tolerance=TRANSFORMED)
 
@@ -49,9 +49,9 @@ def abel(function: Panels, x: Array) -> Array:
     Parameters
     ----------
     function : Panels
-        Whose first edge is 0.
+        Its first edge is 0.
     x : array, shape (n,)
-        Places in [0, last edge] [m]; at 0 the limit, p(0) pi/2.
+        Positions in [0, last edge] [m]; at 0 the limit, p(0) pi/2.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def _abel(function: Panels, x: Array, nodes: Array, weights: Array) -> Array:
     left, right = function.edges[:-1], function.edges[1:]
     far = x[:, None] - right >= right - left
     near = ~far & (x[:, None] > left)
-    # Kernel of the far panels; those that are not far get no weight, and a place of no harm.
+    # Kernel of the far panels; other panels get weight zero and a harmless position.
     spread = (x[:, None, None] - nodes) * (x[:, None, None] + nodes)
     kernel = np.where(far[..., None], 1 / np.sqrt(np.where(far[..., None], spread, 1.0)), 0.0)
     total = np.einsum("ijk,jk->i", kernel, weights)
@@ -95,5 +95,5 @@ def _abel(function: Panels, x: Array, nodes: Array, weights: Array) -> Array:
 
 
 def _angle(r: Array, x: Array) -> Array:
-    """Return the t of r = x sin t; the arc sine itself loses half of the digits beside r = x."""
+    """Return t of r = x sin t; the arc sine loses half of the digits near r = x."""
     return np.asarray(np.arctan2(r, np.sqrt((x - r) * (x + r))))

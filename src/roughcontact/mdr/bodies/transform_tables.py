@@ -14,8 +14,8 @@ from roughcontact.validation import Array, number, require, scalar, shown
 
 __all__ = ["from_function", "from_samples", "from_two_functions"]
 
-NOISE = 1e-14  # of the largest value: what a fall of the transform must exceed to count
-FALL = 1e-9  # and of the value from which it falls
+NOISE = 1e-14  # of the largest value: a decrease of the transform below this is rounding
+FALL = 1e-9  # likewise, of the value from which it decreases
 
 
 def from_function(function: Function, radius: float, *, transformed: bool) -> Profile:
@@ -23,20 +23,22 @@ def from_function(function: Function, radius: float, *, transformed: bool) -> Pr
     scalar(radius, "radius")
     if not (np.isfinite(radius) and radius > 0):
         raise InputError(
-            f"the body is known to a radius above 0 [m], not {radius}", "say how far", place="radius"
+            f"the radius of the body must be above 0 [m], not {radius}",
+            "give a positive radius",
+            place="radius",
         )
     if not callable(function):
         raise InputError(
-            f"a function of the radius is wanted, not {shown(function)}: sampled takes samples",
+            f"a function of the radius is needed, not {shown(function)}: for samples use sampled",
             place="function",
         )
     try:
-        # Two, since a function of single numbers may take an array of one.
+        # Two radii, because a function of single numbers may accept an array with one.
         start = float(np.asarray(function(np.zeros(2)), dtype=np.float64).ravel()[0])
     except (TypeError, ValueError) as error:
         raise about(
             "the function",
-            f"must take an array of radii, as np.cosh does and math.cosh does not, but: {error}",
+            f"must accept an array of radii, like np.cosh and unlike math.cosh, but: {error}",
         ) from error
     require(
         np.isfinite(start),
@@ -50,9 +52,11 @@ def from_samples(places: Array, values: Array, *, sharp: bool, transformed: bool
     """Return the body whose height, or whose transform, is a cubic spline through samples."""
     x, y = np.asarray(number(places, "places")), np.asarray(number(values, "values"))
     if x.ndim != 1 or x.shape != y.shape or len(x) < 4:
-        raise InputError(f"at least four radii and as many heights are wanted, not {x.shape} and {y.shape}")
+        raise InputError(
+            f"at least four radii and one height for each are needed, not {x.shape} and {y.shape}"
+        )
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
-        raise InputError("the samples of a profile must be finite", "leave out what was not measured")
+        raise InputError("the samples of a profile must be finite", "omit points that were not measured")
     if x[0] != 0 or (np.diff(x) <= 0).any():
         raise InputError(f"the radii must increase strictly from 0 on, not from {x[0]:g}")
     spline = CubicSpline(x, y - y[0], bc_type=("not-a-knot" if sharp else (1, np.zeros(())), "not-a-knot"))
@@ -79,7 +83,7 @@ def _tabled(height: Panels, transform: Panels, flat: float, breaks: tuple[float,
 
 
 def _rises(transform: Panels) -> bool:
-    """Return whether the transform never falls, but for rounding."""
+    """Return whether the transform never decreases, except by rounding."""
     share = np.arange(6) / 6
     x = (transform.edges[:-1, None] + np.diff(transform.edges)[:, None] * share).ravel()
     values = transform(np.append(x, transform.edges[-1]))
@@ -91,14 +95,14 @@ def _flat(given: Panels) -> float:
     """Return the radius up to which the function vanishes."""
     size = np.abs(given.coefficients).sum(axis=1)
     above = np.nonzero(size > NOISE * size.max())[0]
-    require(len(above) > 0, "the profile is flat as far as it is known: flat_punch is such a body")
-    # Panels that shrink towards zero end somewhere, and a power of r is no flat face.
+    require(len(above) > 0, "the profile is flat", "for a flat face use flat_punch")
+    # Panels that shrink towards zero have a smallest one, and a power of r is not a flat face.
     first = float(given.edges[above[0]])
     return first if size[: above[0]].max(initial=0.0) == 0 else 0.0
 
 
 def _kinks(given: Panels) -> tuple[float, ...]:
-    """Return the places, other than zero, to which the panels shrank as far as they may."""
+    """Return the positions, except zero, at which the panels have the smallest size."""
     end, width = given.edges[-1], np.diff(given.edges)
     finest = (width <= 2 * FINEST * end) & (given.edges[:-1] > 4 * FINEST * end)
     first = finest & ~np.append(False, finest[:-1])

@@ -1,4 +1,4 @@
-"""The spectrum of the rough line that stands for a rough surface (thesis, eqs 4.54 and A.73)."""
+"""The spectrum of the rough line that is equivalent to a rough surface (thesis, eqs 4.54 and A.73)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class LineSpectrum:
     Raises
     ------
     ValueError
-        If the factor is not positive, or the spectrum is no function, or that of a line or of profiles.
+        If the factor is not positive, or the spectrum is not a function, or is that of a line or of profiles.
 
     Examples
     --------
@@ -51,13 +51,13 @@ class LineSpectrum:
     def __post_init__(self) -> None:
         if not callable(self.surface):
             raise InputError(
-                "a spectrum C2D(q) is wanted, such as a SelfAffineSpectrum or rc.power_spectrum(surface), not "
+                "a spectrum C2D(q) is needed, such as a SelfAffineSpectrum or rc.power_spectrum(surface), not "
                 f"{shown(self.surface)}",
                 place="surface",
             )
         if getattr(self.surface, "dimension", 2) != 2 or getattr(self.surface, "kind", "C2D") != "C2D":
             raise InputError(
-                "the spectrum C2D of a surface is wanted, not that of a line; one of profiles is converted by "
+                "the spectrum C2D of a surface is needed, not that of a line; convert one of profiles by "
                 "roughcontact.surface_spectrum"
             )
         positive_scalar(self.factor, "factor")
@@ -109,8 +109,8 @@ class TabulatedSpectrum:
     Parameters
     ----------
     spectrum : PowerSpectrum
-        Of kind C2D. The band from its `q_min` to its `q_max` counts; where that goes a little beyond the outermost
-        bins with power, their laws go on.
+        Of kind C2D. The band from its `q_min` to its `q_max` is used; if it extends slightly beyond the outermost bins
+        with power, their laws are continued.
 
     Raises
     ------
@@ -166,16 +166,16 @@ class TabulatedSpectrum:
 def line_spectrum(
     spectrum: PowerSpectrum | Callable[[Array], Array], factor: float = math.pi
 ) -> LineSpectrum:
-    """Return the spectrum of the line that stands for an isotropic surface, ``C1D = factor q C2D``.
+    """Return the spectrum of the line that is equivalent to an isotropic surface, ``C1D = factor q C2D``.
 
     Parameters
     ----------
     spectrum : callable or PowerSpectrum
         C2D(q) [m^4], or a measured C2D.
     factor : float
-        pi: line and surface have one rms height as integrals over all waves (eqs 4.54, A.73).
-        `lambda_rms`: they have it as sums over the waves of a grid (A.76 as corrected).
-        Of eq. 4.75: their stiffness is the same at low loads, and their rms heights are not.
+        pi: line and surface have the same rms height as integrals over all waves (eqs 4.54, A.73). `lambda_rms`: they
+        have the same rms height as sums over the waves of a grid (A.76 as corrected). The factor of eq. 4.75: they
+        have the same stiffness at low loads, but different rms heights.
 
     Returns
     -------

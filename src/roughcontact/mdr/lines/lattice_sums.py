@@ -1,4 +1,4 @@
-"""Sums over the waves of a square and of a line: what makes both equally rough on a grid."""
+"""Sums over the waves of a square and of a line, for equal roughness of both on a grid."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _DIRECT = 32
 
 
 def lambda_rms(hurst: float, modes: int | None = None) -> float:
-    """Return lambda of C1D = lambda q C2D for which line and surface have one rms height (thesis, A.76 corrected).
+    """Return lambda of C1D = lambda q C2D for equal rms heights of line and surface (thesis, A.76 corrected).
 
     Parameters
     ----------
     hurst : float
         Hurst exponent H, at least -1.
     modes : int, optional
-        Largest number N of waves to a side: ``(n - 1)//2`` on a grid of n cells, since waves at the Nyquist
-        wavenumber are left out. Without it the limit of many waves.
+        Largest number N of waves to a side: ``(n - 1)//2`` on a grid of n cells, because waves at the Nyquist
+        wavenumber are left out. By default the limit of many waves.
 
     Returns
     -------
@@ -40,7 +40,7 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     Raises
     ------
     ValueError
-        If H is below -1 or not finite, or `modes` is no whole number from 1 up.
+        If H is below -1 or not finite, or `modes` is not a whole number >= 1.
 
     Notes
     -----
@@ -58,8 +58,8 @@ def lambda_rms(hurst: float, modes: int | None = None) -> float:
     if modes is not None:
         return square_sum(hurst + 1, modes) / line_sum(2 * hurst + 1, modes)
     exponent = hurst + 1
-    above = exponent - 1  # H as the exponent holds it: both poles of zeta are to see the same H
-    if above <= 0:  # both sums grow without limit, in the ratio of their integrals
+    above = exponent - 1  # H as rounded in the exponent: both poles of zeta need the same H
+    if above <= 0:  # both sums diverge, in the ratio of their integrals
         return 4 * _side_integral(exponent)
     return 2 * float(zeta(1 + above) / zeta(1 + 2 * above)) * _dirichlet_beta(exponent)
 
@@ -93,7 +93,7 @@ def line_sum(exponent: float, modes: int) -> float:
 def square_sum(exponent: float, modes: int) -> float:
     """Return the sum of ``(n^2 + m^2)^-exponent`` over n and m from -`modes` to `modes` without the origin.
 
-    Square ring by square ring, so that the cost grows with `modes` and not with its square. The ring of half
+    Computed by square rings: the cost grows with `modes` and not with its square. The ring of half
     side k is eight times the trapezoidal rule for ``(k^2 + m^2)^-exponent`` over m from 0 to k: summed directly
     in the middle, from its integral and Euler and Maclaurin's correction at the corner further out.
 
@@ -152,7 +152,7 @@ def _side_integral(exponent: float) -> float:
 def _taylor_at_corner(exponent: float, count: int) -> list[float]:
     """Return the Taylor coefficients of ``(1 + x^2)^-exponent`` about x = 1.
 
-    From ``(2 + 2t + t^2) g' = -2 exponent (1 + t) g``, t = x - 1.
+    From ``(2 + 2t + t^2) g' = -2 exponent (1 + t) g`` with t = x - 1.
     """
     before, here = 0.0, 2.0**-exponent
     coefficients = [here]

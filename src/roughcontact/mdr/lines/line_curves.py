@@ -1,4 +1,4 @@
-"""Loading curves of many rough lines: a value with its means, its scatter and its power law."""
+"""Loading curves of many rough lines, with means, scatter and power law."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class LineCurves:
     springs : int array, shape (lines, loads)
         Number of springs that carry load.
     elastic_energy : array, shape (lines, loads)
-        Energy in the springs [J]; NaN if it was not asked for.
+        Energy in the springs [J]; NaN if it was not requested.
     rms : array, shape (lines,)
         Root mean square height of each line [m].
     modulus : float
@@ -103,7 +103,7 @@ class LineCurves:
                 getattr(other, name) == getattr(first, name) for name in ("modulus", "spacing", "points")
             )
             if not (same and np.array_equal(getattr(other, common), getattr(first, common))):
-                raise InputError("curves are joined that have the same loads, modulus, spacing and points")
+                raise InputError("joined curves must have the same loads, modulus, spacing and points")
         found = "depth" if common == "force" else "force"
         names = (found, "springs", "elastic_energy", "rms")
         joined: dict[str, Any] = {name: np.concatenate([getattr(b, name) for b in batches]) for name in names}
@@ -142,17 +142,17 @@ class LineCurves:
 
     @property
     def scatter(self) -> Array:
-        """Standard deviation of the stiffness over its mean (thesis, fig. 18), shape (loads,); of one line NaN."""
+        """Standard deviation of the stiffness over its mean (thesis, fig. 18), shape (loads,); NaN for one line."""
         if len(self) < 2:
             return np.full(self.springs.shape[1], np.nan)
         mean = self.springs.mean(axis=0)
-        # Without contact, at depth 0, nothing scatters.
+        # Without contact, at depth 0, all values are zero.
         return np.asarray(self.springs.std(axis=0, ddof=1) / np.where(mean > 0, mean, 1.0))
 
     def mean_stiffness(self, mean: Mean = "arithmetic") -> Array:
         """Return the mean over all lines of the stiffness at each load [N/m], shape (loads,).
 
-        The geometric mean is what averages of ln k over ln F give: lower by about half the variance of ln k, 4 %
+        The geometric mean belongs to averages of ln k over ln F: it is lower by about half the variance of ln k, 4 %
         at a scatter of 30 %.
 
         Parameters
@@ -198,8 +198,8 @@ class LineCurves:
         mean : {"arithmetic", "geometric"}
             Which mean over the lines.
         window : tuple of float, optional
-            Lowest and highest force [N]. Without: the resolved points up to a dimensionless force of 0.07. A law
-            that is not quite a power law has another exponent in another window.
+            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07. A curve
+            that is not exactly a power law has another exponent in another window.
 
         Returns
         -------
@@ -212,7 +212,7 @@ class LineCurves:
         """
         if self.force.ndim != 1:
             raise InputError(
-                "lines are averaged at equal forces", "compute the curves with forces=, not depths="
+                "lines can only be averaged at equal forces", "compute the curves with forces=, not depths="
             )
         if window is None:
             inside = self.resolved(mean) & (self.dimensionless_force <= FORCE_LIMIT * (1 + ROUNDING))
@@ -223,7 +223,7 @@ class LineCurves:
         if inside.sum() < 3:
             raise InputError(
                 f"a power law needs at least 3 forces in its window, not {int(inside.sum())}",
-                f"more forces, up to "
+                f"give more forces, up to "
                 f"{FORCE_LIMIT * self.force_scale:.3g} N, or lines of more than {self.points} points",
             )
         return fit_ensemble(
@@ -234,7 +234,7 @@ class LineCurves:
         )
 
     def __repr__(self) -> str:
-        """Say what the curves span, not their numbers."""
+        """Return the range of the curves, not their numbers."""
         force = f"force {self.force.min():.4g} to {self.force.max():.4g} N"
         return (
             f"LineCurves({len(self)} lines of {self.points} points, {self.springs.shape[1]} loads, {force})"

@@ -1,4 +1,4 @@
-"""From a line scan alone to the stiffness of the surface it was taken from."""
+"""From only a line scan to the stiffness of its surface."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ def scan_spectrum(
     q_max: float | None = None,
     per_decade: float = 10,
 ) -> LineSpectrum:
-    """Return the spectrum of the line that stands for the surface of a line scan.
+    """Return the spectrum of the line that is equivalent to the surface of a line scan.
 
-    The scan's C1D is that of a straight cut; inverted it is the surface's C2D, and ``factor q C2D`` the line's.
-    The scan itself, pressed into springs, would be something else: its spectrum is that of the line times
+    C1D of the scan is that of a straight cut. Its inversion gives C2D of the surface, and ``factor q C2D`` is the
+    spectrum of the line. Do not press the scan into springs: its spectrum is that of the line times
     ``cut_factor(H)/factor``.
 
     Parameters
@@ -47,14 +47,14 @@ def scan_spectrum(
     factor : float
         lambda, see `line_spectrum`.
     method : {"law", "abel"}
-        How the cut is inverted, see `roughcontact.surface_spectrum`.
+        Method of the inversion, see `roughcontact.surface_spectrum`.
     hurst : float, optional
         Hurst exponent of the law, see `roughcontact.surface_spectrum`; by default that of the scan.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `roughcontact.power_spectrum`.
     q_min, q_max : float, optional
-        The band that counts [rad/m]. By default every wave of the scan: those of the scan's length too, whose powers
-        are little known, but which make most of the height of a rough line.
+        The band to use [rad/m]. By default every wave of the scan, including those of the length of the scan, whose
+        powers are uncertain, but which cause most of the height of a rough line.
     per_decade : float
         Bins to a factor of ten in wavenumber. The power of each wave of a single scan has a standard error of 100 %.
 
@@ -65,13 +65,13 @@ def scan_spectrum(
     Raises
     ------
     ValueError
-        If the scan has two axes or points are missing, or what `roughcontact.surface_spectrum` refuses.
+        If the scan has two axes or points are missing, or if `roughcontact.surface_spectrum` raises it.
 
     Notes
     -----
-    Assumed is that the surface is isotropic and statistically the same everywhere, so that one scan speaks for all
-    directions and places; that its phases are random, so that the spectrum describes it; and that the instrument
-    follows the surface up to `q_max`.
+    The surface is assumed to be isotropic and statistically homogeneous, because one scan represents all directions
+    and places. Its phases are assumed to be random, because only the spectrum is used. The instrument must follow the
+    surface up to `q_max`.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def scan_spectrum(
     """
     if scan.grid.ndim != 1:
         raise InputError(
-            "a line scan has one axis; a map has a spectrum C2D of its own: line_spectrum(power_spectrum(surface))"
+            "a line scan has one axis; for a map use its spectrum C2D: line_spectrum(power_spectrum(surface))"
         )
     profile = power_spectrum(scan, "x", window=window, per_decade=per_decade)
     low = 2 * math.pi / scan.grid.lengths[0] if q_min is None else q_min
@@ -104,7 +104,7 @@ def scan_curves(
     count: int = 100,
     spectrum: LineSpectrum | None = None,
 ) -> LineCurves:
-    """Return loading curves of random lines that stand for a square surface as wide as a line scan is long.
+    """Return loading curves of random lines that are equivalent to a square surface with the length of a line scan.
 
     Parameters
     ----------
@@ -117,9 +117,9 @@ def scan_curves(
     forces : array, shape (loads,)
         Strictly increasing normal forces on the whole square [N].
     count : int
-        Number of lines: their scatter is that of patches of the scan's length, not the error of its spectrum.
+        Number of lines: their scatter is that of patches of the length of the scan, not the error of its spectrum.
     spectrum : LineSpectrum, optional
-        By default `scan_spectrum` of the scan, with what it assumes.
+        By default `scan_spectrum` of the scan, with its assumptions.
 
     Returns
     -------
@@ -128,7 +128,7 @@ def scan_curves(
     Raises
     ------
     ValueError
-        As `scan_spectrum` and `loading_curves` do.
+        As for `scan_spectrum` and `loading_curves`.
 
     Examples
     --------

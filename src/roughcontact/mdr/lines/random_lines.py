@@ -1,4 +1,4 @@
-"""Random rough lines in numbers: the waves of many lines in one transform."""
+"""Many random rough lines: their waves in one transform."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["line_heights", "random_waves", "rough_lines"]
 
 Waves = npt.NDArray[np.complex128]
 
-# Heights of a batch: 8 MB, enough that NumPy asks for large pages.
+# Heights of a batch: 8 MB, enough for NumPy to request large pages.
 BATCH = 2**20
 
 
@@ -81,7 +81,7 @@ def rough_lines(
     [1e-06, 1e-06, 1e-06]
     """
     whole(count, "count, the number of lines,")
-    generator = as_generator(rng)  # once: batches are drawn when they are asked for
+    generator = as_generator(rng)  # once: batches are drawn on demand
     require_amplitudes(amplitudes)
     amplitude = _amplitude(grid, spectrum, rms, rms_band)
     rows = max(1, BATCH // grid.size)
@@ -102,8 +102,8 @@ def random_waves(
     """Return the waves of `count` lines with unit spectrum, shape (count, n//2 + 1).
 
     Their modulus is one ("exact": only the phases are random) or one in the mean square ("gaussian").
-    Kept, they give `line_heights` of many spectra that differ in nothing else. Those of a line of fewer points are the
-    first columns.
+    Pass them to `line_heights` with several spectra to compare lines with the same phases. The waves of a line of
+    fewer points are the first columns.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def random_waves(
     count : int
         Number of lines.
     amplitudes : {"exact", "gaussian"}
-        "exact": only the phases are random; "gaussian": moduli of the waves, too.
+        "exact": only the phases are random; "gaussian": also the moduli of the waves.
 
     Returns
     -------
@@ -146,7 +146,7 @@ def line_heights(
 ) -> Array:
     """Return the heights [m] of lines with a `spectrum` from their unit `waves`, a line a row.
 
-    See `rough_lines`; with `rms` [m] the spectrum is a shape only.
+    See `rough_lines`; with `rms` [m] only the shape of the spectrum matters.
 
     Parameters
     ----------
@@ -157,7 +157,8 @@ def line_heights(
     waves : complex array, shape (lines, n//2 + 1)
         Unit waves, from `random_waves`.
     rms : float, optional
-        Root mean square height of each line [m]: the spectrum is then a shape only. By default that of the spectrum.
+        Root mean square height of each line [m]: then only the shape of the spectrum matters. By default that of the
+        spectrum.
     rms_band : tuple of float, optional
         Wavelengths [m] of the waves whose rms height is `rms`, see `roughcontact.self_affine`. By default all.
 
@@ -195,7 +196,7 @@ def _amplitude(
         positive_scalar(rms, "rms")
     if not callable(spectrum):
         raise InputError(
-            f"a spectrum C1D(q) is wanted, such as line_spectrum returns, not {shown(spectrum)}",
+            f"a spectrum C1D(q) is needed, for example from line_spectrum, not {shown(spectrum)}",
             place="spectrum",
         )
     return wave_amplitudes(spectrum, grid.shape, grid.spacing, rms=rms, rms_band=rms_band)

@@ -1,4 +1,4 @@
-"""Rough lines on independent springs: whole loading curves of many lines at once, exactly."""
+"""Rough lines on independent springs: exact loading curves of many lines at once."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["checked_lines", "loading_curves"]
 
 Counts = npt.NDArray[np.int32]
 
-# Heights that are worked on in one go: few enough to stay in a core's cache with all that comes of them.
+# Heights per block: few enough to stay in the cache of a core with all temporary arrays.
 BLOCK = 2**15
 
 
@@ -42,7 +42,7 @@ def loading_curves(
     modulus : float, Solid, Material, str, or a pair of bodies
         Reduced modulus E* [Pa]; a spring has the stiffness ``E* spacing``.
     forces, depths : array, shape (loads,), optional
-        Exactly one, the same for every line: strictly increasing forces [N], or depths below first touch [m].
+        Give exactly one, the same for every line: strictly increasing forces [N], or depths below first touch [m].
     energy : bool
         Whether to compute the elastic energy, which takes a fifth of the time.
 
@@ -53,14 +53,14 @@ def loading_curves(
     Raises
     ------
     ValueError
-        If heights are missing or infinite, or the input makes no sense otherwise.
+        If heights are missing or infinite, or the input is otherwise invalid.
 
     Notes
     -----
-    Springs are independent of each other, so that each line is sorted once. With heights ``h_1 >= h_2 >= ...`` spring
+    Springs are independent, so each line is sorted once. With heights ``h_1 >= h_2 >= ...`` spring
     j + 1 is touched at the depth ``D_j = h_1 - h_(j+1)``, where the force is ``Phi_j = E* spacing sum_(i<=j) i
-    (h_i - h_(i+1))``; between two such points the curve is straight. Every sum is one of positive terms: nothing
-    cancels, and forces stay in order where heights are equal. A spring counts as in contact if it carries load.
+    (h_i - h_(i+1))``; between two such points the curve is straight. Every sum has positive terms: there is no
+    cancellation, and forces stay in order if heights are equal. A spring counts as in contact if it carries load.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def loading_curves(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Scratch:
-    """Room for the work on one block after the other: fresh memory would cost more than the work itself."""
+    """Buffers for one block after the other: new memory would cost more than the computation."""
 
     loads: Array  # forces over the stiffness of a spring, or depths
     falling: Array  # the same in reverse
@@ -134,18 +134,18 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
     (ranked, gap, force, depth, work), (below, rise), last = scratch.first(len(heights))
     np.negative(heights, out=ranked)
     ranked.sort(axis=1)
-    np.subtract(ranked[:, 1:], ranked[:, :-1], out=gap[:, 1:])  # the first one stays 0
+    np.subtract(ranked[:, 1:], ranked[:, :-1], out=gap[:, 1:])  # the first element stays 0
     np.multiply(gap, np.arange(gap.shape[1]), out=work)
     np.cumsum(work, axis=1, out=force)  # Phi_j
     np.subtract(ranked, ranked[:, :1], out=depth)  # D_j
 
-    # Each search goes on below the one before it: with falling loads that is the shorter part of a line.
+    # Each search continues below the previous one: with falling loads that is the shorter part of a line.
     for row, ordered in enumerate(force if scratch.by_force else depth):
         springs[row, ::-1] = ordered.searchsorted(scratch.falling)
     np.subtract(springs, 1, out=last)
     np.maximum(last, 0, out=last)
     last += gap.shape[1] * np.arange(len(heights))[:, None]
-    # Of take with out= the mode "raise" would make a copy; all places are inside.
+    # With out=, the mode "raise" of take would make a copy; all indices are valid.
     force.take(last, out=below, mode="clip")
     depth.take(last, out=rise, mode="clip")
     if scratch.by_force:
@@ -160,7 +160,8 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
         found += below
         below += found
     if energy is not None:
-        # Twice what it was when the last spring was touched, and twice the mean force since then times the way.
+        # Twice the energy at the touch of the last spring, plus twice the mean force since then times the
+        # displacement.
         np.add(force[:, 1:], force[:, :-1], out=ranked[:, 1:])
         ranked *= gap
         np.cumsum(ranked, axis=1, out=work)
@@ -172,12 +173,12 @@ def _solve(heights: Array, scratch: _Scratch, springs: Counts, found: Array, ene
 
 
 def checked_lines(heights: Array) -> Array:
-    """Return heights as rows of lines, or refuse what is not heights.
+    """Return heights as rows of lines, or refuse anything else.
 
     Parameters
     ----------
     heights : array, shape (points,) or (lines, points)
-        One line, or a row a line [m].
+        One line, or one row per line [m].
 
     Returns
     -------
@@ -198,11 +199,11 @@ def checked_lines(heights: Array) -> Array:
         )
     lines = np.atleast_2d(number(heights, "heights"))
     if lines.ndim != 2 or lines.size == 0:
-        raise about("heights", f"must be one line or a row a line, not of shape {np.shape(heights)}")
+        raise about("heights", f"must be one line or one row per line, not of shape {np.shape(heights)}")
     if not np.isfinite(lines).all():
         raise InputError(
             f"{int((~np.isfinite(lines)).sum())} heights are missing or infinite",
-            "springs are independent, so leave out the points of a line that have no height",
+            "springs are independent, so omit the points of a line that have no height",
         )
     return lines
 

@@ -1,8 +1,9 @@
-"""Any history of normal and tangential load, on springs that slip one by one.
+"""Histories of normal and tangential load, on springs that slip independently.
 
-Each spring of the foundation holds until its tangential force is mu times its normal one, and slips then (Popov & Hess,
-Method of Dimensionality Reduction, 2015, chapter 5). Under a constant normal force that is what the theory of Cattaneo
-and Mindlin predicts for every history; under a changing one it follows the increments of Mindlin & Deresiewicz (1953).
+Each spring of the foundation sticks until its tangential force is mu times its normal force, and then slips (Popov &
+Hess, Method of Dimensionality Reduction, 2015, chapter 5). Under a constant normal force this agrees with the theory
+of Cattaneo and Mindlin for every history; under a changing one it follows the increments of Mindlin & Deresiewicz
+(1953).
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ def slip_history(
     displacement: History | None = None,
     springs: int = 2000,
 ) -> SlipHistory:
-    """Lead a body through a history of normal and tangential loads.
+    """Move a body through a history of normal and tangential loads.
 
     Parameters
     ----------
@@ -84,10 +85,10 @@ def slip_history(
     friction : float
         Coefficient of friction.
     normal_force, depth : float or array, shape (n,), optional
-        Exactly one: normal force [N] or depth [m]; one number stays. The body is first pressed to the first of them,
-        without tangential force.
+        Give exactly one: normal force [N] or depth [m]; a single number is constant. The body is first pressed to the
+        first value, without tangential force.
     force, displacement : float or array, shape (n,), optional
-        Exactly one: tangential force [N] or displacement [m], from the first press at 0 on.
+        Give exactly one: tangential force [N] or displacement [m], starting at 0 after the first pressing.
     springs : int
         Number of springs from the axis to the largest contact radius. The errors fall as its square.
 
@@ -98,7 +99,7 @@ def slip_history(
     Raises
     ------
     ValueError
-        If the histories do not fit, or a force is more than friction can hold.
+        If the histories do not fit together, or a force is more than friction can hold.
 
     Notes
     -----
@@ -121,7 +122,7 @@ def slip_history(
     width = float(curve.contact_radius.max()) / springs
     places: Array = width * (np.arange(springs, dtype=np.float64) + 0.5)
     g = profile.transform(places)
-    # The sum of the springs is the force that friction answers to; it is within 1/springs^2 of the force.
+    # Friction depends on the sum of the springs, which is within 1/springs^2 of the force.
     capacity = [2 * mu * E * width * float(np.maximum(d - g, 0).sum()) for d in depths.tolist()]
     tau, place, lost = np.zeros(springs), 0.0, 0.0
     before = E * (depths[0] - g)
@@ -131,9 +132,7 @@ def slip_history(
         goal = load
         if tangential == "force":
             if abs(load) > most * (1 + 1e-9):
-                raise InputError(
-                    f"friction holds at most {most:g} N, and {load:g} N makes the body slide away"
-                )
+                raise InputError(f"friction holds at most {most:g} N: under {load:g} N the body slides away")
             goal = _displacement(tau, before, now, load, G=G, mu=mu, start=place, width=width)
         tau, loss = _step(tau, before, now, G * (goal - place), mu)
         lost += 2 * width * float(loss.sum()) / G
@@ -156,7 +155,7 @@ def _histories(
         or not all(one.size for one in pair)
     ):
         raise InputError(
-            f"histories are numbers, or lists of one length, not of shapes {pair[0].shape} and {pair[1].shape}"
+            f"histories must be numbers, or lists of one length, not of shapes {pair[0].shape} and {pair[1].shape}"
         )
     loads = np.array(np.broadcast_arrays(*pair))
     if not np.isfinite(loads).all():
@@ -165,19 +164,19 @@ def _histories(
 
 
 def _step(tau: Array, before: Array, now: Array, pull: float, mu: float) -> tuple[Array, Array]:
-    """Return the tangential forces of the springs after a step, and what they lose by slip (times G*).
+    """Return the tangential forces of the springs after a step, and the energy lost by slip (times G*).
 
     Parameters
     ----------
     tau : array, shape (n,)
         Tangential forces before, per length.
     before, now : array, shape (n,)
-        Normal forces per length at both ends of the step, negative where a spring is off.
+        Normal forces per length at both ends of the step, negative where a spring is not in contact.
     pull : float
         G* times the increment of the displacement.
     """
     change = now - before
-    # The part of the step in which a spring is on: from its touch, or up to its release.
+    # The part of the step in which a spring is in contact: from its touch, or up to its release.
     part = np.ones_like(now)
     crossing = (before < 0) != (now < 0)
     on = np.maximum(before, now)
@@ -188,7 +187,7 @@ def _step(tau: Array, before: Array, now: Array, pull: float, mu: float) -> tupl
     trial = tau + drive
     after = np.clip(trial, -end, end)
     slip = np.abs(trial - after)
-    # Forces and limits are straight lines in the step: slip begins where they meet, and goes on to the end.
+    # Forces and limits are linear in the step: slip begins where they meet, and continues to the end.
     approach = drive * np.sign(trial) - (end - start)
     room = start - tau * np.sign(trial)
     met = np.clip(np.divide(room, approach, out=np.zeros_like(room), where=approach > 0), 0, 1)

@@ -1,9 +1,9 @@
 """Partial slip of a pressed body under a tangential force that grows from zero.
 
 The rule of Ciavarella (1998) and Jaeger (1998): the traction is the coefficient of friction times the difference of the
-pressures at the normal forces F and F - Q/mu, and what sticks is the contact at the latter. For the paraboloid that is
-the theory of Cattaneo (1938) and Mindlin (1949). Springs that hold until their tangential force is mu times the normal
-one give the same (`slip_history`).
+pressures at the normal forces F and F - Q/mu, and the sticking region is the contact at the latter. For the paraboloid
+this is the theory of Cattaneo (1938) and Mindlin (1949). Springs that stick until their tangential force is mu times
+the normal force give the same result (`slip_history`).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class PartialSlip:
     indentation : Indentation
         The contact under the normal force.
     sticking : Indentation
-        The contact at the force F - Q/mu: its disc is what sticks.
+        The contact at the force F - Q/mu: its disc is the sticking region.
     shear_modulus : float
         Reduced shear modulus G* [Pa]: 2 G* a is the tangential stiffness of a disc that sticks (thesis, eq. 4.5).
     friction : float
@@ -57,12 +57,12 @@ class PartialSlip:
 
     @property
     def displacement(self) -> float:
-        """Tangential displacement of the bodies [m]; where all slips, the least that it may be (thesis, eq. 7.6)."""
+        """Tangential displacement of the bodies [m]; its least value if the whole contact slips (thesis, eq. 7.6)."""
         return self._scale * (self.indentation.depth - self.sticking.depth)
 
     @property
     def stick_radius(self) -> float:
-        """Radius of the disc that sticks [m]; 0 where all slips."""
+        """Radius of the disc that sticks [m]; 0 if the whole contact slips."""
         return self.sticking.contact_radius if self.sticking.force > 0 else 0.0
 
     @property
@@ -102,7 +102,7 @@ class PartialSlip:
         return self.friction * self.indentation.modulus / self.shear_modulus
 
     def __repr__(self) -> str:
-        """Say what sticks."""
+        """Return force, displacement and stick radius."""
         return (
             f"PartialSlip(tangential force {self.force:.4g} N, displacement {self.displacement:.4g} m, "
             f"stick radius {self.stick_radius:.4g} of {self.indentation.contact_radius:.4g} m)"
@@ -128,7 +128,7 @@ def partial_slip(
     friction : float
         Coefficient of friction.
     force, displacement : float, optional
-        Exactly one: tangential force [N], at most mu times the normal one, or displacement of the bodies [m].
+        Give exactly one: tangential force [N], at most mu times the normal force, or displacement of the bodies [m].
 
     Returns
     -------
@@ -137,11 +137,11 @@ def partial_slip(
     Raises
     ------
     ValueError
-        If the input makes no sense, or the force is more than friction can hold.
+        If the input is invalid, or the force is more than friction can hold.
 
     Notes
     -----
-    Exact where all slip has the direction of the force, for nu = 0. Otherwise the small slip across it is left out, and
+    Exact if all slip has the direction of the force, for nu = 0. Otherwise the small slip across it is neglected, and
     so is the coupling of normal and tangential displacements (Johnson, Contact Mechanics, 1985, section 7.2).
 
     Examples
@@ -154,7 +154,7 @@ def partial_slip(
     """
     if not isinstance(indentation, Indentation):
         raise InputError(
-            f"a pressed body is wanted, such as indent(profile, modulus, force=F), not {shown(indentation)}",
+            f"a pressed body is needed, such as indent(profile, modulus, force=F), not {shown(indentation)}",
             place="indentation",
         )
     for name, value in (("shear_modulus", shear_modulus), ("friction", friction)):
@@ -170,7 +170,7 @@ def partial_slip(
         rest = indentation.force - force / friction
         if rest < -1e-12 * indentation.force:
             raise InputError(
-                f"friction holds at most {friction * indentation.force:g} N, and {force:g} N makes the body slide away"
+                f"friction holds at most {friction * indentation.force:g} N, and under {force:g} N the body slides away"
             )
         sticking = indent(profile, modulus, force=max(rest, 0.0))
     else:

@@ -1,11 +1,11 @@
-r"""From an elastic loading curve to a viscous or viscoelastic one, while the contact grows (thesis, chapter 4).
+r"""From an elastic loading curve to a viscous or viscoelastic one, for a growing contact (thesis, chapter 4).
 
 If F = E* Phi(d) is the elastic law of any frictionless contact - a rough surface's as well as a sphere's - then
 (Lee & Radok, J. Appl. Mech. 27, 438 (1960); Radok, Quart. Appl. Math. 15, 198 (1957))
 
     F(t) = \int_0^t E(t - s) dPhi(d(s))          Phi(d(t)) = \int_0^t J(t - s) dF(s)
 
-as long as no point leaves the contact, and the contact at every time is the elastic one at the same depth.
+as long as no point leaves the contact; the contact at any time is the elastic one at the same depth.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from roughcontact.validation import Array, exactly_one, number, require, shown
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
-ROUNDING = 1e-12  # of the largest value: what a fall must exceed to count
+ROUNDING = 1e-12  # of the largest value: a decrease below this is rounding
 
 
 class ElasticCurve(Protocol):
-    """What the transfer asks of a curve: `Curve` and `IndentationCurve` have it.
+    """The attributes of a curve that the transfer needs: `Curve` and `IndentationCurve` have them.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Transfer:
     force, depth, contact_area : array, shape (n,)
         [N], [m], [m^2].
     elastic_force : array, shape (n,)
-        Force of the elastic contact of the same depth [N]: where to look up everything else on the curve.
+        Force of the elastic contact at the same depth [N]: use it to look up other quantities on the curve.
 
     Examples
     --------
@@ -108,21 +108,21 @@ def transfer(
     material : Viscoelastic
         Made by `standard_solid`, `maxwell`, `kelvin_voigt`, `viscous` or `prony`.
     times : array, shape (n,)
-        Not decreasing [s]; a time that stands twice is a jump. Before the first there is no load.
+        Not decreasing [s]; a repeated time is a jump. There is no load before the first time.
     forces, depths : float or array, shape (n,), optional
-        Exactly one: force [N], straight lines in between, or depth [m]. One number is a sudden load that stays.
+        Give exactly one: force [N], linear between the times, or depth [m]. One number is a sudden constant load.
 
     Returns
     -------
     Transfer
-        Under given forces exact up to the interpolation on the curve, monotone cubic in the logarithms. Under given
-        depths Phi is taken for straight between the times: the error falls as the square of the step.
+        Under given forces it is exact up to the interpolation on the curve, monotone cubic in the logarithms. Under
+        given depths Phi is linear between the times: the error falls as the square of the step.
 
     Raises
     ------
     ValueError
         If an argument is of the wrong kind, the contact shrinks at some time, a load leaves the curve, or a depth
-        jumps into a dashpot.
+        jumps although there is a dashpot.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def transfer(
         name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)
     ]:
         raise InputError(
-            "an elastic loading curve is wanted, such as rc.loading_curve and indentation_curve return, not "
+            "an elastic loading curve is needed, for example from rc.loading_curve or indentation_curve, not "
             f"{shown(curve)} without {', '.join(missing)}",
             place="curve",
         )
@@ -164,7 +164,7 @@ def transfer(
 
 
 def _creeping(material: Viscoelastic, t: Array, force: Array) -> Array:
-    """Return the convolution of the creep function with a force that is straight between the times [m^2]."""
+    """Return the convolution of the creep function with a force that is linear between the times [m^2]."""
     creep = material.creep()
     thetas, compliances = np.array(creep.times), np.array(creep.compliances)
     phi = np.empty_like(t)
@@ -175,7 +175,7 @@ def _creeping(material: Viscoelastic, t: Array, force: Array) -> Array:
         if h > 0:
             flowed += creep.fluidity * h * (load + F) / 2
             part = -np.expm1(-h / thetas)
-            # theta e' + e = J F(t) with F straight over the step
+            # theta e' + e = J F(t) with F linear over the step
             retarded += (compliances * load - retarded) * part + compliances * (F - load) * (
                 1 - part * thetas / h
             )
@@ -185,7 +185,7 @@ def _creeping(material: Viscoelastic, t: Array, force: Array) -> Array:
 
 
 def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
-    """Return the convolution of the relaxation function with a Phi that is straight between the times [N]."""
+    """Return the convolution of the relaxation function with Phi, linear between the times [N]."""
     taus, moduli = np.array(material.times), np.array(material.moduli)
     force = material.equilibrium * phi
     elements = np.zeros(len(taus))
@@ -203,8 +203,10 @@ def _resisting(material: Viscoelastic, t: Array, phi: Array) -> Array:
         force[index] += elements.sum()
     if material.dashpot:
         if len(t) < 3 or (np.diff(t) == 0).any():
-            raise InputError("a dashpot's force under a given depth wants at least three different times")
-        # Phi grows; a parabola through the first three points may fall at the first all the same.
+            raise InputError(
+                "the force of a dashpot under a given depth needs at least three different times"
+            )
+        # Phi grows, but a parabola through the first three points may decrease at the first.
         force += material.dashpot * np.maximum(np.gradient(phi, t, edge_order=2), 0.0)
     return force
 
@@ -214,12 +216,12 @@ def _growing(t: Array, value: Array, what: str) -> None:
     if len(fall := np.nonzero(np.diff(value) < -ROUNDING * value.max())[0]):
         raise InputError(
             f"the {what} falls from t = {t[fall[0]]:g} s on: the transfer holds only while no point leaves the contact "
-            "(Lee & Radok); for a body of revolution depth_history and force_history go on"
+            "(Lee & Radok); for a body of revolution use depth_history or force_history"
         )
 
 
 def _points(curve: ElasticCurve) -> Array:
-    """Return force, depth and contact area of the points of a curve at which all are positive, one a row."""
+    """Return force, depth and contact area in rows, at the points of a curve where all are positive."""
     rows = np.array([curve.force, curve.depth, curve.contact_area])
     rows = rows[:, (rows > 0).all(axis=0)]
     if rows.shape[1] < 2 or (np.diff(rows[:2], axis=1) <= 0).any():
@@ -228,7 +230,7 @@ def _points(curve: ElasticCurve) -> Array:
 
 
 def _look_up(at: Array, of: Array, value: Array, what: str) -> Array:
-    """Return one column of a curve where another has the value; 0 at 0."""
+    """Return one column of a curve at a value of another; 0 at 0."""
     found = np.where(value > 0, LogCubic.of(at, of)(value), 0.0)
     if len(outside := value[np.isnan(found)]):
         raise InputError(

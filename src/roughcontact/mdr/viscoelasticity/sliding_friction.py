@@ -1,4 +1,4 @@
-"""Friction of a rough line that slides over viscoelastic springs, in its exact steady state."""
+"""Friction of a rough line that slides over viscoelastic springs, in the exact steady state."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from roughcontact.validation import Array, number, numeric, positive_scalar, req
 
 __all__ = ["SlidingCurves", "sliding_friction"]
 
-STEPS = 100  # of Newton's method; it needs about ten
+STEPS = 100  # of Newton's method, which needs about ten
 TOLERANCE = 1e-12  # of the force
 
 
@@ -30,9 +30,9 @@ class SlidingCurves:
     force : float
         Normal force [N].
     depth : array, shape (lines, speeds)
-        Approach of the moving line since first touch of relaxed springs [m]; less than at rest.
+        Approach of the moving line since first touch of relaxed springs [m]; smaller than at rest.
     friction_force : array, shape (lines, speeds)
-        Force along the line [N], averaged over a period, as the normal force is.
+        Force along the line [N], averaged over a period like the normal force.
     contact_length : array, shape (lines, speeds)
         Length in contact [m].
 
@@ -80,15 +80,15 @@ def sliding_friction(
     Parameters
     ----------
     heights : array, shape (lines, points) or (points,)
-        Heights [m] of one period, straight between the points. The springs pass in the order of the points.
+        Heights [m] of one period, linear between the points. The springs pass in the order of the points.
     spacing : float
         Distance of the points [m].
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* of the slow body [Pa]; 4 G of an incompressible one.
+        Reduced modulus E* of the body at low speed [Pa]; 4 G for an incompressible body.
     relaxation_time : float
         Viscosity over shear modulus [s]: a spring of width dx carries ``E* dx (u + relaxation_time du/dt)``.
     force : float
-        Normal force [N], kept up at every speed.
+        Normal force [N], the same at every speed.
     speeds : array, shape (speeds,)
         Strictly increasing sliding speeds [m/s].
 
@@ -101,18 +101,18 @@ def sliding_friction(
     ValueError
         If an argument is out of range, or a line is flat.
     ArithmeticError
-        If the depth that belongs to the force is not found.
+        If the depth for the force is not found.
 
     Notes
     -----
-    The model of Li, Popov, Dimaki, Filippov, Kürschner and Popov, Phys. Rev. Lett. 111, 034301 (2013). Springs do
-    not adhere: one separates when its force has fallen to zero, and relaxes until the line meets it again. There
-    is no friction but that of the dampers. It grows with the speed at first, reaches a plateau of the order of the
-    rms slope where springs touch rising flanks only, and falls at last to the slope in front of the highest
-    point, the only one that still touches: that end belongs to the grid.
+    The model of Li, Popov, Dimaki, Filippov, Kürschner and Popov, Phys. Rev. Lett. 111, 034301 (2013). Springs do not
+    adhere: a spring separates when its force has fallen to zero, and relaxes until the line meets it again. The
+    dampers are the only source of friction. It first grows with the speed, reaches a plateau of the order of the rms
+    slope where springs touch only rising flanks, and finally falls to the slope in front of the highest point, the
+    only one that still touches: this limit depends on the grid.
 
-    No time is stepped: see `sliding_state`. The depth that belongs to the force is found by Newton's method, which
-    converges from one side, since the force is convex in the depth.
+    There are no time steps: see `sliding_state`. The depth for the force is found by Newton's method, which converges
+    from one side, because the force is convex in the depth.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def sliding_friction(
         part = slice(start, start + rows)
         guess = depth[part]
         for column, length in enumerate(rates * relaxation_time):
-            # The depth falls with the speed: the one before is on the safe side.
+            # The depth decreases with the speed: the previous depth is on the safe side.
             guess, state = _at_force(separation[part], spacing, length, force / stiffness, guess)
             depths[part, column] = guess
             friction[part, column] = stiffness * state.friction
@@ -164,6 +164,6 @@ def _at_force(
             return depth, state
         depth = depth - excess / state.stiffness
     raise ArithmeticError(
-        f"the force is still off by a part {float(np.abs(excess).max() / target):.1e} after {STEPS} steps: it is "
+        f"the relative error of the force is {float(np.abs(excess).max() / target):.1e} after {STEPS} steps: it is "
         "too small to be distinguished from rounding"
     )

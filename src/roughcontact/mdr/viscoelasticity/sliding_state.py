@@ -11,19 +11,19 @@ from roughcontact.validation import Array
 __all__ = ["SlidingState", "sliding_state"]
 
 
-STEPS = 100  # of Newton's method for a place of touch; each gains at least one relaxation length
+STEPS = 100  # of Newton's method for a point of touch; each advances by at least one relaxation length
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SlidingState:
-    """What a period of each line carries; forces are over E*, one value a line.
+    """Forces and contact length over a period of each line; forces are over E*, one value per line.
 
     Attributes
     ----------
     force : array, shape (lines,)
-        Normal force over E* [m^2], the integral of the springs' deflection.
+        Normal force over E* [m^2], the integral of the deflection of the springs.
     friction : array, shape (lines,)
-        Force along the line over E* [m^2], from what the dampers dissipate: a sum of positive terms.
+        Force along the line over E* [m^2], from the dissipation in the dampers: a sum of positive terms.
     contact_length : array, shape (lines,)
         Length in contact [m].
     stiffness : array, shape (lines,)
@@ -42,8 +42,8 @@ def sliding_state(separation: Array, spacing: float, relaxation_length: float, d
     Parameters
     ----------
     separation : array, shape (lines, points)
-        Depth of each point below the highest of its line [m], one period, straight between the points. Springs
-        pass in the order of the points.
+        Depth of each point below the highest of its line [m], one period, linear between the points. Springs pass in
+        the order of the points.
     spacing : float
         Distance of the points [m].
     relaxation_length : float
@@ -53,13 +53,12 @@ def sliding_state(separation: Array, spacing: float, relaxation_length: float, d
 
     Notes
     -----
-    A spring at the place x of the line is pressed to ``u(x) >= w(x) = depth - separation(x)``. Its force
-    ``E* (u + l u')`` is zero where it does not touch and nowhere negative: ``u exp(x/l)`` never falls. The least
-    such u is
+    A spring at the position x of the line is pressed to ``u(x) >= w(x) = depth - separation(x)``. Its force
+    ``E* (u + l u')`` is zero without contact and never negative: ``u exp(x/l)`` never decreases. The least such u is
 
         u(x) = max over x' <= x of w(x') exp(-(x - x')/l),
 
-    a running maximum of ``ln w + x/l``. One that lies more than a period back has a greater one a period later, so that
+    a running maximum of ``ln w + x/l``. A maximum more than a period back is exceeded by the one a period later, so
     two periods are enough. Over a period the normal force is ``E* int u``, and the friction force ``E* l int u'^2``.
     """
     points = separation.shape[1]
@@ -84,10 +83,10 @@ def sliding_state(separation: Array, spacing: float, relaxation_length: float, d
 
 
 def _peaks(w: Array, slope: Array, spacing: float, length: float) -> Array:
-    """Return where in each stretch ``ln w + x/l`` is largest [m]: where a spring may separate."""
+    """Return the position in each stretch at which ``ln w + x/l`` is largest [m]: there a spring may separate."""
     falling = slope < 0
     peak = np.full(w.shape, float(spacing))
-    # Force w + l w' = 0 on a falling flank.
+    # The force w + l w' is zero on a falling flank.
     np.divide(w + length * slope, -slope, out=peak, where=falling)
     return np.clip(peak, 0.0, spacing, out=peak)
 
@@ -106,14 +105,14 @@ def _values_at(
 def _history(
     y_peak: Array, w_peak: Array, place: Array, x: Array, length: float
 ) -> tuple[Array, Array, Array]:
-    """Return, at the first point of each stretch, the greatest y so far, the decay since, and the w it came from."""
+    """Return, at the first point of each stretch, the largest y so far, the decay since then, and its w."""
     lines, points = y_peak.shape
     best = np.maximum.accumulate(y_peak, axis=1)
     last_period = best[:, -1:] - x[-1] / length
     before = np.concatenate([last_period, np.maximum(best[:, :-1], last_period)], axis=1)
     holder = np.maximum.accumulate(np.where(y_peak > before, np.arange(points), -1), axis=1)
     held = np.concatenate([np.full((lines, 1), -1), holder[:, :-1]], axis=1)
-    # Held since the period before: by the last of all.
+    # Held since the previous period: by the last maximum.
     earlier = held < 0
     held = np.where(earlier, holder[:, -1:], held)
     since = x[:-1] - np.take_along_axis(place, held, axis=1) + np.where(earlier, x[-1], 0.0)
@@ -121,9 +120,10 @@ def _history(
 
 
 def _touch(w: Array, slope: Array, start: Array, peak: Array, length: float) -> Array:
-    """Return where a relaxing spring meets a stretch [m]: ``w + slope t = start exp(-t/l)``.
+    """Return the position at which a relaxing spring meets a stretch [m]: ``w + slope t = start exp(-t/l)``.
 
-    The difference of both sides is concave and negative at the start: Newton's method goes to the root from below.
+    The difference of both sides is concave and negative at the start: Newton's method converges to the root from
+    below.
     """
     t = np.zeros(w.shape)
     np.divide(-w, slope, out=t, where=(w < 0) & (slope > 0))

@@ -1,4 +1,4 @@
-r"""Linear viscoelastic materials as a spring, a dashpot and Maxwell elements side by side.
+r"""Linear viscoelastic materials as a spring, a dashpot and Maxwell elements in parallel.
 
 The reduced modulus E* becomes a relaxation function E(t), its compliance a creep function J(t); Poisson's ratio is
 constant in time.
@@ -36,7 +36,7 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True)
 class Creep:
-    """J(t) as a sum: instantaneous, viscous, and retarded parts.
+    """J(t) as a sum of instantaneous, viscous, and retarded parts.
 
     Attributes
     ----------
@@ -76,16 +76,16 @@ class Viscoelastic:
     Parameters
     ----------
     equilibrium : float
-        E_inf, what is left of E* after a long time [Pa]; 0 for a fluid.
+        E_inf, the value of E* after a long time [Pa]; 0 for a fluid.
     moduli, times : tuple of float
         E_k [Pa] and the different relaxation times tau_k [s] of the Maxwell elements.
     dashpot : float
-        c of a dashpot beside them [Pa s]; with one, no jump of the depth is possible.
+        c of a parallel dashpot [Pa s]; with a dashpot, no jump of the depth is possible.
 
     Raises
     ------
     ValueError
-        If a number is negative, two times are equal, or nothing resists.
+        If a number is negative, two times are equal, or all moduli and viscosities are zero.
 
     Examples
     --------
@@ -103,7 +103,7 @@ class Viscoelastic:
     def __post_init__(self) -> None:
         if len(self.moduli) != len(self.times):
             raise InputError(
-                f"each modulus wants its time: {len(self.moduli)} and {len(self.times)} are given"
+                f"each modulus needs its time: {len(self.moduli)} moduli and {len(self.times)} times are given"
             )
         for name, values in (("modulus", (self.equilibrium, *self.moduli)), ("time", self.times)):
             for value in values:
@@ -116,9 +116,9 @@ class Viscoelastic:
                 f"moduli {self.moduli} and times {self.times} of elements must be positive", place="moduli"
             )
         if len(set(self.times)) != len(self.times):
-            raise InputError(f"elements of one relaxation time are one element: {self.times}")
+            raise InputError(f"the relaxation times of the elements must differ: {self.times}")
         if self.equilibrium == 0 and self.dashpot == 0 and not self.moduli:
-            raise InputError("a material without modulus and viscosity resists nothing")
+            raise InputError("a material needs a modulus or a viscosity")
 
     @property
     def instantaneous(self) -> float:
@@ -126,7 +126,7 @@ class Viscoelastic:
         return self.equilibrium + math.fsum(self.moduli)
 
     def relaxation(self, time: float | Array) -> Array:
-        """Return E(t) [Pa] at times >= 0 [s], at 0 what follows at once; a dashpot adds its pulse c delta(t).
+        """Return E(t) [Pa] at times >= 0 [s], at 0 the limit from above; a dashpot adds the pulse c delta(t).
 
         Parameters
         ----------
@@ -146,9 +146,9 @@ class Viscoelastic:
     def creep(self) -> Creep:
         """Return the creep function.
 
-        Its retardation times theta_j are where c s + E_inf + sum E_k s/(s + 1/tau_k) vanishes, at s = -1/theta: one
-        between any two relaxation times, one beyond the longest if the material is a solid, and one below the shortest
-        if it has a dashpot.
+        Its retardation times theta_j are the roots s = -1/theta of c s + E_inf + sum E_k s/(s + 1/tau_k): one between
+        any two relaxation times, one beyond the longest if the material is a solid, and one below the shortest if it
+        has a dashpot.
 
         Returns
         -------
@@ -198,7 +198,7 @@ def viscous(viscosity: float) -> Viscoelastic:
 
 
 def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
-    """Return spring and dashpot side by side: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s].
+    """Return spring and dashpot in parallel: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s].
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
 
 
 def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
-    """Return spring and dashpot in a row: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s].
+    """Return spring and dashpot in series: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s].
 
     Parameters
     ----------
@@ -252,7 +252,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     Parameters
     ----------
     equilibrium, instantaneous : float
-        Reduced moduli after a long time and at once, E_inf < E_0 [Pa].
+        Reduced moduli after a long time and immediately, E_inf < E_0 [Pa].
     relaxation_time : float
         tau [s].
 
@@ -302,7 +302,7 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
     if any(values.ndim != 1 for values in lists):
         raise about(
             "moduli",
-            "and times must be two lists, an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
+            "and times must be two lists with an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
             f"not {shown(moduli)} and {shown(times)}",
         )
     E, tau = (tuple(values.tolist()) for values in lists)
@@ -329,7 +329,7 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
     """
     if not isinstance(material, Viscoelastic):
         raise InputError(
-            "a viscoelastic material is wanted, such as standard_solid(equilibrium, instantaneous, relaxation_time), "
+            "a viscoelastic material is needed, such as standard_solid(equilibrium, instantaneous, relaxation_time), "
             f"not {shown(material)}",
             place="material",
         )
@@ -337,7 +337,7 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
 
 
 def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Array) -> tuple[Array, Array]:
-    """Return a history as arrays, or refuse numbers that are not finite and times that run backwards.
+    """Return a history as arrays, or refuse numbers that are not finite and times that decrease.
 
     Parameters
     ----------
@@ -354,7 +354,7 @@ def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Arr
     Raises
     ------
     ValueError
-        If there are not as many loads as times, a number is not finite, or a time is before the one before it.
+        If the numbers of loads and times differ, a number is not finite, or the times decrease.
 
     Examples
     --------
@@ -364,12 +364,12 @@ def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Arr
     """
     t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
     if t.ndim != 1 or t.shape != load.shape or not len(t):
-        raise InputError(f"a history wants as many times as loads, not {t.shape} and {load.shape}")
+        raise InputError(f"a history needs one time for each load, not {t.shape} and {load.shape}")
     for name, values in (("times", t), ("loads", load)):
         if (wrong := values[~np.isfinite(values)]).size:
             raise InputError(f"{name} must be finite, not {wrong[0]}", place=name)
     if (back := np.nonzero(np.diff(t) < 0)[0]).size:
-        raise about("times", f"must not run backwards, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
+        raise about("times", f"must not decrease, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
     return t, load
 
 
@@ -377,7 +377,7 @@ def _times(time: float | Array) -> Array:
     t = np.asarray(number(time, "time [s]"))
     if not (t >= 0).all():
         raise InputError(
-            f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: nothing responds before the load"
+            f"times must not be negative [s], not {t[~(t >= 0)].flat[0]:g}: there is no response before the load"
         )
     return t
 

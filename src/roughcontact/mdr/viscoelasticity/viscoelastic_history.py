@@ -1,8 +1,8 @@
-"""A body of revolution on a viscoelastic half-space under any history of depth or force.
+"""A body of revolution on a viscoelastic half-space under a history of depth or force.
 
 While the contact grows and then recedes once, the springs give the exact solution of Lee & Radok (1960) and Ting
-(J. Appl. Mech. 33, 845 (1966)); see Argatov & Popov, ZAMM 96, 956 (2016). Beyond - a body that comes back to a surface
-that has not yet recovered - they are a model.
+(J. Appl. Mech. 33, 845 (1966)); see Argatov & Popov, ZAMM 96, 956 (2016). In other cases, such as a body that returns
+to a surface before it has recovered, they are a model.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class ViscoelasticHistory:
     force : array, shape (n,)
         [N].
     depth : array, shape (n,)
-        Of the body [m], against the surface before first touch.
+        Depth of the body [m], relative to the surface before first touch.
     contact_radius : array, shape (n,)
-        [m], drawn on from the springs outside.
+        [m], extrapolated from the outer springs.
 
     Examples
     --------
@@ -68,28 +68,28 @@ def depth_history(
     *,
     springs: int = 1000,
 ) -> ViscoelasticHistory:
-    """Lead a body through a history of its depth.
+    """Move a body through a history of its depth.
 
     Parameters
     ----------
     profile : Profile
     material : Viscoelastic
     times : array, shape (n,)
-        [s]; a time that stands twice is a jump. Before the first the body is off.
+        [s]; a repeated time is a jump. There is no contact before the first time.
     depths : array, shape (n,)
-        [m], straight lines in between.
+        [m], linear between the times.
     springs : int
-        Number of springs from the axis to the largest contact radius; the force's error falls as its square.
+        Number of springs from the axis to the largest contact radius; the error of the force falls as its square.
 
     Returns
     -------
     ViscoelasticHistory
-        Whose force at a time is that at the end of the motion before it: a dashpot feels a change of speed at once.
+        Its force at a time is that at the end of the preceding motion: the force of a dashpot jumps with the speed.
 
     Raises
     ------
     ValueError
-        If the history makes no sense, or jumps into a dashpot.
+        If the history is invalid, or jumps although there is a dashpot.
 
     Examples
     --------
@@ -123,29 +123,30 @@ def force_history(
     *,
     springs: int = 1000,
 ) -> ViscoelasticHistory:
-    """Lead a body through a history of its force.
+    """Move a body through a history of its force.
 
     Parameters
     ----------
     profile : Profile
     material : Viscoelastic
     times : array, shape (n,)
-        [s]; a time that stands twice is a jump. Before the first the body is off.
+        [s]; a repeated time is a jump. There is no contact before the first time.
     forces : array, shape (n,)
-        [N], not negative, straight lines in between.
+        [N], not negative, linear between the times.
     springs : int
         Number of springs from the axis to the largest contact radius.
 
     Returns
     -------
     ViscoelasticHistory
-        The depth moves evenly in each step and has the force right at its end, with a dashpot in its middle. The
-        error falls as the square of the step, but for what the first moments cost, when the depth is no straight line.
+        The depth changes uniformly in each step, and the force is met at the end of the step, or with a dashpot in its
+        middle. The error falls as the square of the step, except for the first moments, when the depth is not linear
+        in time.
 
     Raises
     ------
     ValueError
-        If the history makes no sense.
+        If the history is invalid.
 
     Examples
     --------
@@ -165,7 +166,7 @@ def force_history(
         raise about(
             "forces", f"must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"
         )
-    # No history up to this force can reach a larger contact than the force itself, all the time.
+    # No history up to this force can reach a larger contact than this force at all times.
     most = float(F.max()) * float(material.creep()(t[-1] - t[0]))
     largest = indent(profile, 1.0, force=most)
     foundation = _foundation(material, largest, springs)
@@ -175,7 +176,7 @@ def force_history(
         if force == load == 0:  # a body without load follows the surface
             state = foundation.rest(state, now - before)
             at = float((state.place + foundation.transform).min())
-        elif now > before or not material.dashpot:  # a sudden force moves a dashpot only with time
+        elif now > before or not material.dashpot:  # a dashpot needs time to move under a sudden force
             state, at = _loaded(foundation, state, at, now - before, (load, force), largest.depth)
         before, load = now, force
         states.append((force, at, foundation.contact_radius(state, at)))
@@ -190,7 +191,7 @@ def _loaded(
     force: tuple[float, float],
     scale: float,
 ) -> tuple[Springs, float]:
-    """Return the springs and the depth after a step whose force is met at its end, with a dashpot in its middle."""
+    """Return the springs and the depth after a step, with the force met at its end, or with a dashpot in its middle."""
     parts, goal = (2, sum(force) / 2) if foundation.material.dashpot else (1, force[1])
 
     def force_at(depth: float) -> float:
@@ -202,7 +203,7 @@ def _loaded(
 
 
 def _depth(force: Callable[[float], float], goal: float, start: float, scale: float) -> float:
-    """Return the largest depth at which the force is not above the goal."""
+    """Return the largest depth at which the force does not exceed the goal."""
     low = high = start
     width = 1e-3 * scale
     while force(high) <= goal:
@@ -219,8 +220,9 @@ def _foundation(material: Viscoelastic, largest: Indentation, springs: int) -> V
     """Return the springs under the largest contact."""
     profile, width = largest.profile, largest.contact_radius / whole(springs, "springs")
     require(
-        profile.rises, "on a body whose transform falls somewhere the contact is not one disc at every load"
+        profile.rises,
+        "if the transform of a body decreases somewhere, the contact is not one disc at every load",
     )
-    # Two more beyond, if the body goes on, tell where the rim of the largest contact lies.
+    # Two further springs beyond, if the body continues, locate the rim of the largest contact.
     places: Array = width * (np.arange(springs + 2, dtype=np.float64) + 0.5)
     return ViscoelasticFoundation(material, profile.transform(places[places < profile.radius]), width)

@@ -1,7 +1,7 @@
-"""A foundation of viscoelastic springs under a flat motion: exact between two states for a depth that moves evenly.
+"""A foundation of viscoelastic springs under a body: exact between two states for a depth that changes uniformly.
 
-A spring is pushed by the body while it presses back, and creeps freely otherwise. Its state is its place and the
-stresses of its Maxwell elements; touch or release within a step is found to the last digit, one of them a step.
+A spring follows the body while its force is compressive, and creeps freely otherwise. Its state consists of its
+displacement and the stresses of its Maxwell elements. One touch or release within a step is located to the last digit.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ class Springs:
     elements : array, shape (k, n)
         Forces of the Maxwell elements per length [N/m].
     on : bool array, shape (n,)
-        Whether the body is on the spring.
+        Whether the spring is in contact.
     stress : array, shape (n,)
-        Force of the spring per length [N/m], 0 where the body is off.
+        Force of the spring per length [N/m], 0 without contact.
     """
 
     place: Array
@@ -49,9 +49,9 @@ class ViscoelasticFoundation:
     ----------
     material : Viscoelastic
     transform : array, shape (n,)
-        g at the springs [m], which stand in the middle of cells, from the axis outwards.
+        g at the springs [m], in the middle of cells, from the axis outwards.
     width : float
-        Of a cell [m].
+        Width of a cell [m].
     """
 
     material: Viscoelastic
@@ -59,7 +59,7 @@ class ViscoelasticFoundation:
     width: float
 
     def contact_radius(self, springs: Springs, depth: float) -> float:
-        """Return where the contact ends [m]: where the gaps of the two springs outside, drawn on, close."""
+        """Return the radius of the contact [m], extrapolated from the gaps of the next two springs outside."""
         touched = np.nonzero(springs.on)[0]
         if not len(touched):
             return 0.0
@@ -71,7 +71,7 @@ class ViscoelasticFoundation:
         return centre + self.width * (1 - min(1.0, near / (far - near)) if far > near else 0.5)
 
     def force(self, springs: Springs, depth: float) -> float:
-        """Return the sum of the springs [N]; over the last cell the stress is drawn on as far as the contact goes."""
+        """Return the sum of the springs [N]; in the last cell the stress is extrapolated to the end of the contact."""
         touched = np.nonzero(springs.on)[0]
         if not len(touched):
             return 0.0
@@ -93,12 +93,12 @@ class ViscoelasticFoundation:
         return Springs(place, elements, np.zeros(n, dtype=bool), np.zeros(n))
 
     def jump(self, springs: Springs, depth: float) -> Springs:
-        """Return the springs after a sudden change of the depth [m]; elastic at once, so without a dashpot.
+        """Return the springs after a sudden change of the depth [m]; with a dashpot only away from the springs.
 
         Raises
         ------
         ValueError
-            If the body would jump into a dashpot.
+            If the material has a dashpot and the body would press the springs further.
         """
         body, m = depth - self.transform, self.material
         place, elements = springs.place, springs.elements
@@ -111,7 +111,7 @@ class ViscoelasticFoundation:
             on = springs.on & (body >= place - rounding)
         else:
             pressed = springs.on | (body > place)
-            # A spring under tension goes back to where its stress is zero, and separates.
+            # A spring under tension returns to the displacement of zero stress, and separates.
             free = -self._static(place, elements) / m.instantaneous
             on = pressed & (body - place > free)
             stretch = np.where(on, body - place, np.where(springs.on, free, 0.0))
@@ -119,12 +119,12 @@ class ViscoelasticFoundation:
         return Springs(place, elements, on, np.where(on, self._static(place, elements), 0.0))
 
     def move(self, springs: Springs, depth: tuple[float, float], duration: float) -> Springs:
-        """Return the springs after the depth went evenly from the first to the second value [m] in a time [s]."""
+        """Return the springs after a uniform change between two values of the depth [m] in a time [s]."""
         if duration == 0:
             return self.jump(springs, depth[1])
         start, speed = depth[0] - self.transform, (depth[1] - depth[0]) / duration
         place, elements = springs.place, springs.elements
-        # A dashpot separates at once when the body recedes faster than the spring can follow.
+        # A dashpot separates immediately if the body recedes faster than the spring can follow.
         held = springs.on & (self._static(place, elements) + self.material.dashpot * speed >= 0)
         pushed = self._push(place, elements, speed, np.full(len(start), duration))
         tension = self._static(*pushed) + self.material.dashpot * speed < 0
@@ -139,7 +139,7 @@ class ViscoelasticFoundation:
         return Springs(place, elements, on, np.maximum(stress, 0.0))
 
     def _release(self, who: Mask, state: tuple[Array, Array], speed: float, duration: float) -> None:
-        """Push the springs until they would pull, and let them creep from there on, in place."""
+        """Push the springs until they would be in tension, and let them creep from there on, in place."""
         place, elements = state[0][who], state[1][:, who]
         damping = self.material.dashpot * speed
 
@@ -157,7 +157,8 @@ class ViscoelasticFoundation:
         body = start[who]
         crept = self._creep(place, elements, np.full(len(place), duration))
         met = body + speed * duration > crept[0]
-        # What was never touched is met where the body comes to zero; what creeps, wherever the two are.
+        # A spring that was never touched is met at displacement zero; a creeping spring where the body and the spring
+        # meet.
         t = np.clip(-body[met] / speed, 0.0, duration) if speed else np.zeros(int(met.sum()))
         own, rest = place[met], elements[:, met]
         creeps = (own != 0) | rest.any(axis=0)
@@ -174,11 +175,11 @@ class ViscoelasticFoundation:
         return np.asarray(met)
 
     def _static(self, place: Array, elements: Array) -> Array:
-        """Return the stress of springs and elements, without the dashpot's."""
+        """Return the stress of springs and elements, without that of the dashpot."""
         return np.asarray(self.material.equilibrium * place + elements.sum(axis=0))
 
     def _push(self, place: Array, elements: Array, speed: float, time: Array) -> tuple[Array, Array]:
-        """Return place and elements after a time at even speed."""
+        """Return place and elements after a time at constant speed."""
         moduli, taus = np.array(self.material.moduli)[:, None], np.array(self.material.times)[:, None]
         part = -np.expm1(-time / taus)
         return place + speed * time, elements * (1 - part) + moduli * taus * speed * part
@@ -200,7 +201,7 @@ def _free_motion(material: Viscoelastic) -> tuple[Array, Array, Array]:
         basis = np.eye(len(stress))
     else:
         speed = np.concatenate([[0.0], 1 / tau]) / material.instantaneous
-        # Without a dashpot the stress of a free spring is zero at all times: one unknown less.
+        # Without a dashpot the stress of a free spring is always zero, which removes one unknown.
         basis = np.linalg.svd(stress[None, :])[2][1:].T
     change = np.vstack([speed, E[:, None] * speed - np.diag(np.concatenate([[0.0], 1 / tau]))[1:]])
     rates, vectors = np.linalg.eig(basis.T @ change @ basis)

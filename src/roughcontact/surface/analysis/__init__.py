@@ -1,1 +1,1 @@
-"""What a surface is like: spectra, correlation, Hurst exponent, summits."""
+"""Analysis of surfaces: spectra, correlation, Hurst exponent, summits."""

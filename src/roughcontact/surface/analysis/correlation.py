@@ -25,13 +25,13 @@ __all__ = [
 ]
 
 Steps = npt.NDArray[np.int64]
-# The weight of the pairs of `tapered_structure` rises from zero to one over this share of the length, at either end.
+# The weight of the pairs in `tapered_structure` rises from zero to one over this share of the length, at both ends.
 RAMP = 1 / 16
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LagCurve:
-    """A function of the lag alone.
+    """A function of only the length of the lag.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class LagMap:
     Attributes
     ----------
     value : array, shape (my, mx) or (m,)
-        Mean over all pairs of measured points that far apart [m^2]; NaN where there is none.
+        Mean over all pairs of measured points at this lag [m^2]; NaN if there is none.
     pairs : array, same shape
         Number of such pairs.
     lags : tuple of array
@@ -72,7 +72,7 @@ class LagMap:
         Returns
         -------
         LagCurve
-            In rings as wide as the larger spacing, up to half the shorter side.
+            Averages over rings as wide as the larger spacing, up to half the shorter side.
         """
         step = max(float(np.diff(axis).max(initial=0.0)) for axis in self.lags)
         length = np.sqrt(sum(axis**2 for axis in np.meshgrid(*self.lags, indexing="ij", sparse=True)))
@@ -91,8 +91,8 @@ class LagMap:
 def autocorrelation(surface: Surface) -> LagMap:
     """Return the autocorrelation ``<h(x + r) h(x)>`` of the heights above their mean.
 
-    Along periodic axes lags go round; along free axes only pairs inside the surface count, and each lag is
-    divided by their number, so that no bias comes from the edges. Pairs with a missing point are left out.
+    Along periodic axes lags wrap around. Along free axes only pairs inside the surface count, and each lag is divided
+    by their number, which avoids a bias from the edges. Pairs with a missing point are left out.
 
     Parameters
     ----------
@@ -124,9 +124,9 @@ def autocorrelation(surface: Surface) -> LagMap:
 def structure_function(surface: Surface) -> LagMap:
     """Return the structure function ``<(h(x + r) - h(x))^2>`` of the heights.
 
-    It needs no mean and suffers less from long waves than the autocorrelation. It is computed by transforms, whose
-    rounding is 1e-16 of the mean square height: `structure_profile` is exact for the smallest steps of a smooth
-    surface.
+    It needs no mean and is less affected by long waves than the autocorrelation. It is computed by transforms, whose
+    rounding error is 1e-16 of the mean square height. For the smallest lags of a smooth surface use
+    `structure_profile`, which is exact.
 
     Parameters
     ----------
@@ -201,10 +201,10 @@ def structure_profile(
 def tapered_structure(surface: Surface, axis: Literal["x", "y"], steps: Steps) -> tuple[Array, float]:
     """Return ``<(h(x + r) - h(x))^2>`` at lags along one axis, weighted by the place of the pairs.
 
-    On a free axis the weight depends on the middle of a pair alone and falls to zero, smoothly, where the pairs
-    of the longest lag end. With every pair counted alike each lag would see another part of the surface, and the
-    differences between lags, from which an exponent is read, would carry the noise of its ends: at
-    H = 0.95 on 128 points it makes H a fifth less certain, and more so than the covariance of a large surface says.
+    On a free axis the weight depends only on the middle of a pair and falls smoothly to zero where the pairs of the
+    longest lag end. With equal weights each lag would cover another part of the surface, and the differences between
+    lags, which determine the exponent, would contain the noise of its ends. At H = 0.95 on 128 points that would
+    increase the error of H by a fifth, and above the value from the covariance of a large surface.
 
     Parameters
     ----------
@@ -219,7 +219,7 @@ def tapered_structure(surface: Surface, axis: Literal["x", "y"], steps: Steps) -
     values : array, shape (k,)
         [m^2]
     share : float
-        The part of the axis that the values are worth, ``<w>^2/<w^2>``: 1 along a periodic one.
+        Effective part of the axis, ``<w>^2/<w^2>``: 1 along a periodic axis.
 
     Raises
     ------
@@ -244,7 +244,7 @@ def tapered_structure(surface: Surface, axis: Literal["x", "y"], steps: Steps) -
 
 
 def _jumps(surface: Surface, axis: int, steps: Steps) -> Iterator[tuple[Array, npt.NDArray[np.bool_]]]:
-    """Yield for each lag the differences of heights along the `axis`, which becomes the last, and which are known."""
+    """Yield for each lag the differences of heights along the `axis`, now the last, and the mask of known ones."""
     heights = np.moveaxis(surface.heights, axis, -1)
     for step in steps.tolist():
         periodic = surface.grid.periodic[axis]
@@ -259,7 +259,7 @@ def _jumps(surface: Surface, axis: int, steps: Steps) -> Iterator[tuple[Array, n
 
 
 def _weight(size: int, step: int, longest: int) -> Array:
-    """Return the weight of every pair `step` apart: a function of its middle alone."""
+    """Return the weight of every pair `step` apart: a function of only its middle."""
     middle = np.arange(size - step) + (step + 1) / 2
     inside = np.minimum(middle, size - middle) - longest / 2
     return np.asarray(np.sin(np.pi / 2 * np.clip(inside / (RAMP * size), 0, 1)) ** 2)
@@ -273,13 +273,13 @@ def default_lags(size: int) -> Steps:
 
 
 def _centred(surface: Surface) -> tuple[Array, Array]:
-    """Return the heights above their mean, zero where missing, and ones where measured."""
+    """Return the heights above their mean, zero where missing, and the mask of measured points as numbers."""
     known = surface.measured
     return np.where(known, surface.heights - np.nanmean(surface.heights), 0.0), known.astype(np.float64)
 
 
 def _padded(surface: Surface) -> tuple[int, ...]:
-    """Return lengths of transforms in which lags up to half a free axis do not go round."""
+    """Return lengths of transforms in which lags up to half a free axis do not wrap around."""
     axes = zip(surface.grid.shape, surface.grid.periodic, strict=True)
     return tuple(n if p else int(scipy.fft.next_fast_len(n + n // 2, real=True)) for n, p in axes)
 

@@ -21,7 +21,7 @@ __all__ = ["cut_factor", "profile_spectrum", "surface_spectrum"]
 def cut_factor(hurst: float) -> float:
     """Return C1D/(q C2D) of straight cuts through an unlimited self-affine surface.
 
-    ``sqrt(pi) Gamma(H + 1/2)/Gamma(H + 1)`` (beside thesis, eq. 2.10, whose C1D is that of a line of its own).
+    ``sqrt(pi) Gamma(H + 1/2)/Gamma(H + 1)`` (beside thesis, eq. 2.10, whose C1D is not that of a cut).
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def profile_spectrum(spectrum: PowerSpectrum) -> PowerSpectrum:
     Parameters
     ----------
     spectrum : PowerSpectrum
-        Of kind C2D. Between its bins it counts as a power law, beyond the last one as absent.
+        Of kind C2D. Between its bins a power law is assumed, beyond the last one zero.
 
     Returns
     -------
@@ -110,15 +110,15 @@ def surface_spectrum(
         a self-affine surface and never noisier than the profile, but up to a factor of two too large near the
         short end of a band, where the shorter waves that a cut adds are missing, and wrong on a plateau.
         "abel" inverts the cut, ``C2D(q) = -1/pi int_q^inf C1D'(k) dk/sqrt(k^2 - q^2)``: exact for any isotropic
-        spectrum, but it differentiates, so that it asks for the average of many profiles in bins of a
-        tenth of a decade or so (`PowerSpectrum.rebinned`). Beyond the last bin C1D goes on as between the last two.
+        spectrum, but it differentiates: it needs the average of many profiles in bins of about a tenth of a decade
+        (`PowerSpectrum.rebinned`). Beyond the last bin C1D is extrapolated from the last two.
     hurst : float, optional
         Hurst exponent for "law"; by default fitted to the profile.
 
     Returns
     -------
     PowerSpectrum
-        Of kind C2D. The freedom is that of the profile; what the inversion adds is not counted.
+        Of kind C2D. The freedom is that of the profile; the error of the inversion is not included.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def _abel(ln_k: Array, ln_c: Array) -> Array:
             local = ln_c[i:-1, None] - slope[i:, None] * (start + ln_cosh - ln_k[i:-1, None])
             values = slope[i:, None] * np.exp(local - start - ln_cosh)
             density[i] = float((half * values * weights).sum())
-        # The rest falls as exp(-(last + 1) t), on its way there as cosh does.
+        # The rest falls like exp(-(last + 1) t), and before that like a power of cosh.
         tail = edges[-1] + 40 / (last + 1) * ((np.arange(4000) + 0.5) / 4000) ** 2
         width = 40 / (last + 1) * 2 * (np.arange(4000) + 0.5) / 4000 / 4000
         ln_cosh = tail + np.log1p(np.exp(-2 * tail)) - math.log(2)

@@ -1,4 +1,4 @@
-"""How the heights are distributed."""
+"""The distribution of the heights."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def height_histogram(
     bins : int
         Number of bins.
     ends : tuple of two floats, optional
-        Heights above the mean between which they lie [m]; by default the lowest and the highest point.
+        Range of the bins: heights above the mean [m]; by default the lowest and the highest point.
 
     Returns
     -------

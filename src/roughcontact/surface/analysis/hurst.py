@@ -23,7 +23,7 @@ __all__ = ["HurstFit", "fit_spectrum", "hurst_exponent"]
 
 # Bins narrow enough that a law as steep as q^-8 is straight in each to 1e-3.
 FINE = 200.0
-# A misfit that chance exceeds this rarely is taken for a law that does not hold.
+# Probability of a larger misfit by chance below which the law counts as violated.
 RARE = 1e-3
 
 
@@ -36,8 +36,8 @@ class HurstFit:
     hurst : float
         Hurst exponent H.
     standard_error : float
-        Of H, for a Gaussian surface that follows the law. On a long free strip it leaves out the bias of the window,
-        which does not fall with the length: one to two standard errors at 16 x 4096 cells.
+        Standard error of H, for a Gaussian surface that follows the law. On a long free strip it does not include the
+        bias of the window, which does not fall with the length: one to two standard errors at 16 x 4096 cells.
     density : float
         Density of the law at `wavenumber`: C2D [m^4] or C1D [m^3].
     wavenumber : float
@@ -53,11 +53,11 @@ class HurstFit:
     misfit : float
         Mean square of the deviations in units of their expected scatter: near 1 where the law holds, for
         a windowed spectrum about 0.6, since neighbouring bins share waves.
-        The standard error says nothing about a law that does not hold, but for that of `fit_structure`.
+        The standard error is only valid if the law holds, except that of `fit_structure`.
     band : tuple of float
-        Wavenumbers [rad/m] that the fit has seen; for a structure function 2 pi over its lags.
+        Wavenumbers [rad/m] of the fit; for a structure function 2 pi over its lags.
     freedom : int
-        Independent deviations that the misfit is the mean of.
+        Number of independent deviations over which the misfit is averaged.
 
     Examples
     --------
@@ -84,12 +84,12 @@ class HurstFit:
 
     @property
     def chance(self) -> float:
-        """Misfit that chance alone exceeds once in a thousand surfaces that follow the law (chi-squared)."""
+        """Misfit that chance exceeds for one in a thousand surfaces that follow the law (chi-squared)."""
         return float(chdtri(self.freedom, RARE)) / self.freedom
 
     @property
     def exponent(self) -> float:
-        """How steeply the density falls: 2(H + 1) for C2D, 2H + 1 for C1D (thesis, eqs 2.8 and 2.10)."""
+        """Exponent of the decay of the density: 2(H + 1) for C2D, 2H + 1 for C1D (thesis, eqs 2.8 and 2.10)."""
         return 2 * self.hurst + (2 if self.kind == "C2D" else 1)
 
     @numeric
@@ -130,12 +130,12 @@ def hurst_exponent(
     Parameters
     ----------
     surface : Surface
-        Without missing points. On a grid of two axes the surface counts as isotropic.
+        Without missing points. A surface of two axes is assumed to be isotropic.
     limit : {"auto", "none", "rolloff", "long_cutoff"}
         How the law may end, see `fit_spectrum`.
     q_min, q_max : float, optional
-        The band to fit [rad/m]; by default all that can be relied upon. The spectrum of a measured surface
-        should be cut where its instrument no longer follows, see `PowerSpectrum`.
+        The band to fit [rad/m]; by default the reliable band. Cut the spectrum of a measured surface where the
+        instrument no longer resolves the waves, see `PowerSpectrum`.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         See `power_spectrum`.
 
@@ -171,23 +171,23 @@ def fit_spectrum(
     q_min: float | None = None,
     q_max: float | None = None,
 ) -> HurstFit:
-    """Return the likeliest self-affine law of a `spectrum`.
+    """Return the self-affine law of maximum likelihood for a `spectrum`.
 
     The powers of the waves of a Gaussian surface are independent and exponentially distributed about the
-    spectrum (Whittle's likelihood), and their means over bins follow a Gamma distribution. No logarithm of
-    a noisy density is taken, so that no bias comes from it.
+    spectrum (Whittle's likelihood), and their means over bins follow a Gamma distribution. No logarithm of a noisy
+    density is taken, which avoids its bias.
 
     Parameters
     ----------
     spectrum : PowerSpectrum
-        In bins narrow against the law: ``power_spectrum(..., per_decade=200)``. In rings one wave wide the
-        first few are not.
+        Its bins must be narrow compared with the changes of the law: ``power_spectrum(..., per_decade=200)``. The
+        first few rings of one wave's width are too wide.
     limit : {"auto", "none", "rolloff", "long_cutoff"}
-        How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level;
-        and, but for "none", whether it ends in another level toward short waves. With "auto" each end
-        is there only if the likelihood gains more by it than by chance.
+        How the law ends toward long waves: not in the band, in a plateau, or in a drop to another level. Except with
+        "none", it may also end in another level toward short waves. With "auto" an end is used only if it raises the
+        likelihood by more than chance.
     q_min, q_max : float, optional
-        The band to fit [rad/m]; by default the one to be relied upon.
+        The band to fit [rad/m]; by default the reliable band.
 
     Returns
     -------
@@ -222,7 +222,7 @@ def fit_spectrum(
     bend = math.log(band.wavenumber[limits.bend]) if limits.bend else -math.inf
     centre = float(np.average(np.log(band.wavenumber), weights=band.freedom))
     edges = (step_at(band, limits.first), step_at(band, limits.last))
-    for _ in range(3):  # under a window the law and the places of its limits depend on each other
+    for _ in range(3):  # under a window the law and the positions of its limits depend on each other
         inside = clear_bins(band, limits, edges)
         q = band.wavenumber[inside]
         slope = likeliest(np.maximum(np.log(q), bend) - centre, band, inside)
@@ -258,7 +258,7 @@ def _wavelength(wavenumber: float) -> float | None:
 
 def _squared_deviations(q: Array, ratio: Array, freedom: Array) -> Array:
     """Return the squared deviations of the `ratio` from 1 over its variance, in bins of a twentieth decade."""
-    # In narrower bins waves under one window are further apart than they reach, and `freedom` counts them too low.
+    # In narrower bins, waves under one window are correlated over several bins, and `freedom` would be too low.
     group = np.unique(np.floor(20 * np.log10(q)), return_inverse=True)[1]
     total = np.bincount(group, freedom)
     mean = np.bincount(group, freedom * ratio) / total

@@ -17,7 +17,7 @@ from roughcontact.surface.analysis.whittle import Slope, likeliest, mean_level
 __all__ = ["Limit", "Limits", "clear_bins", "find_limits", "sharpened", "step_at"]
 
 Limit = Literal["auto", "none", "rolloff", "long_cutoff"]
-# Fewer bins than these cannot tell a law from its ends.
+# With fewer bins a law cannot be distinguished from its ends.
 LEAST = 12
 _End = Literal["bend", "first", "last"]
 _Which = Literal["long", "short"]
@@ -25,7 +25,7 @@ _Which = Literal["long", "short"]
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """A law from bin `first` to bin `last`, flat below `bend` (a bin, too)."""
+    """A law from bin `first` to bin `last`, flat below the bin `bend`."""
 
     first: int
     last: int
@@ -33,7 +33,7 @@ class Limits:
 
 
 def find_limits(band: PowerSpectrum, limit: Limit) -> Limits:
-    """Return the ends of the law that the likelihood asks for."""
+    """Return the ends of the law by maximum likelihood."""
     size = band.wavenumber.size
     if limit == "none" or size < LEAST:
         return Limits(0, size, 0)
@@ -43,7 +43,7 @@ def find_limits(band: PowerSpectrum, limit: Limit) -> Limits:
         "long_cutoff": ("first",),
     }
     cost = cache(lambda limits: _cost(band, limits))
-    # Which end is found first matters where both are there: the better of the two ways is taken.
+    # If there are two ends, the result depends on which is found first: the better of the two orders is taken.
     orders: tuple[tuple[_Which, _Which], ...] = (("long", "short"), ("short", "long"))
     found = [_alternate(band, cost, longs[limit], limit != "auto", order) for order in orders]
     return min(found, key=cost)
@@ -56,7 +56,7 @@ def _alternate(
     forced: bool,
     order: tuple[_Which, _Which],
 ) -> Limits:
-    """Look for the ends in turn, each once more when the other is known."""
+    """Search for the ends in turn, and once more for each when the other is known."""
     limits = Limits(0, band.wavenumber.size, 0)
     for which in (*order, *order):
         if which == "long":
@@ -72,7 +72,7 @@ def _alternate(
 
 
 def _search(band: PowerSpectrum, cost: Callable[[Limits], float], limits: Limits, end: _End) -> Limits:
-    """Return `limits` with one `end` of the law at its best place."""
+    """Return `limits` with one `end` of the law at its best position."""
     # The law keeps a few bins and a factor of two in wavenumber.
     q = band.wavenumber
     if end == "last":
@@ -102,8 +102,8 @@ def _cost(band: PowerSpectrum, limits: Limits) -> float:
 
     Below a cut-off the spectrum has one level; beyond the short limit it may follow any other power law,
     as noise, a blunt tip or what leaks through a window do.
-    The price keeps a fluctuation from becoming a limit: half the logarithm of the data for each free number
-    (Schwarz), and as much again for the choice of the place.
+    The price keeps a fluctuation from becoming a limit: half the logarithm of the number of data for each free number
+    (Schwarz), and the same again for the choice of the position.
     """
     x = np.log(band.wavenumber)
     x -= x.mean()
@@ -118,7 +118,7 @@ def _cost(band: PowerSpectrum, limits: Limits) -> float:
         other = likeliest(x[after], band, after)
         ends = (law.level - law.exponent * bent[-1], other.level - other.exponent * x[after][0])
         cost += other.cost + _jump(*ends)
-    # In the gap every bin has a level of its own; one without power is better counted to what lies beyond.
+    # In the gap every bin has a separate level; a bin without power should belong to the part beyond.
     least = float(band.density[band.density > 0].min())
     cost += float(band.freedom[gap] @ (1 + np.log(np.maximum(band.density[gap], least))))
     numbers = 2 * (limits.bend > 0) + 3 * (limits.first > 0) + 4 * (x[after].size > 0) + x[gap].size
@@ -128,8 +128,8 @@ def _cost(band: PowerSpectrum, limits: Limits) -> float:
 def _parts(band: PowerSpectrum, limits: Limits) -> tuple[slice, slice, slice]:
     """Return the bins of the law, those next to its short limit and those beyond.
 
-    A limit need not lie between two bins: the last bin of the law may hold waves of both its sides, and would
-    bend it. A window, moreover, spreads a step: by its main lobe into the law, by its side lobes further out.
+    A limit may lie inside a bin: the last bin of the law may hold waves of both sides, and would bend it. In addition,
+    a window spreads a step: by its main lobe into the law, by its side lobes further out.
     """
     q = band.wavenumber
     if limits.last == q.size:
@@ -141,9 +141,9 @@ def _parts(band: PowerSpectrum, limits: Limits) -> tuple[slice, slice, slice]:
 
 
 def _jump(law: float, beyond: float) -> float:
-    """Return a forbidding cost if the spectrum rises at the end of its law: `law` and `beyond` are logarithms there.
+    """Return an infinite cost if the spectrum rises at the end of its law: `law` and `beyond` are logarithms there.
 
-    A law ends where power is missing, or where noise takes over, which does not jump.
+    A law ends where power is missing, or where noise begins to dominate, without a jump.
     """
     return math.inf if beyond > law + math.log(3) else 0.0
 
@@ -155,7 +155,7 @@ def step_at(band: PowerSpectrum, edge: int) -> float:
 
 
 def sharpened(band: PowerSpectrum, slope: Slope, centre: float, edge: float, rises: bool) -> float:
-    """Return the wavenumber of the limit near `edge`, where a window made a slope of the step [rad/m]."""
+    """Return the wavenumber of the limit near `edge`, where a window has turned the step into a slope [rad/m]."""
     if math.isnan(edge):
         return edge
     q, width = band.wavenumber, math.sqrt(band.smear)
@@ -165,7 +165,8 @@ def sharpened(band: PowerSpectrum, slope: Slope, centre: float, edge: float, ris
     floor = float(np.average(band.density[beyond], weights=band.freedom[beyond])) if beyond.any() else 0.0
 
     def cost(place: float) -> float:
-        # The kernel's main lobe counts as a normal distribution with its second moment, its side lobes as a rest.
+        # The main lobe of the kernel is treated as a normal distribution with its second moment, the side lobes as a
+        # rest.
         model = law * np.maximum(ndtr((q[near] - place) / width * (1 if rises else -1)), 3e-3) + floor
         return float(band.freedom[near] @ (np.log(model) + band.density[near] / model))
 
@@ -174,9 +175,9 @@ def sharpened(band: PowerSpectrum, slope: Slope, centre: float, edge: float, ris
 
 
 def clear_bins(band: PowerSpectrum, limits: Limits, edges: tuple[float, ...]) -> slice:
-    """Return the bins of the law that no limit reaches, inside a bin (see `_parts`) or through the window.
+    """Return the bins of the law that are not affected by a limit, inside a bin (see `_parts`) or through the window.
 
-    They are four at least.
+    There are at least four.
     """
     q, guard = band.wavenumber, 3.5 * math.sqrt(band.smear)
     low, high = edges

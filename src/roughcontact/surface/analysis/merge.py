@@ -18,20 +18,20 @@ __all__ = ["merge_spectra", "spectra_ratio"]
 def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -> PowerSpectrum:
     """Return one spectrum over the reliable bands of all `spectra`.
 
-    Where bands overlap, densities are averaged by the number of independent waves behind each. Nothing is
-    scaled to fit: look at `spectra_ratio` first.
+    Where bands overlap, densities are averaged with the number of independent waves as weight. Densities are not
+    scaled to fit: check `spectra_ratio` first.
 
     Parameters
     ----------
     spectra : sequence of PowerSpectrum
-        All of one kind. Each is cut to its own ``q_min`` to ``q_max``; set these by ``spectrum.within(...)``.
+        All of one kind. Each is cut to its ``q_min`` to ``q_max``; set these by ``spectrum.within(...)``.
     per_decade : float
         Bins to a factor of ten in wavenumber.
 
     Returns
     -------
     PowerSpectrum
-        With no window of its own: the bands begin where windows no longer matter.
+        Without a window: the bands begin where windows no longer matter.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def merge_spectra(spectra: Sequence[PowerSpectrum], *, per_decade: float = 20) -
 def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, float]:
     """Return the mean ratio of two densities in the band that they share, and its standard error.
 
-    A ratio many standard errors from 1 says that the instruments have not measured the same surface.
+    A ratio many standard errors from 1 shows that the instruments have not measured the same surface.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def spectra_ratio(one: PowerSpectrum, other: PowerSpectrum) -> tuple[float, floa
     ratio : float
         Density of `one` over that of the `other` [-], the geometric mean over bins of a tenth of a decade.
     standard_error : float
-        Of the ratio [-], for Gaussian surfaces.
+        Standard error of the ratio [-], for Gaussian surfaces.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The power spectrum as a value: density over wavenumber, and how well it is known."""
+"""The power spectrum: density over wavenumber, and its uncertainty."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class PowerSpectrum:
     count : array, shape (n,)
         Number of waves in each bin, both signs of the wave vector, over all profiles.
     freedom : array, shape (n,)
-        Number of independent waves that the mean is worth: its relative variance is ``1/freedom``.
+        Effective number of independent waves in the mean: its relative variance is ``1/freedom``.
         Opposite wave vectors, waves under one window and neighbouring profiles are not independent.
     q_min, q_max : float
-        The band in which the spectrum is to be relied upon [rad/m].
+        The band in which the spectrum is reliable [rad/m].
     smear : float
         Second moment of the window's kernel along an axis [rad^2/m^2]; 0 without a window.
 
@@ -105,7 +105,7 @@ class PowerSpectrum:
         Parameters
         ----------
         q_min, q_max : float, optional
-            The band [rad/m]; by default the one in which the spectrum is to be relied upon.
+            The band [rad/m]; by default the reliable band.
 
         Returns
         -------
@@ -139,12 +139,12 @@ class PowerSpectrum:
         return replace(self.selected(keep), q_min=low, q_max=high)
 
     def selected(self, keep: npt.NDArray[np.bool_]) -> PowerSpectrum:
-        """Return some of the bins, with the band as it is.
+        """Return some of the bins, with the same band.
 
         Parameters
         ----------
         keep : bool array, shape (n,)
-            Which of them; at least one.
+            The bins to keep; at least one.
 
         Returns
         -------
@@ -208,16 +208,16 @@ class PowerSpectrum:
 
 
 def require_measured(spectrum: PowerSpectrum) -> None:
-    """Refuse what is no measured spectrum, such as one by a formula.
+    """Refuse anything that is not a measured spectrum, such as a formula.
 
     Raises
     ------
     ValueError
-        With what to call instead.
+        The message names the function to call instead.
     """
     if not isinstance(spectrum, PowerSpectrum):
         raise about(
             "spectrum",
             f"must be a PowerSpectrum, as rc.power_spectrum returns it, not {shown(spectrum)}",
-            "of a spectrum by formula take its moments(), or rc.grid_moments(grid, spectrum)",
+            "for a spectrum by formula use its moments(), or rc.grid_moments(grid, spectrum)",
         )

@@ -20,7 +20,7 @@ __all__ = ["PowerMap", "power_map"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PowerMap:
-    """C2D of every wave of a real surface: half a plane, since opposite waves have the same power.
+    """C2D of every wave of a real surface: half a plane, because opposite waves have the same power.
 
     Attributes
     ----------
@@ -89,9 +89,9 @@ def power_map(surface: Surface, *, window: SpectralWindow = "auto", level: Level
         On a grid of two axes, without missing points.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
         Along both axes; "auto" is "none" along periodic and "hann" along free axes.
-        The power that a window takes away is put back on the average.
+        The power that a window removes is restored on average.
     level : {"auto", "none", "mean", "plane"}
-        What is taken out first; "auto" is the mean and, along free axes, the slope.
+        The trend to remove first; "auto" is the mean and, along free axes, the slope.
 
     Returns
     -------

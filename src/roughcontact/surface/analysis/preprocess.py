@@ -28,10 +28,10 @@ class Taper:
     values : array, shape (n,)
         Factors of the heights at the cell centres.
     power : float
-        Mean square factor: the share of the power that is left.
+        Mean square of the factors: the share of the power that is left.
     overlap : float
-        How many neighbouring waves share their information, ``<w^4>/<w^2>^2``: 1 without a window.
-        An average over waves is as good as one over that many times fewer independent waves.
+        Number of neighbouring waves that are correlated, ``<w^4>/<w^2>^2``: 1 without a window. It divides the number
+        of independent waves in an average.
     smear : float
         Second moment of the window's kernel in units of ``(2 pi/L)^2``, ``<w'^2>/<w^2>``: 0 without a window.
         To first order the mean estimate is the true density plus half of this times its second derivative.
@@ -44,7 +44,7 @@ class Taper:
 
 
 def taper(name: str, size: int, periodic: bool = False) -> Taper:
-    """Return the window `name` along an axis of `size` cells; "auto" is "none" if it is periodic, else "hann".
+    """Return the window `name` along an axis of `size` cells; "auto" is "none" if it is periodic, otherwise "hann".
 
     Raises
     ------
@@ -97,7 +97,7 @@ def prepared(surface: Surface, windows: tuple[Taper, ...], level: Level, what: s
     columns = windows[-1].values
     rows = windows[0].values[:, None] if heights.ndim == 2 else np.ones(1)
     if level != "none":
-        # What the window makes of a constant would leak into the longest waves.
+        # The transform of a constant under the window would leak into the longest waves.
         weights = float(columns.sum() * rows.sum())
         work -= float(np.sum(rows.ravel() * (work @ columns))) / weights
     work *= columns
@@ -106,5 +106,5 @@ def prepared(surface: Surface, windows: tuple[Taper, ...], level: Level, what: s
 
 
 def power_left(windows: tuple[Taper, ...]) -> float:
-    """Return the share of the power that all `windows` together leave."""
+    """Return the share of the power that is left by all `windows` together."""
     return math.prod(w.power for w in windows)

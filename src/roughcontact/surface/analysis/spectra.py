@@ -1,4 +1,4 @@
-"""Power spectra over the wavenumber alone: averaged over rings, or over profiles."""
+"""Power spectra as functions of the wavenumber: averaged over rings, or over profiles."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from roughcontact.validation import Array, numeric, require
 
 __all__ = ["power_spectrum"]
 
-# A windowed spectrum of a free surface is relied upon from this many waves to its length: the longer ones
-# suffer from levelling and from the width of the window's kernel.
+# A windowed spectrum of a free surface is reliable from this number of waves per length on: longer waves are affected
+# by levelling and by the width of the window's kernel.
 LONGEST = 3.0
-FINEST = 1e5  # bins to a factor of ten: no surface has waves for more
+FINEST = 1e5  # bins to a factor of ten: no surface has enough waves for more
 
 
 @numeric
@@ -45,23 +45,23 @@ def power_spectrum(
         "ring": C2D averaged over all directions, up to the smaller of the Nyquist wavenumbers; "x", "y":
         C1D of the profiles along that axis, averaged over them. "auto": rings of a surface, C1D of a line.
     window : {"auto", "none", "hann", "hamming", "blackman", "welch", "tukey"}
-        "auto" is "none" along periodic and "hann" along free axes. The power that a window
-        takes away is put back on the average.
+        "auto" is "none" along periodic and "hann" along free axes. The power that a window removes is restored on
+        average.
     level : {"auto", "none", "mean", "plane"}
-        What is taken out first; "auto" is the mean and, along free axes, the slope. Profiles of a surface
-        also lose their own means.
+        The trend to remove first; "auto" is the mean and, along free axes, the slope. The mean of each profile of a
+        surface is also removed.
     per_decade : float, optional
-        Bins to a factor of ten in wavenumber. By default a bin is one wave of the longer side wide.
+        Bins to a factor of ten in wavenumber. By default the width of a bin is one wave of the longer side.
 
     Returns
     -------
     PowerSpectrum
-        Without the waves at the Nyquist wavenumber, which stand for two at once.
+        Without the waves at the Nyquist wavenumber, each of which represents two waves.
 
     Raises
     ------
     ValueError
-        If points are missing, an option is unknown, or a line is asked for its rings.
+        If points are missing, an option is unknown, or rings are requested for a line.
 
     Notes
     -----
@@ -127,7 +127,7 @@ def _ring_means(
         else int(per_decade * math.log10(limit / least)) + 1
     )
     total, logs, number = (np.zeros(size) for _ in range(3))
-    # Every column but the first (and the Nyquist one, which is left out) stands for two waves.
+    # Every column except the first (and the Nyquist one, which is left out) stands for two waves.
     weights = np.where(np.arange(waves.qx.size) == 0, 1.0, 2.0)
     for qy, row in zip(waves.qy, waves.density, strict=True):
         q = np.hypot(qy, waves.qx)
@@ -159,7 +159,7 @@ def _profiles(
     work = prepared(surface, none, level, "a power spectrum")
     work = np.ascontiguousarray(np.atleast_2d(np.moveaxis(work, axis, -1)))
     if level != "none":
-        # What is left of a profile's mean after the window would leak into its longest waves.
+        # The remaining mean of a profile after the window would leak into its longest waves.
         work -= (work @ along.values / along.values.sum())[:, None]
     work *= along.values
     waves = scipy.fft.rfft(work, axis=1, overwrite_x=True)[:, 1 : (n + 1) // 2]
@@ -182,10 +182,10 @@ def _profiles(
 
 
 def _independent(waves: npt.NDArray[np.complex128]) -> Array:
-    """Return how many independent profiles each column of amplitudes is worth.
+    """Return the effective number of independent profiles in each column of amplitudes.
 
-    Neighbouring profiles resemble each other. The waves across them do not: with their powers P the number
-    is (sum m)^2/sum m^2 of the means m, and the powers of a Gaussian surface have <P^2> = 2 m^2.
+    Neighbouring profiles are correlated, but the waves across them are not: with their powers P the number is (sum
+    m)^2/sum m^2 of the means m, and the powers of a Gaussian surface have <P^2> = 2 m^2.
     """
     if waves.shape[0] == 1:
         return np.ones(waves.shape[1])

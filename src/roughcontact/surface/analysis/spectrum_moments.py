@@ -22,9 +22,9 @@ def spectrum_moments(
     Parameters
     ----------
     spectrum : PowerSpectrum
-        Of a surface (taken for isotropic) or of its profiles. Between its bins the density counts as a power law.
+        Of a surface (assumed to be isotropic) or of its profiles. Between its bins a power law is assumed.
     q_min, q_max : float, optional
-        The band [rad/m]; by default the one to be relied upon. On a fractal m2 and m4 depend on `q_max`: state it.
+        The band [rad/m]; by default the reliable band. On a fractal m2 and m4 depend on `q_max`: state it.
 
     Returns
     -------

@@ -27,7 +27,7 @@ Limit = Literal["none", "rolloff", "long_cutoff"]
 ANGLES, WAVES = 12, 1500
 # Longer lags than this many cells are not resolved by that quadrature.
 LONGEST = 200
-# The share of S that the quadrature and the model may err by, added to the covariance.
+# Relative error of S by the quadrature and the model, added to the covariance.
 ROUNDING = 1e-5
 
 
@@ -46,7 +46,7 @@ class _Band:
     step : float
         Distance of the nodes in ln q.
     edge : array, shape (m,)
-        Areas of the Nyquist waves alone, zero but for the last node of each direction [rad^2/m^2].
+        Areas of only the Nyquist waves, zero except at the last node of each direction [rad^2/m^2].
     """
 
     ln_q: Array
@@ -72,22 +72,22 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
 
     ``S(r) = 2 int C2D (1 - cos q.r) d2q`` over all waves that the grid can hold, at lags along both axes.
     The points of a structure function are far from independent: they are fitted by generalised least squares
-    with the covariance of a Gaussian surface of the fitted law, from which the standard error of H follows; a
-    misfit beyond chance (one case of a thousand) raises it by the root of the misfit. On free axes pairs close to
-    an end count less, see `tapered_structure`. Without a limit, trends of the second and fourth order in
-    the lag, which waves longer than the surface make, are left free; always so is the power of the
-    Nyquist waves. Missing points are ignored; many of them make the standard error too small.
+    with the covariance of a Gaussian surface of the fitted law, from which the standard error of H follows; a misfit
+    beyond chance (one case in a thousand) raises it by the root of the misfit. On free axes pairs close to an end
+    count less, see `tapered_structure`. Without a limit, trends of the second and fourth order in the lag, as caused
+    by waves longer than the surface, are free parameters; the power of the Nyquist waves is always free. Missing
+    points are ignored; with many of them the standard error is too small.
 
     Parameters
     ----------
     surface : Surface
-        On a grid of two axes, isotropic, with Nyquist waves that the instrument still shows:
-        start at longer lags otherwise.
+        On a grid of two axes, isotropic, with Nyquist waves that the instrument resolves; otherwise start at longer
+        lags.
     limit : {"none", "rolloff", "long_cutoff"}
         How the law ends toward long waves.
     lags : array of int, optional
         Lags in whole cells, up to half of a free side; by default from 1 to an eighth of the shorter side, or
-        to a third where a limit is to be found, but to 8 at least and to 200 at most.
+        to a third with a limit, but at least to 8 and at most to 200.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def fit_structure(surface: Surface, *, limit: Limit = "none", lags: npt.ArrayLik
     distance = np.concatenate([steps * dx, steps * dy])
     is_y = np.arange(data.size) >= steps.size
     band = _quadrature(grid.spacing, max(grid.lengths), distance, is_y)
-    # With a limit inside the surface there are no longer waves.
+    # With a limit inside the surface there are no waves longer than the surface.
     trends = _trends(distance, is_y)[:, : 4 if limit == "none" else 0]
     # The area that two lags share: the weights of the two axes are independent of each other.
     area = np.full((data.size, data.size), float(surface.measured.mean()) * grid.area)
@@ -177,13 +177,13 @@ def _quadrature(
     for row, lag, y in zip(jumps, distance, is_y, strict=True):
         row[:] = 2 * np.sin(along[int(y)] * lag / 2) ** 2
     last = np.zeros((angle.size, WAVES))
-    # Half a wave of the longer side, seen from the middle.
+    # Half a wave along the longer side, from the middle.
     last[:, -1] = 4 * turn * np.exp(2 * top) * max(spacing) / longest
     return _Band(ln_q, weight, jumps, float(step.mean()), last.ravel())
 
 
 def _trends(distance: Array, is_y: npt.NDArray[np.bool_]) -> Array:
-    """Return what waves longer than the surface add to S, shape (lags, 4): r^2 and r^4 along each axis."""
+    """Return the contributions of waves longer than the surface to S, shape (lags, 4): r^2 and r^4 along each axis."""
     scaled = distance / distance.max()
     return np.stack([scaled**order * (is_y == axis) for order in (2, 4) for axis in (False, True)], axis=1)
 
@@ -217,10 +217,10 @@ def _fit(
         return np.asarray(2 * band.jumps @ (band.weight * band.law(p[0], p[1], p[2], limit)))
 
     parameters = _start(structure, band, data, limit)
-    # The limit stays among the waves of the grid, the law within the range of the generator.
+    # The limit stays within the waves of the grid, the law within the range of the generator.
     low = np.array([-np.inf, -0.9, float(band.ln_q.min())])
     high = np.array([np.inf, 3.0, float(band.ln_q.max()) - 1])
-    for _ in range(5):  # the covariance follows the fit
+    for _ in range(5):  # the covariance depends on the fit
         scale = structure(parameters)
         slack, covariance = _covariance(band, parameters, scale, trends, area, limit)
         root = np.asarray(np.linalg.cholesky(covariance))
@@ -252,7 +252,7 @@ def _whitened(
 def _covariance(
     band: _Band, parameters: Array, scale: Array, trends: Array, area: Array, limit: Limit
 ) -> tuple[int, Array]:
-    """Return how many trends are left free, and the covariance of S over `scale`."""
+    """Return the number of free trends, and the covariance of S over `scale`."""
     density = band.law(parameters[0], parameters[1], parameters[2], limit)
     covariance = (band.jumps * (density**2 * band.weight)) @ band.jumps.T
     covariance *= 8 * (2 * math.pi) ** 2 / area / np.outer(scale, scale)

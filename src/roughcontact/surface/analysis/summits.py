@@ -1,4 +1,4 @@
-"""Summits of a surface: where they are and how they are curved."""
+"""Summits of a surface: their positions and curvatures."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class MeasuredSummits:
     Attributes
     ----------
     rows, columns : array of int, shape (n,)
-        Where they are.
+        Positions in cells.
     height : array, shape (n,)
         Height above the mean of the surface [m].
     curvature : array, shape (n, 2)
         Principal curvatures [1/m], the larger one first; positive on a dome.
     area : float
-        Of the points that were looked at [m^2].
+        Area of the points that were examined [m^2].
     """
 
     rows: npt.NDArray[np.int64]
@@ -69,13 +69,13 @@ def find_summits(surface: Surface) -> MeasuredSummits:
     Parameters
     ----------
     surface : Surface
-        Along free axes the outermost points are not looked at, nor are those with a missing neighbour.
+        Along free axes the outermost points are not examined, nor are points with a missing neighbour.
 
     Returns
     -------
     MeasuredSummits
-        With curvatures from central differences. The few whose smaller curvature is not positive by these
-        (saddles between grid lines) are left out.
+        With curvatures from central differences. The few points whose smaller curvature is not positive by these
+        differences (saddles between grid lines) are left out.
 
     Raises
     ------
@@ -84,8 +84,8 @@ def find_summits(surface: Surface) -> MeasuredSummits:
 
     Notes
     -----
-    Number and curvature depend on the spacing D of the points. They are those of the surface itself only if its
-    shortest waves are well resolved (q D below pi/8 or so); on a fractal they belong to the instrument.
+    Number and curvature depend on the spacing D of the points. They are properties of the surface only if its shortest
+    waves are well resolved (q D below about pi/8); on a fractal they depend on the instrument.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def find_summits(surface: Surface) -> MeasuredSummits:
         raise InputError(f"summits need a surface of at least 3 x 3 points, not shape {grid.shape}")
     z = np.pad(
         surface.heights, [(1, 1) if p else (0, 0) for p in grid.periodic], mode="wrap"
-    )  # the rim of a free axis takes the part of the copies
+    )  # on a free axis the rim takes the place of the periodic copies
     ny, nx = z.shape[0] - 2, z.shape[1] - 2
 
     def at(row: int, column: int) -> Array:
@@ -112,7 +112,7 @@ def find_summits(surface: Surface) -> MeasuredSummits:
     highest = np.ones(centre.shape, dtype=bool)
     for neighbour in around:
         complete &= ~np.isnan(neighbour)
-        highest &= centre > neighbour  # false where either is missing
+        highest &= centre > neighbour  # false if either is missing
     require(complete.any(), "no point has eight measured neighbours")
 
     rows, columns = np.nonzero(highest & complete)

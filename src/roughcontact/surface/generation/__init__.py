@@ -1,1 +1,1 @@
-"""Surfaces that are made: random ones by spectra, smooth shapes, punches, examples."""
+"""Generated surfaces: random ones from spectra, smooth shapes, punches, examples."""

@@ -1,4 +1,4 @@
-"""What shapes share: places about a centre, and what they refuse."""
+"""Shared parts of shapes: coordinates about a centre, and checks."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ def squared(grid: Grid, centre: Centre) -> Array:
 
 
 def placed(heights: Array, grid: Grid, name: str) -> Surface:
-    """Return the surface of heights of which at least one must be there.
+    """Return the surface of heights, at least one of which must not be NaN.
 
     Raises
     ------
     ValueError
-        If there is none.
+        If all heights are NaN.
     """
     if np.isnan(heights).all():
         raise InputError(f"no cell centre lies in the {name}", "refine the grid or move the centre")

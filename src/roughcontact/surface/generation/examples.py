@@ -1,6 +1,6 @@
-"""Three small maps for tutorials and first trials, made by recipe as an instrument would record them.
+"""Three small maps for tutorials and first trials, generated like the records of an instrument.
 
-Each call makes the same heights anew; no file is shipped. Licence of the maps: CC0 1.0 (public domain), for any use.
+Each call computes the same heights; no file is shipped. Licence of the maps: CC0 1.0 (public domain), for any use.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _LICENCE = "example map of roughcontact, no measurement; CC0 1.0"
 
 
 def surface(name: str) -> Surface:
-    """Return an example map: free edges, tilted as it lay under the instrument, NaN where nothing was recorded.
+    """Return an example map: free edges, tilted as under an instrument, NaN where nothing was recorded.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def surface(name: str) -> Surface:
     Returns
     -------
     Surface
-        Its provenance states the recipe. The rms heights above are those without the tilt.
+        Its provenance states how it was generated. The rms heights above do not include the tilt.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def surface(name: str) -> Surface:
 
     Notes
     -----
-    You may use, change and publish the maps without asking: CC0 1.0.
+    You may use, change and publish the maps without permission: CC0 1.0.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def _turned() -> Surface:
     y, x = np.meshgrid(*grid.coordinates, indexing="ij")
     arcs = (x % feed - feed / 2) ** 2 / (2 * 400e-6)
     heights = made.heights + arcs + 0.3e-6 * np.cos(2 * np.pi * y / 250e-6)
-    # Patches that no light came back from: where another random field is highest.
+    # Patches without reflected light: where another random field is highest.
     dark = self_affine(grid, hurst=0.8, rms=1.0, rolloff=20e-6, short_cutoff=16e-6, rng=rng).heights
     heights[dark > np.sort(dark, axis=None)[-(grid.size // 100) - 1]] = np.nan
     return _recorded(
@@ -106,7 +106,7 @@ def _turned() -> Surface:
 
 
 def _recorded(made: Surface, heights: Array, recipe: str) -> Surface:
-    """Return the map as it lay under the instrument, tilted by 3 um over its width."""
+    """Return the map as under an instrument, tilted by 3 um over its width."""
     tilt = 3e-6 * made.grid.coordinates[1] / made.grid.lengths[1]
     return Surface(
         heights + tilt, made.grid, (_LICENCE, *made.provenance, recipe, "tilted by 3 um over its width")

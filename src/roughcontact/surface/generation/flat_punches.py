@@ -91,7 +91,8 @@ def flat_ring(grid: Grid, inner: float, outer: float, centre: Centre = None) -> 
 def flat_square(grid: Grid, side: float, centre: Centre = None) -> Surface:
     """Return a flat square punch with sides along x and y: 0 in the cells whose centre lies in it, absent elsewhere.
 
-    Of two sides that run through cell centres the first one counts, so that a side of n cells covers n cells.
+    If two opposite sides pass through cell centres, only the cells on the first one belong to the punch: a side of n
+    cells covers n cells.
 
     Parameters
     ----------

@@ -36,10 +36,10 @@ def self_affine(
 ) -> Surface:
     """Return a random self-affine surface or line (thesis, eqs 2.10 to 2.15 as corrected).
 
-    The phases are random; the amplitudes follow the spectrum exactly, so that every sample has the same
-    power spectrum and exactly the wanted rms height. The same seed or generator state gives the
-    same phases for every Hurst exponent, so that samples can be compared pair by pair, and on every grid of
-    the same outer sides the same waves: a finer grid adds finer ones. See the notes.
+    The phases are random and the amplitudes follow the spectrum exactly: every sample has the same power spectrum and
+    exactly the given rms height. The same seed or generator state gives the same phases for every Hurst exponent,
+    which allows comparisons pair by pair. On every grid with the same outer sides it gives the same waves: a finer
+    grid adds finer waves. See the notes.
 
     Parameters
     ----------
@@ -48,15 +48,15 @@ def self_affine(
     hurst : float
         Hurst exponent, from -1 to 3: C2D ~ q^(-2(H+1)), on a line C1D ~ q^(-(2H+1)).
     rms : float
-        Root mean square height [m]: of this sample; with Gaussian amplitudes that of
-        the process, about which samples scatter.
+        Root mean square height [m] of this sample; with Gaussian amplitudes that of the process, about which samples
+        scatter.
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
-        Source of the phases: a generator yields a key of 128 bits and moves on by that, whatever the grid; a seed
-        stands for ``numpy.random.default_rng(seed)``; None draws other phases each time.
+        Source of the phases: a generator yields a key of 128 bits and advances by that, whatever the grid; a seed
+        means ``numpy.random.default_rng(seed)``; None draws different phases each time.
     rms_band : tuple of float, optional
         ``(longest, shortest)``: wavelengths [m] of the waves whose rms height is `rms`, both limits included. By
-        default all waves of the grid. For one surface on several grids: a band that is on all of them, from the side
-        to something above two cells of the coarsest.
+        default all waves of the grid. For one surface on several grids, choose a band that exists on all of them: from
+        the side to slightly above two cells of the coarsest grid.
     rolloff, long_cutoff, short_cutoff : float, optional
         Limits of the power law [m], see `SelfAffineSpectrum`.
     anisotropy : tuple of float, optional
@@ -67,11 +67,12 @@ def self_affine(
     amplitudes : {"exact", "gaussian"}
         The spectrum exactly, or on the average over a Gaussian process.
     nodal : bool
-        The thesis' grids of n + 1 nodes: the surface is made with period ``n * spacing`` and its first row
+        Grids of n + 1 nodes as in the thesis: the surface is generated with period ``n * spacing`` and its first row
         and column are repeated at the end. For free grids only.
     slabs : Slabs, optional
-        Processes that make the surface together, each its rows, with the same seed or generators in the same state; on
-        periodic grids. Its waves are the same on any number of processes. With None the first process draws for all.
+        Processes that generate the surface together, each its rows, with the same seed or generators in the same
+        state; on periodic grids. The waves are the same for any number of processes. With None the first process draws
+        for all.
 
     Returns
     -------
@@ -85,16 +86,16 @@ def self_affine(
 
     Notes
     -----
-    Thesis, eqs 2.10 to 2.15; two of them are corrected: in 2.12 the exponent lacks the position, and 2.15 is a sum over
-    wave vectors.
+    Thesis, eqs 2.10 to 2.15, two of which are corrected: in 2.12 the exponent lacks the position, and 2.15 is a sum
+    over wave vectors.
 
-    The phase of a wave (and its modulus if Gaussian) is a function of the key and of its integer wave vector,
-    whole periods along each side, alone: ``generation.random_phases`` defines it. Phases count from
-    the outer corner of the first cell, of a nodal grid from its first node. So the same generator state gives, on n,
-    2n, 3n or n + 1 cells over the same sides, the same waves at the same places up to those that are too fine; nodal
-    grids have their nodes in common. With `rms` alone each grid scales its waves to the same sum: at H = 0 those of
-    512^2 cells are 11 % higher than the same waves among 2048^2; `rms_band` scales them alike. Waves at the Nyquist
-    wavenumber of an even number of cells are left out, since their phases are not free.
+    The phase of a wave (and its modulus if Gaussian) is a function of only the key and the integer wave vector, the
+    numbers of periods along each side: ``generation.random_phases`` defines it. Phases count from the outer corner of
+    the first cell, for a nodal grid from its first node. Therefore the same generator state gives, on n, 2n, 3n or n +
+    1 cells over the same sides, the same waves at the same places except those that are too fine; nodal grids share
+    their nodes. With only `rms` each grid scales its waves to the same sum: at H = 0 the waves on 512^2 cells are 11 %
+    higher than the same waves on 2048^2; with `rms_band` they are equal. Waves at the Nyquist wavenumber of an even
+    number of cells are left out, because their phases are not free.
 
     Examples
     --------
@@ -139,15 +140,15 @@ def synthesise(
         Grid of the surface, ``(ny, nx)``, or of the line, ``(n,)``.
     spectrum : callable or object with a method ``at``
         ``spectrum(q)``: C2D [m^4] of a surface at the wavenumbers ``|q|`` [rad/m], or the two-sided C1D [m^3] of a
-        line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction wrap a
-        function of ``(qy, qx)`` in `DirectionalSpectrum`. It is never asked for q = 0.
+        line, ``<z^2> = int C2D d2q = int C1D dq``. For a spectrum that depends on the direction, wrap a function of
+        ``(qy, qx)`` in `DirectionalSpectrum`. It is never called for q = 0.
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the phases, see `self_affine`.
     rms : float, optional
-        Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
+        Root mean square height [m]; with it the spectrum sets only the shape, without it also the height.
     rms_band : tuple of float, optional
-        Wavelengths [m] of the waves whose rms height is `rms`, see `self_affine`. Without `rms` none is needed: a
-        spectrum that sets the height gives every wave the same amplitude on all grids.
+        Wavelengths [m] of the waves whose rms height is `rms`, see `self_affine`. Not needed without `rms`: a spectrum
+        that sets the height gives every wave the same amplitude on all grids.
     support : {"square", "disc"}
         All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
     amplitudes : {"exact", "gaussian"}
@@ -155,13 +156,13 @@ def synthesise(
     nodal : bool
         Whether the last row and column repeat the first, see `self_affine`.
     slabs : Slabs, optional
-        Processes that make the surface together, see `self_affine`.
+        Processes that generate the surface together, see `self_affine`.
 
     Returns
     -------
     Surface
-        With zero mean (a nodal one over its period). Its moments are `grid_moments` of the spectrum,
-        with exact amplitudes to rounding.
+        With zero mean (a nodal one over its period). Its moments are `grid_moments` of the spectrum, to rounding with
+        exact amplitudes.
 
     Raises
     ------

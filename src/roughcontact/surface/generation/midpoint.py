@@ -30,8 +30,8 @@ def midpoint_line(
 ) -> Surface:
     """Return a fractal line by random midpoint displacement (thesis, section 2.3.1 and fig. 4).
 
-    A straight line between two ends at height 0; the middle of every segment is moved by up to the displacement,
-    which shrinks by the factor 2^-H from each level to the next.
+    It starts with a straight line between two ends at height 0. The middle of every segment is moved by up to the
+    displacement, which shrinks by the factor 2^-H from each level to the next.
 
     Parameters
     ----------
@@ -62,10 +62,10 @@ def midpoint_line(
 
     Notes
     -----
-    The displacements themselves follow the power law exactly, but the increments of the line are not stationary:
+    The displacements follow the power law exactly, but the increments of the line are not stationary:
     second differences over all positions, from a lag of 8 to one of 16 cells in 512, grow with the exponents 0.26,
-    0.50 and 0.79 for H = 0.2, 0.5 and 0.8. The largest features rest on the first few numbers drawn, so
-    samples scatter widely. Use `self_affine` for an exact spectrum.
+    0.50 and 0.79 for H = 0.2, 0.5 and 0.8. The largest features depend on the first few random numbers, so samples
+    scatter widely. Use `self_affine` for an exact spectrum.
 
     Examples
     --------
@@ -118,12 +118,12 @@ def midpoint_surface(
     distribution : {"uniform", "gaussian"}
         Displacements between the limits, or normal ones of the same variance, displacement^2/3.
     half_steps : {"same", "saupe"}
-        Displacement of the edges' middles: that of the centres of the same level (the thesis), or smaller by
-        2^(-H/2), as their neighbours are nearer by 2^(-1/2) (Saupe, in Peitgen and Saupe, The Science of Fractal
+        Displacement of the middles of edges: that of the centres of the same level (the thesis), or smaller by
+        2^(-H/2), because their neighbours are nearer by 2^(-1/2) (Saupe, in Peitgen and Saupe, The Science of Fractal
         Images, 1988, ch. 2).
     borders : {"three", "wrap"}
-        An edge on the border has three neighbours: take their mean, or take the fourth
-        from the other side. Then the surface repeats itself, with the last row and column equal to the first.
+        An edge on the border has three neighbours: use their mean, or use a fourth from the other side. With "wrap"
+        the surface is periodic, and its last row and column equal the first.
 
     Returns
     -------
@@ -138,10 +138,10 @@ def midpoint_surface(
 
     Notes
     -----
-    The displacements follow the power law exactly, but the surface is not stationary and creased along the
-    grid: over all positions second differences along it grow with smaller exponents at the shortest lags, some 0.53
-    (0.56 with "saupe") from a lag of 1 to one of 2 cells at H = 0.8, and 0.75 from 8 to 16. Use
-    `self_affine` for an exact spectrum.
+    The displacements follow the power law exactly, but the surface is not stationary, and it has creases along the
+    grid: over all positions second differences along it grow with smaller exponents at the shortest lags, about 0.53
+    (0.56 with "saupe") from a lag of 1 to one of 2 cells at H = 0.8, and 0.75 from 8 to 16. Use `self_affine` for an
+    exact spectrum.
 
     Examples
     --------
@@ -205,7 +205,7 @@ def _draw(
 
 
 def _levels(grid: Grid, ndim: int) -> int:
-    """Return n of a free grid of 2^n + 1 nodes an axis."""
+    """Return n for a free grid of 2^n + 1 nodes an axis."""
     levels = max(1, round(math.log2(max(2, grid.shape[0] - 1))))
     if grid.shape != (2**levels + 1,) * ndim:
         what = "a line of (2^n + 1,)" if ndim == 1 else "a square of (2^n + 1, 2^n + 1)"
@@ -225,16 +225,16 @@ def _first(
     rms: float | None,
     distribution: str,
 ) -> float:
-    """Return the largest first displacement [m], of any size if the rms height is set afterwards."""
+    """Return the largest first displacement [m], which is arbitrary if the rms height is set afterwards."""
     if not 0 <= hurst <= 1:
         raise about(
-            "hurst", f"must lie between 0 and 1 for midpoints, not {hurst}: self_affine goes from -1 to 3"
+            "hurst", f"must lie between 0 and 1 for midpoints, not {hurst}: self_affine takes -1 to 3"
         )
     if distribution not in ("uniform", "gaussian"):
         raise about("distribution", f"must be 'uniform' or 'gaussian', not {distribution!r}")
     if (displacement is None) == (rms is None):
         raise InputError(
-            "the scale of the heights is not given once",
+            "the scale of the heights must be given exactly once",
             "give either displacement (of the first level) or rms [m]",
             "displacement, rms",
         )

@@ -1,4 +1,4 @@
-"""Heights of random waves, of one process or in slabs: there each process makes some columns of the waves."""
+"""Heights of random waves, in one process or in slabs, where each process generates some columns of the waves."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ from roughcontact.validation import Array, RngLike
 
 __all__ = ["SizedSpectrum", "random_heights"]
 
-BLOCK = 2**15  # waves made at once: a megabyte or two of words and angles
+BLOCK = 2**15  # waves generated at once: a megabyte or two of words and angles
 POWERS = 2**18  # waves whose powers are added at once: some megabytes
 
 
 @dataclass(frozen=True, slots=True)
 class SizedSpectrum:
-    """A spectrum and what sets the height, see ``wave_grid.wave_amplitudes``."""
+    """A spectrum and the scale of the heights, see ``wave_grid.wave_amplitudes``."""
 
     spectrum: Spectrum
     support: Support
@@ -63,12 +63,12 @@ def random_heights(
     grid : Grid
     sized : SizedSpectrum
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
-        In slabs the same seed or state on all processes; of None the first process draws for all.
+        In slabs the same seed or state on all processes; with None the first process draws for all.
     amplitudes : {"exact", "gaussian"}
     nodal : bool
         Whether the last row and column repeat the first.
     slabs : Slabs, optional
-        Processes that make the heights together.
+        Processes that generate the heights together.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def _heights(grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitu
 def _waves(
     keys: Keys, amplitude: Array, shape: tuple[int, ...], amplitudes: Amplitudes, nodal: bool
 ) -> npt.NDArray[np.complex128]:
-    """Return the waves about the first point, row by row: its place is the origin (nodal) or half a cell from it."""
+    """Return the waves about the first point, row by row; it lies at the origin (nodal) or half a cell from it."""
     *rows, columns = wave_integers(shape)
     ky = rows[0] if rows else np.zeros(1, dtype=np.int64)
     along, *across = reversed(cell_centres(shape))
@@ -125,7 +125,7 @@ def _heights_in_slabs(
     if grid.ndim != 2 or not all(grid.periodic):
         raise InputError(
             "a surface in slabs must be periodic along both axes",
-            "make the grid with periodic=True, or make it in one process",
+            "make the grid with periodic=True, or generate the surface in one process",
         )
     keys = _keys(rng, slabs)
     shape, factor = grid.shape, _scale(grid, sized, slabs)
@@ -152,7 +152,7 @@ def _keys(rng: RngLike, slabs: Slabs) -> Keys:
     if not all(unseeded for _, unseeded in drawn) and len({keys.tobytes() for keys, _ in drawn}) > 1:
         raise InputError(
             "the processes drew different phases",
-            "give each the same seed, as rng=1, or a generator in the same state",
+            "give each the same seed, such as rng=1, or a generator in the same state",
         )
     first: Keys = drawn[0][0]
     return first
@@ -167,7 +167,7 @@ def _scale(grid: Grid, sized: SizedSpectrum, slabs: Slabs) -> float:
         part = (slice(start, min(start + step, mine.stop)), ALL[1])
         powers = wave_powers(sized.spectrum, shape, grid.spacing, sized.support, part)
         counted = counted_powers(powers, shape, grid.spacing, sized.rms_band, part)
-        # Row by row, and rounded once in all: whoever holds which rows makes no difference.
+        # Row by row, and rounded only once: the distribution of the rows over the processes makes no difference.
         sums += [
             (float(row.sum()), float(all_of_row.sum()))
             for row, all_of_row in zip(counted, powers, strict=True)

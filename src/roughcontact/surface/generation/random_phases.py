@@ -1,7 +1,7 @@
-"""Random waves of unit power, each a function of a key and its wave vector alone.
+"""Random waves of unit power, each a function of only a key and its wave vector.
 
-So the waves of n cells are those of 2n, 3n and n + 1 cells without the finest, and any part of them can be made
-anywhere. Random numbers come from a counter-based generator (Philox4x64-10, Salmon et al. 2011, Parallel random
+Therefore the waves of n cells are those of 2n, 3n and n + 1 cells without the finest, and any process can compute any
+part of them. Random numbers come from a counter-based generator (Philox4x64-10, Salmon et al. 2011, Parallel random
 numbers: as easy as 1, 2, 3), which turns a key and a counter into four words of 64 bits.
 
 The wave with the integers ``(ky, kx)``, kx >= 0, has the wave vector ``2 pi (ky/Ly, kx/Lx)``; those of a line have
@@ -35,14 +35,14 @@ _UNIT = 2.0**-53
 
 
 def draw_keys(rng: RngLike, count: int = 1) -> Keys:
-    """Return keys of 128 bits; a generator moves on by two words a key whatever is made of them.
+    """Return keys of 128 bits; a generator advances by two words a key.
 
     Parameters
     ----------
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of the keys.
     count : int
-        How many.
+        Number of keys.
 
     Returns
     -------
@@ -61,12 +61,12 @@ def draw_keys(rng: RngLike, count: int = 1) -> Keys:
     >>> draw_keys(np.random.default_rng(1), 3).shape
     (3, 2)
     """
-    # All values of a word: NumPy takes it as it is drawn and rejects none.
+    # All values of a word are allowed: NumPy uses each drawn word and rejects none.
     return as_generator(rng).integers(0, 2**64 - 1, (count, 2), dtype=np.uint64, endpoint=True)
 
 
 def require_amplitudes(amplitudes: str) -> None:
-    """Refuse what is no kind of amplitudes."""
+    """Refuse an unknown kind of amplitudes."""
     if amplitudes not in ("exact", "gaussian"):
         raise about("amplitudes", f"must be 'exact' or 'gaussian', not {amplitudes!r}")
 
@@ -81,7 +81,7 @@ def unit_waves(keys: Keys, ky: npt.ArrayLike, kx: tuple[int, int], amplitudes: A
     ky : array_like of int, shape (rows,) or ()
         Signed integers of the waves along y, in any order; 0 for lines.
     kx : tuple of int
-        First of the integers along x, not negative, and the one behind the last.
+        First of the integers along x, not negative, and the one after the last.
     amplitudes : {"exact", "gaussian"}
         "exact": all of modulus 1. "gaussian": complex normal numbers with unit mean square, of the same phases.
 
@@ -89,7 +89,7 @@ def unit_waves(keys: Keys, ky: npt.ArrayLike, kx: tuple[int, int], amplitudes: A
     -------
     complex array, shape (rows, columns)
         Heights at the place x from the origin are the sum of ``B Re(wave exp(i q x))`` over all wave vectors. The wave
-        (0, 0) is no wave: whoever adds up has no use for it.
+        (0, 0) is a constant: callers ignore it.
 
     Examples
     --------
@@ -107,8 +107,8 @@ def unit_waves(keys: Keys, ky: npt.ArrayLike, kx: tuple[int, int], amplitudes: A
     words = _words(keys, numbers, first, end)
     back = (numbers < 0) & (first == 0 < end)
     words[back, :1] = _words(keys[back], -numbers[back], 0, 1)
-    # Cosine and sine by the tangent t of half the angle, several times faster in NumPy: 2/(1 + t^2) - 1 and
-    # 2t/(1 + t^2). Less pi, since the poles are at the ends then; so both change sign.
+    # Cosine and sine from the tangent t of half the angle, several times faster in NumPy: 2/(1 + t^2) - 1 and
+    # 2t/(1 + t^2). Pi is subtracted to move the poles to the ends, which changes both signs.
     tangent = (words[..., 0] >> _UNUSED) * (math.pi * _UNIT)
     tangent -= math.pi / 2
     np.tan(tangent, out=tangent)
@@ -133,7 +133,7 @@ def _words(keys: Keys, ky: npt.NDArray[np.int64], first: int, end: int) -> Words
     philox = np.random.Philox(0)
     state = philox.state
     counter = state["state"]["counter"] = np.zeros(4, np.uint64)
-    counter[0] = start  # NumPy counts before it draws
+    counter[0] = start  # NumPy increments the counter before it draws
     for row, (key, number) in enumerate(zip(keys, ky.view(np.uint64), strict=True)):
         counter[1], state["state"]["key"] = number, key
         philox.state = state

@@ -1,11 +1,11 @@
 """Smooth shapes and flat punches as surfaces.
 
-The apex has height 0 and is the highest point; all else lies below. ``NaN`` marks cells where the body is absent:
+The apex has height 0 and is the highest point. ``NaN`` marks cells where the body is absent:
 beyond a sphere's equator and around a flat punch. They never touch. Coordinates are those of the grid: the centre
 of cell i lies at ``(i + 1/2) * spacing`` from the first edge, y down the rows. A cell holds
-the height at its centre, so on an even number of cells the default apex, the middle of the grid, lies between
-cells and the highest cell a little below 0. Along a periodic axis distances are those to the nearest
-image of the centre. On a grid of one axis a shape is its profile.
+the height at its centre, so on an even number of cells the default apex, the middle of the grid, lies between cells,
+and the highest cell lies slightly below 0. Along a periodic axis distances are those to the nearest image of the
+centre. On a grid of one axis a shape is its profile.
 """
 
 from __future__ import annotations
@@ -233,7 +233,7 @@ def wave(
     wavelength : float
         Wavelength l [m].
     axis : {"x", "y", "both"}
-        Direction along which the height changes. A line has its own only, "x".
+        Direction along which the height changes; on a line only "x".
     centre : tuple of float, optional
         Place ``(y, x)`` of a crest [m] (on a line ``(x,)``); by default the middle of the grid.
 
@@ -273,6 +273,6 @@ def wave(
 
 def _round(squared: Array, radius: float) -> Array:
     """Return sqrt(R^2 - r^2) - R without its cancellation at the apex; NaN beyond R."""
-    square = radius * radius  # infinite where a power would overflow
+    square = radius * radius  # becomes infinite, where a power would raise OverflowError
     inside = np.where(squared <= square * (1 + RIM), np.minimum(squared, square), np.nan)
     return np.asarray(-inside / (radius + np.sqrt(square - inside)))

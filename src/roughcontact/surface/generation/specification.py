@@ -1,4 +1,4 @@
-"""A joint as it is specified: rms height, mean slope, and the numbers that settle its spectrum."""
+"""The specification of a joint: rms height, mean slope, and the numbers that determine its spectrum."""
 
 from __future__ import annotations
 
@@ -17,26 +17,22 @@ from roughcontact.validation import RngLike, exactly_one, numeric, positive, req
 
 __all__ = ["SurfaceSpecification", "specified"]
 
-SLOPE_ERROR = (
-    0.02  # of a surface: the waves of a grid are no integral, and those at the short cut-off come in steps
-)
-WIDEST = math.log(1e6)  # ratio of roll-off and short cut-off, up to which it is searched for
-# Each fixes one of the two lengths of a spectrum of known rms height and Hurst exponent.
+SLOPE_ERROR = 0.02  # of a surface: waves of a grid are a sum, with steps at the short cut-off
+WIDEST = math.log(1e6)  # largest ratio of roll-off and short cut-off in the search
+# Each fixes one of the two lengths of a spectrum with known rms height and Hurst exponent.
 LENGTHS = ("slope", "rolloff", "correlation_length", "short_cutoff", "nayak")
 NODES = 8193  # of the autocorrelation, even in the logarithm
-FIRST_ZERO = (
-    3.8317  # of J1: there the autocorrelation of a flat disc is 0, and that of any other spectrum is lower
-)
+FIRST_ZERO = 3.8317  # zero of J1: there the autocorrelation of a flat disc is 0, that of other spectra lower
 _UNITS = {"sigma": " m", "rolloff": " m", "correlation_length": " m", "short_cutoff": " m"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SurfaceSpecification:
-    """Rms height and mean slope of a joint, both faces together, and what else is known of its roughness.
+    """Rms height and mean slope of a joint, both faces together, and further numbers of its roughness.
 
-    It has the profile moments of an isotropic Gaussian surface, so that theories take it in place of a surface's
-    moments. A moment, or the spectrum, that the given numbers leave open raises an error which names what is missing.
-    Make one by `roughcontact.specified`.
+    It has the profile moments of an isotropic Gaussian surface, and theories accept it in place of the moments of a
+    surface. A moment, or the spectrum, that the given numbers do not determine raises an error that names what is
+    missing. Create it by `roughcontact.specified`.
 
     Parameters
     ----------
@@ -54,8 +50,8 @@ class SurfaceSpecification:
     Raises
     ------
     ValueError
-        If a number is out of range, a length is given without `hurst`, or the numbers say more than the spectrum has
-        unknowns.
+        If a number is out of range, a length is given without `hurst`, or there are more numbers than unknowns of the
+        spectrum.
 
     Examples
     --------
@@ -101,14 +97,14 @@ class SurfaceSpecification:
         if self.hurst is None and (alone := [name for name in given if name not in ("slope", "nayak")]):
             raise InputError(
                 f"`{alone[0]}` is a length of a self-affine spectrum, whose exponent is not given",
-                "give `hurst` too",
+                "also give `hurst`",
                 "hurst",
             )
         if len(given) > 2:
             names = ", ".join(f"`{name}`" for name in given)
             raise InputError(
                 f"{names} are {len(given)} numbers for the two lengths of the spectrum",
-                "leave out one of them",
+                "omit one of them",
                 ", ".join(given),
             )
 
@@ -119,7 +115,7 @@ class SurfaceSpecification:
 
     @property
     def m2(self) -> float:
-        """Mean square slope of a profile [-]: ``pi m^2/2`` of Gaussian slopes, else that of the spectrum."""
+        """Mean square slope of a profile [-]: ``pi m^2/2`` for Gaussian slopes, otherwise that of the spectrum."""
         return self._spectrum("slope").moments().m2 if self.slope is None else math.pi / 2 * self.slope**2
 
     @property
@@ -131,7 +127,7 @@ class SurfaceSpecification:
 
     @property
     def has_spectrum(self) -> bool:
-        """Whether the given numbers settle the spectrum."""
+        """Whether the given numbers determine the spectrum."""
         return self.hurst is not None and len(self._given) == 2
 
     @property
@@ -141,7 +137,7 @@ class SurfaceSpecification:
         Raises
         ------
         ValueError
-            If the given numbers leave it open, or no such spectrum has them.
+            If the given numbers do not determine it, or no such spectrum has them.
         """
         return self._spectrum()
 
@@ -151,7 +147,7 @@ class SurfaceSpecification:
         Parameters
         ----------
         grid : Grid
-            Of two axes. A side holds several roll-offs, and the shortest wave several cells.
+            Of two axes. A side must hold several roll-offs, and the shortest wave several cells.
         rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
             Source of the phases, see `roughcontact.self_affine`.
 
@@ -163,7 +159,7 @@ class SurfaceSpecification:
         Raises
         ------
         ValueError
-            If the spectrum is left open, or the waves of the grid do not have its slope.
+            If the spectrum is not determined, or the waves of the grid do not have its slope.
 
         Examples
         --------
@@ -175,7 +171,7 @@ class SurfaceSpecification:
         """
         if grid.ndim != 2:
             raise InputError(
-                "a specification is that of a surface, not of a line", "give a grid of two axes", "grid"
+                "a specification describes a surface, not a line", "give a grid of two axes", "grid"
             )
         law = self.spectrum
         longest, shortest = 2 * math.pi / law.q_rolloff, 2 * math.pi / law.q_max
@@ -192,7 +188,7 @@ class SurfaceSpecification:
             raise InputError(
                 f"the waves of this grid have {made:.3g} times the slope that was specified: a side holds "
                 f"{min(grid.lengths) / longest:.2g} roll-offs of {longest:.3g} m",
-                f"make each side at least {8 * longest:.3g} m long, eight roll-offs, with cells as they are",
+                f"make each side at least {8 * longest:.3g} m long, eight roll-offs, with the same cells",
             )
         surface = self_affine(grid, law.hurst, self.sigma, rng, rolloff=longest, short_cutoff=shortest)
         stated = self._words("sigma", "hurst", *self._given).replace("`", "")
@@ -206,7 +202,7 @@ class SurfaceSpecification:
         return tuple(name for name in LENGTHS if getattr(self, name) is not None)
 
     def _spectrum(self, instead: str = "") -> SelfAffineSpectrum:
-        """Return the spectrum; an error about what is open names what may be given `instead` of it."""
+        """Return the spectrum; the error about missing numbers names what can be given `instead` of it."""
         if self.hurst is None or not self.has_spectrum:
             raise self._open(instead)
         hurst, (first, last) = self.hurst, self._given
@@ -230,7 +226,7 @@ class SurfaceSpecification:
         return law.scaled(self.sigma)
 
     def _of_width(self, hurst: float, first: str, width: float) -> dict[str, float]:
-        """Return lengths and Nayak's parameter of the spectrum of a given first number.
+        """Return lengths and Nayak's parameter of the spectrum for the first given number.
 
         Its `width` is the logarithm of roll-off over short cut-off.
         """
@@ -252,7 +248,7 @@ class SurfaceSpecification:
         }
 
     def _open(self, instead: str) -> InputError:
-        """Return the error that names what the given numbers leave open."""
+        """Return the error that names the missing numbers."""
         given = self._given
         known = ["sigma", *(["hurst"] if self.hurst is not None else []), *given]
         long_end = {"rolloff", "correlation_length"}
@@ -266,7 +262,7 @@ class SurfaceSpecification:
             missing.append(f"{('two', 'one')[len(given)]} of {', '.join(f'`{name}`' for name in left)}")
         or_else = f"`{instead}`, or " if instead else ""
         return InputError(
-            f"{', '.join(known[:-1])} and {known[-1]} leave the bandwidth of the roughness open",
+            f"{', '.join(known[:-1])} and {known[-1]} do not determine the bandwidth of the roughness",
             f"give {or_else}{' and '.join(missing)}",
             instead or ("hurst" if self.hurst is None else ", ".join(left)),
         )
@@ -289,7 +285,7 @@ def specified(
     correlation_length: float | None = None,
     short_cutoff: float | None = None,
 ) -> SurfaceSpecification:
-    """Return a joint known by the numbers of a specification: heights and slope, and what settles its spectrum.
+    """Return a joint from the numbers of a specification: heights, slope, and numbers that determine its spectrum.
 
     Heights and slope are those of both faces together, or a pair of numbers, one of each face, which are combined:
     ``sigma^2 = sigma1^2 + sigma2^2``, ``m^2 = m1^2 + m2^2``.
@@ -299,18 +295,18 @@ def specified(
     sigma : float or pair of floats, optional
         Root mean square height [m].
     ra : float or pair of floats, optional
-        Mean absolute height Ra [m] instead: of Gaussian heights sigma is ``sqrt(pi/2) Ra``.
+        Mean absolute height Ra [m] instead: for Gaussian heights sigma is ``sqrt(pi/2) Ra``.
     rz : float or pair of floats, optional
         Rz of a drawing [m] instead, a height of peaks and valleys. It needs `rz_over_ra`.
     rz_over_ra : float, optional
-        Ratio of Rz and Ra of faces that were made alike, as measured.
+        Measured ratio of Rz and Ra of faces made in the same way.
     slope : float or pair of floats, optional
-        Mean absolute slope m of a profile [-]. Of Gaussian slopes it is ``sqrt(2/pi)`` times the rms slope of a
+        Mean absolute slope m of a profile [-]. For Gaussian slopes it is ``sqrt(2/pi)`` times the rms slope of a
         profile (Rdq), and ``1/sqrt(pi)`` times that of the surface (Sdq).
     hurst : float, optional
-        Hurst exponent, from 0 to 1. With two of the following numbers, `slope` among them, it settles the spectrum.
+        Hurst exponent, from 0 to 1. With two of `slope` and the following numbers, it determines the spectrum.
     nayak : float, optional
-        Nayak's parameter ``m0 m4/m2^2`` [-], the bandwidth. With `slope` it settles the moments without `hurst`.
+        Nayak's parameter ``m0 m4/m2^2`` [-], the bandwidth. With `slope` it determines the moments without `hurst`.
     rolloff : float, optional
         Roll-off wavelength [m]: the spectrum of longer waves is constant.
     correlation_length : float, optional
@@ -340,15 +336,15 @@ def specified(
     """
     name, height = exactly_one(sigma=sigma, ra=ra, rz=rz)
     if (rz is None) != (rz_over_ra is None):
-        message = "`rz` is a height of peaks and valleys, which states no rms height by itself"
+        message = "`rz` is a height of peaks and valleys, which does not determine the rms height"
         remedy = "give `rz_over_ra`, as measured on such faces, or `ra` or `sigma` in place of `rz`"
         if rz is None:
-            message, remedy = "`rz_over_ra` belongs to `rz`, which is not given", "leave it out"
+            message, remedy = "`rz_over_ra` belongs to `rz`, which is not given", "omit it"
         raise InputError(message, remedy, "rz_over_ra")
     if slope is not None and np.ndim(slope) != np.ndim(height):
         raise InputError(
-            f"one of `{name}` and `slope` is a pair, of one face and the other, and one is a single number",
-            "give both as pairs, or both of the two faces together",
+            f"one of `{name}` and `slope` is a pair, one number for each face, and the other is a single number",
+            "give both as pairs, or both as single numbers for the two faces together",
             f"{name}, slope",
         )
     factor = 1.0 if name == "sigma" else math.sqrt(math.pi / 2) / (1.0 if rz_over_ra is None else rz_over_ra)
@@ -367,7 +363,7 @@ def _together(values: float | tuple[float, float], name: str) -> float:
     """Return the number of both faces together."""
     given = np.atleast_1d(positive(values, f"`{name}`"))
     require(
-        given.shape in ((1,), (2,)), f"`{name}` is one number or two", "give one of each face", place=name
+        given.shape in ((1,), (2,)), f"`{name}` is one number or two", "give one for each face", place=name
     )
     return float(np.hypot.reduce(given))
 

@@ -22,14 +22,14 @@ __all__ = ["DirectionalSpectrum", "SelfAffineSpectrum", "StretchedSpectrum"]
 class SelfAffineSpectrum:
     """C2D(q), a power law q^(-2(H+1)) between its limits (thesis, eqs 2.10, 2.13 and fig. 34).
 
-    Without a scale it is a shape, and the scale of a surface is its rms height; `scaled` gives it one.
+    With the default scale it is only a shape, and a surface is scaled by its rms height; `scaled` sets the scale.
 
     Parameters
     ----------
     hurst : float
         Hurst exponent H, from -1 to 3. Heights are white at -1, on a line at -1/2.
     rolloff : float, optional
-        Longer waves than this [m] have the amplitude of this one (a plateau).
+        Waves longer than this [m] have the amplitude of this one (a plateau).
     long_cutoff : float, optional
         Longer waves than this [m] are absent.
     short_cutoff : float, optional
@@ -100,7 +100,7 @@ class SelfAffineSpectrum:
         bent = np.maximum(q, self.q_rolloff)
         with np.errstate(divide="ignore"):
             shape = np.where(q > 0, self.scale * bent ** (-2 * self.hurst - self.dimension), 0.0)
-        # A wave that sits on a limit belongs to the spectrum, whatever the last digit of its wavelength.
+        # A wave on a limit belongs to the spectrum, despite rounding of its wavelength.
         shape[q < self.q_min * (1 - 1e-9)] = 0
         shape[q > self.q_max * (1 + 1e-9)] = 0
         return shape
@@ -108,7 +108,7 @@ class SelfAffineSpectrum:
     def moments(self) -> Moments:
         """Return the moments of the continuous spectrum, in closed form (thesis, eq. 4.18).
 
-        An integral that diverges for want of a limit is infinite: m0 without `long_cutoff` or
+        An integral that diverges without a limit is infinite: m0 without `long_cutoff` or
         `rolloff` for H >= 0, and m2 without `short_cutoff` for H <= 1, for example.
 
         Returns
@@ -123,24 +123,24 @@ class SelfAffineSpectrum:
         >>> f"m0 = {moments.m0:.3g} m^2, m2 = {moments.m2:.3g}, m4 = {moments.m4:.3g} m^-2"
         'm0 = 1e-12 m^2, m2 = 0.0419, m4 = 2.46e+11 m^-2'
         """
-        # The angular mean of cos^n times the angle's range, and of a line its two sides.
+        # The angular mean of cos^n times the range of angles; for a line its two sides.
         factors = (2.0, 2.0, 2.0) if self.dimension == 1 else (2 * math.pi, math.pi, 3 * math.pi / 4)
         m0, m2, m4 = (factor * self._integral(n) for n, factor in zip((0, 2, 4), factors, strict=True))
         return Moments(m0, m2, m4, self.dimension)
 
     @numeric(rms="m")
     def scaled(self, rms: float, grid: Grid | None = None, support: Support = "square") -> SelfAffineSpectrum:
-        """Return the spectrum with the scale that belongs to an rms height.
+        """Return the spectrum with the scale for an rms height.
 
         Parameters
         ----------
         rms : float
             Root mean square height [m].
         grid : Grid, optional
-            Of the waves of this grid, as `self_affine` makes them. By default of all waves between the limits;
-            the two differ, since a sum over a few long waves is no integral.
+            The rms height is that of the waves of this grid, as in `self_affine`. By default it is that of all waves
+            between the limits; the two differ, because a sum over a few long waves is not an integral.
         support : {"square", "disc"}
-            Which waves of the grid, see `self_affine`.
+            Waves of the grid, see `self_affine`.
 
         Returns
         -------
@@ -182,10 +182,10 @@ class SelfAffineSpectrum:
 
 @dataclass(frozen=True, slots=True)
 class StretchedSpectrum:
-    """An isotropic spectrum of a surface that was stretched along one direction and shrunk across it.
+    """The spectrum of an isotropic surface that was stretched along one direction and shrunk across it.
 
-    ``C2D(qy, qx) = C(|q'|)`` with ``q'^2 = ratio q_along^2 + q_across^2 / ratio``: the rms height stays as it
-    is, and the ratio of the correlation lengths along and across is `ratio`.
+    ``C2D(qy, qx) = C(|q'|)`` with ``q'^2 = ratio q_along^2 + q_across^2 / ratio``: the rms height is unchanged, and
+    the ratio of the correlation lengths along and across is `ratio`.
 
     Parameters
     ----------
@@ -194,8 +194,8 @@ class StretchedSpectrum:
     ratio : float
         Correlation length along over that across, positive.
     angle : float
-        Direction along which the structures are long, from the x axis towards the y axis [rad]. As y
-        runs down the rows, positive angles turn clockwise in the picture.
+        Direction along which the structures are long, from the x axis towards the y axis [rad]. Because y runs down
+        the rows, positive angles turn clockwise in the picture.
 
     Raises
     ------
@@ -226,7 +226,7 @@ class StretchedSpectrum:
             raise about("the angle", f"of an anisotropy must be finite [rad], not {self.angle}")
         if getattr(self.spectrum, "dimension", 2) != 2:
             raise InputError(
-                "a line has no direction", "leave out the anisotropy, or make a surface (dimension=2)"
+                "a line has no direction", "omit the anisotropy, or make a surface (dimension=2)"
             )
 
     @numeric(qy="rad/m", qx="rad/m")
@@ -265,8 +265,8 @@ class DirectionalSpectrum:
     Parameters
     ----------
     function : callable
-        ``function(qy, qx)`` returns C2D [m^4] for arrays of components [rad/m] of any shape. The first component
-        is that along y, as everywhere.
+        ``function(qy, qx)`` returns C2D [m^4] for arrays of components [rad/m] of any shape. The first component is
+        that along y.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""The waves of a grid that repeats itself: their wave vectors, and the power that a spectrum gives each.
+"""The waves of a periodic grid: their wave vectors, and the power of each in a spectrum.
 
-Half of the waves stand for all, as in a real transform: shape ``(ny, nx//2 + 1)``, on a line ``(n//2 + 1,)``.
+Half of the waves represent all, as in a real transform: shape ``(ny, nx//2 + 1)``, on a line ``(n//2 + 1,)``.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ __all__ = [
 
 Support: TypeAlias = Literal["square", "disc"]
 Part: TypeAlias = tuple[slice, slice]
-"""Which rows and columns of the waves are meant, as they lie in the half."""
+"""Rows and columns of the stored half of the waves."""
 
 ALL: Part = (slice(None), slice(None))
 
 
 @runtime_checkable
 class PlanarSpectrum(Protocol):
-    """A spectrum that depends on the direction of a wave, not on its length alone."""
+    """A spectrum that depends on the direction of a wave, not only on its length."""
 
     def at(self, qy: Array, qx: Array) -> Array:
         """Return C2D [m^4] at the wave vectors ``(qy, qx)`` [rad/m]; even: the same at ``(-qy, -qx)``."""
@@ -61,9 +61,9 @@ def wave_integers(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.int64], ...]:
 
 
 def cell_centres(shape: tuple[int, ...]) -> tuple[npt.NDArray[np.complex128], ...]:
-    """Return what turns waves about the outer corner of the first cell into those about its centre, an open mesh.
+    """Return the factors that move the origin of waves from the corner of the first cell to its centre, an open mesh.
 
-    Half a cell is ``exp(i pi k/n)`` along each axis. So a point keeps its height whatever the number of cells.
+    Half a cell is ``exp(i pi k/n)`` along each axis: the height at a point does not depend on the number of cells.
     """
     turns = [np.exp(1j * np.pi * k / n) for k, n in zip(wave_integers(shape), shape, strict=True)]
     return tuple(np.meshgrid(*turns, indexing="ij", sparse=True))
@@ -86,7 +86,7 @@ def wavenumbers(shape: tuple[int, ...], spacing: tuple[float, ...], part: Part =
 
 
 def multiplicity(shape: tuple[int, ...]) -> Array:
-    """Return how many waves each column of the half stands for: 2, but 1 where q and -q share a column."""
+    """Return the number of waves that each column of the half represents: 2, or 1 if q and -q share a column."""
     count = np.full(shape[-1] // 2 + 1, 2.0)
     count[0] = 1
     if shape[-1] % 2 == 0:
@@ -112,7 +112,7 @@ def wave_powers(
     support : {"square", "disc"}
         All waves of the grid, or those with a wavenumber up to the smaller Nyquist wavenumber.
     part : tuple of slice
-        Of the waves, whose powers are those among all.
+        Part of the waves; their powers are the same as in the whole.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def wave_powers(
     Raises
     ------
     ValueError
-        If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave at all.
+        If the spectrum belongs to another number of axes, is negative or not finite, or leaves no wave.
     """
     if support not in ("square", "disc"):
         raise about("support", f"must be 'square' or 'disc', not {support!r}")
@@ -138,7 +138,7 @@ def wave_powers(
     if density.shape != lengths.shape:
         raise about("the spectrum", f"returned shape {density.shape} for waves of shape {lengths.shape}")
     if not (np.isfinite(density).all() and (density >= 0).all()):
-        raise about("the spectrum", "must be finite and not negative at every wave of the grid but q = 0")
+        raise about("the spectrum", "must be finite and not negative at every wave of the grid except q = 0")
     # B^2 = (2 pi)^ndim / area * C
     powers = density * math.prod(2 * math.pi / (n * d) for n, d in zip(shape, spacing, strict=True))
     *others, last = shape
@@ -155,7 +155,7 @@ def wave_powers(
 
 
 def no_wave() -> ValueError:
-    """Return the error of a spectrum that leaves a grid without a wave."""
+    """Return the error about a spectrum without any wave on the grid."""
     return InputError(
         "no wave of this grid lies inside the limits of the spectrum",
         "widen the limits, or take a grid with waves between them",
@@ -178,7 +178,7 @@ def wave_amplitudes(
     spectrum, shape, spacing, support
         See `wave_powers`.
     rms : float, optional
-        Root mean square height [m]; without it the spectrum sets the height, with it the shape alone.
+        Root mean square height [m]; with it the spectrum sets only the shape, without it also the height.
     rms_band : tuple of float, optional
         ``(longest, shortest)``: wavelengths [m] of the waves whose rms height is `rms`, both limits included. By
         default all waves of the grid.
@@ -204,9 +204,9 @@ def wave_amplitudes(
 
 
 def require_no_band(rms_band: tuple[float, float] | None) -> None:
-    """Refuse a band of waves whose rms height is not said."""
+    """Refuse a band of waves without an rms height."""
     if rms_band is not None:
-        raise about("rms_band", "says which waves have the rms height rms", "give rms, too")
+        raise about("rms_band", "selects the waves whose rms height is rms", "also give rms")
 
 
 def counted_powers(
@@ -216,7 +216,7 @@ def counted_powers(
     rms_band: tuple[float, float] | None,
     part: Part = ALL,
 ) -> Array:
-    """Return what each wave of a part adds to the mean square height that `rms` is about [m^2]."""
+    """Return the contribution of each wave of a part to the mean square height that `rms` determines [m^2]."""
     counted = powers * multiplicity(shape)[part[1]] if len(shape) == 2 else powers * multiplicity(shape)
     if rms_band is not None:
         counted *= _inside(rms_band, shape, spacing, part)
@@ -237,7 +237,7 @@ def scale_of(rms: float, total: float, rms_band: tuple[float, float] | None) -> 
 def _inside(
     band: tuple[float, float], shape: tuple[int, ...], spacing: tuple[float, ...], part: Part
 ) -> npt.NDArray[np.bool_]:
-    """Return which waves are in a band of wavelengths; the grid must have all of the band, or its rms is another."""
+    """Return the mask of waves in a band of wavelengths; the grid must hold the whole band, or its rms would differ."""
     what = "rms_band, the longest and the shortest wavelength [m],"
     longest, shortest = (positive_scalar(length, what) for length in pair(band, what))
     if shortest > longest:
@@ -256,7 +256,7 @@ def _inside(
 
 
 def _density(spectrum: Spectrum, lengths: Array, vectors: tuple[Array, ...]) -> Array:
-    """Return the spectrum at every wave, at q = 0 that of a neighbour: a power law has no value there."""
+    """Return the spectrum at every wave; q = 0, where a power law has no value, gets that of a neighbour."""
     moving = lengths.size > 0 and lengths.flat[0] == 0
     if not isinstance(spectrum, PlanarSpectrum):
         moved = lengths.copy()

@@ -17,7 +17,7 @@ from roughcontact.validation import Array, numeric, require
 
 __all__ = ["ArealParameters", "areal_parameters", "gradient_and_area"]
 
-_HALVINGS = 30  # of half a cell: to a billionth of it
+_HALVINGS = 30  # bisections of half a cell: to a billionth of it
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +44,8 @@ class ArealParameters:
         Autocorrelation length [m], 4.3.2: the shortest distance over which the autocorrelation falls to 0.2.
         Infinite if it does not within half the length of the surface.
     Str : float
-        Texture aspect ratio [-], 4.3.3: Sal over the longest such distance. NaN where that distance exceeds half the
-        length of the surface: the aspect ratio is small then, and no more is known of it.
+        Texture aspect ratio [-], 4.3.3: Sal over the longest such distance. NaN if that distance exceeds half the
+        length of the surface: then only an upper bound of the ratio is known.
     Sdq : float
         Root mean square gradient [-], 4.4.2.
     Sdr : float
@@ -71,11 +71,11 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
     """Return the field parameters of ISO 25178-2:2021, clauses 4.2 to 4.4.
 
     Heights count above their mean, over all measured points of the map as one evaluation area: there are no sections as
-    in a profile (`profile_parameters`). No filter is applied and no form is removed except the mean. The standard wants
-    a scale-limited surface: remove tilt or form (the F-operation: `Surface.levelled`, `Surface.without_form`), then
-    filter by the Gaussian of ISO 16610-61 (`Surface.filtered`: ``short_cutoff`` is the nesting index of the S-filter,
-    ``long_cutoff`` that of the L-filter; ISO 25178-3 takes the latter as the side of the evaluation area). Missing
-    points are left out, as are pairs and triangles that hold one.
+    in a profile (`profile_parameters`). No filter is applied and no form is removed except the mean. The standard
+    requires a scale-limited surface: remove tilt or form (the F-operation: `Surface.levelled`,
+    `Surface.without_form`), then filter by the Gaussian of ISO 16610-61 (`Surface.filtered`: ``short_cutoff`` is the
+    nesting index of the S-filter, ``long_cutoff`` that of the L-filter; ISO 25178-3 takes the latter as the side of
+    the evaluation area). Missing points are left out, as are pairs and triangles that hold one.
 
     Parameters
     ----------
@@ -135,9 +135,9 @@ def areal_parameters(surface: Surface, *, decay: float = 0.2) -> ArealParameters
 def gradient_and_area(surface: Surface) -> tuple[float, float]:
     """Return the root mean square gradient and the relative excess of area of the surface through its points.
 
-    Sdq and Sdr (ISO 25178-2:2021, 4.4.2 and 4.4.3). Between four points the surface is cut into triangles along both
-    diagonals, and the two ways averaged. Triangles with a missing corner are left out. Along a periodic axis the last
-    points are joined to the first.
+    Sdq and Sdr (ISO 25178-2:2021, 4.4.2 and 4.4.3). Between four points the surface is cut into triangles along each
+    of the two diagonals, and the results are averaged. Triangles with a missing corner are left out. Along a periodic
+    axis the last points are joined to the first.
 
     Raises
     ------
@@ -166,9 +166,9 @@ def decay_lengths(surface: Surface, level: float) -> tuple[float, float]:
     """Return the shortest and the longest distance over which the autocorrelation falls to `level` of its maximum [m].
 
     Sal and the length that Str compares it with (ISO 25178-2:2021, 4.3.2 and 4.3.3).
-    Looked for along rays at every degree, where the autocorrelation first falls to the level; a cubic spline goes
-    through the lags. The longest is infinite if along some ray the level is not reached within half the length of the
-    surface.
+    The search goes along rays at every degree to the first place where the autocorrelation falls to the level, on a
+    cubic spline through the lags. The longest is infinite if along some ray the level is not reached within half the
+    length of the surface.
     """
     lags = autocorrelation(surface)
     middle = [axis.size // 2 for axis in lags.lags]
@@ -179,18 +179,18 @@ def decay_lengths(surface: Surface, level: float) -> tuple[float, float]:
     def values(radius: Array, angle: Array | float) -> Array:
         rows = middle[0] + radius * np.sin(angle) / steps[0]
         columns = middle[1] + radius * np.cos(angle) / steps[1]
-        # Beyond the largest lags nothing is known.
+        # Beyond the largest lags the autocorrelation is unknown.
         known = (rows <= share.shape[0] - 1) & (columns <= share.shape[1] - 1) & (columns >= 0)
         found = map_coordinates(smooth, [rows, columns], order=3, prefilter=False, mode="mirror")
         return np.where(known, found, np.nan)
 
     reach = math.hypot(*(axis[-1] for axis in lags.lags))
     radius = np.arange(0.0, reach + min(steps), min(steps) / 2)
-    angles = np.radians(np.arange(0, 180))  # the other half is the same
+    angles = np.radians(np.arange(0, 180))  # the other half is equal by symmetry
     first = [int(np.argmax(values(radius, angle) <= level)) for angle in angles]
     if not any(first):
         return math.inf, math.inf
-    # Zero lag is above the level: a first place of 0 says that the level is not reached.
+    # Zero lag is above the level: a first place of 0 means that the level is not reached.
     falls = np.array([place > 0 for place in first])
     outer = radius[np.array(first)[falls]]
     inner = outer - min(steps) / 2

@@ -20,9 +20,9 @@ CENTRAL = 0.4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MaterialRatio:
-    """The material ratio (Abbott-Firestone) curve: which share of the points lies above a height.
+    """The material ratio (Abbott-Firestone) curve: the share of the points above a height.
 
-    ISO 25178-2:2021, 4.5.1; of profiles ISO 21920-2:2021, 4.5.1. Straight between the sorted points, the i-th highest
+    ISO 25178-2:2021, 4.5.1; for profiles ISO 21920-2:2021, 4.5.1. Straight between the sorted points, the i-th highest
     of n at the ratio (i - 1/2)/n, and level beyond the first and the last.
 
     Attributes
@@ -92,7 +92,7 @@ class MaterialRatio:
 class StratifiedParameters:
     """The parameters of stratified surfaces and volumes (clauses of ISO 25178-2:2021).
 
-    Of profiles they are those of ISO 21920-2:2021, 4.5.3 (Rk, Rpk, Rvk, ...) and 4.5.5.
+    For profiles they are those of ISO 21920-2:2021, 4.5.3 (Rk, Rpk, Rvk, ...) and 4.5.5.
 
     Attributes
     ----------
@@ -156,18 +156,18 @@ def stratified_parameters(
 ) -> StratifiedParameters:
     """Return the Sk family of a surface, or the Rk family of a line.
 
-    ISO 25178-2:2021, 4.5.4, 4.5.6 and 4.5.7; of profiles ISO 21920-2:2021, 4.5.3 and 4.5.5. The construction is that
+    ISO 25178-2:2021, 4.5.4, 4.5.6 and 4.5.7; for profiles ISO 21920-2:2021, 4.5.3 and 4.5.5. The construction is that
     of ISO 13565-2: the central region is the 40 % of the curve over which it falls least, the first of several, and
-    the equivalent straight line its least-squares line there. The region begins at one of the points, so that
-    of some hundred points Sk is known to a percent. Heights are taken as they are: a surface with outliers wants them
-    removed first. Missing points are ignored.
+    the equivalent straight line its least-squares line there. The region begins at one of the points, which limits the
+    accuracy of Sk to about a percent with some hundred points. Outliers are not removed: remove them first. Missing
+    points are ignored.
 
     Parameters
     ----------
     surface : Surface
-        Filtered as the standard asks, above its mean.
+        Filtered as the standard requires; heights count above the mean.
     peak_ratio, dale_ratio : float
-        Material ratios that part peaks from core and core from dales, for the volumes.
+        Material ratios that separate peaks from core and core from dales, for the volumes.
 
     Returns
     -------

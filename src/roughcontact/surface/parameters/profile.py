@@ -48,7 +48,7 @@ class ProfileParameters:
     section_length : float
         Length of a section [m].
     evaluation_length : float
-        Length of all sections together [m]; what is left at the end of the profile is not looked at.
+        Length of all sections together [m]; the rest at the end of the profile is ignored.
     """
 
     Ra: float
@@ -75,17 +75,18 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
     are those of the whole evaluation length, over all its points; Rp, Rv and Rz are means over its sections. See the
     notes for the filters, and for ISO 4287.
 
-    A peak is the highest point of a hill, between two crossings of the mean line, and belongs to the section that it
-    lies in; a pit likewise the lowest of a dale. A section without a peak or pit counts with zero. ISO 4287 looked at
-    the highest and lowest point of each section instead, be it on the flank of a hill that culminates beyond.
+    A peak is the highest point of a hill, between two crossings of the mean line, and belongs to the section in which
+    it lies; a pit is likewise the lowest point of a dale. A section without a peak or pit counts with zero. ISO 4287
+    used the highest and lowest point of each section instead, even on the flank of a hill whose peak lies in another
+    section.
 
     Parameters
     ----------
     line : Surface
         On a grid of one axis, without missing points.
     section_length : float, optional
-        Length of a section [m], rounded to whole cells. By default a fifth of the profile, since five sections
-        are the standard's default.
+        Length of a section [m], rounded to whole cells. By default a fifth of the profile, because five sections are
+        the default of the standard.
 
     Returns
     -------
@@ -100,16 +101,16 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
 
     Notes
     -----
-    For R-parameters take the tilt or form out, then filter by the Gaussian of ISO 16610-21 between the nesting indices
-    lambda_s and lambda_c (of ground surfaces usually 2.5 um and 0.8 mm), and give lambda_c as the section length; the
-    standard's default is five such sections. Half a lambda_c at either end of a profile that does not repeat itself is
-    under the influence of its end: cut it off.
+    For R-parameters remove the tilt or form, then filter by the Gaussian of ISO 16610-21 between the nesting indices
+    lambda_s and lambda_c (for ground surfaces usually 2.5 um and 0.8 mm), and give lambda_c as the section length; the
+    default of the standard is five such sections. Cut off half a lambda_c at either end of a profile that is not
+    periodic, because the filter is affected by the ends.
 
     ISO 4287 (1997) takes Ra and Rq of each sampling length, which is the section, about the common mean line, and ISO
-    4288 the mean over five of them. For Ra that is the same number. The mean of the sections' Rq is at most the Rq
-    here, and less if sections differ: of two sections with the rms heights 1 and 3 um it is 2 um, where Rq is 2.24 um.
-    The areal Sq of ISO 25178-2 has no sections, and other filters (`areal_parameters`): the Rq of a row of a map is not
-    its Sq.
+    4288 the mean over five of them. For Ra the result is the same. The mean of the Rq of the sections is at most the
+    Rq here, and less if sections differ: for two sections with the rms heights 1 and 3 um it is 2 um, where Rq is 2.24
+    um. The areal Sq of ISO 25178-2 has no sections and uses other filters (`areal_parameters`): the Rq of a row of a
+    map is not its Sq.
 
     Examples
     --------
@@ -130,7 +131,7 @@ def profile_parameters(line: Surface, *, section_length: float | None = None) ->
         )
     if line.missing:
         raise InputError(
-            f"{line.missing} points are missing, and sections need all of theirs", "fill them first"
+            f"{line.missing} points are missing, and sections need all their points", "fill them first"
         )
     spacing = grid.spacing[0]
     if section_length is not None and not 0 < section_length < math.inf:
@@ -171,7 +172,7 @@ def _largest(heights: Array, sections: int) -> tuple[Array, Array]:
     starts = np.concatenate([[0], np.flatnonzero(np.diff(above)) + 1])
     size = np.abs(heights)
     extremes = np.maximum.reduceat(size, starts)
-    # Where each hill or dale has its extreme; of several equal ones the first.
+    # Position of the extreme of each hill or dale; the first of several equal ones.
     run = np.repeat(np.arange(starts.size), np.diff(starts, append=heights.size))
     places = np.flatnonzero(size == extremes[run])
     places = places[np.unique(run[places], return_index=True)[1]]

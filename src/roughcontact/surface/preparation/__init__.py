@@ -1,1 +1,1 @@
-"""From a measured surface to one that is analysed or pressed."""
+"""Preparation of a measured surface for analysis or contact."""

@@ -1,4 +1,4 @@
-"""Scan lines that are shifted against each other: each is brought to the median height of all."""
+"""Alignment of scan lines that are shifted against each other, by their medians."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ __all__ = ["aligned"]
 def aligned(surface: Surface, lines: Literal["rows", "columns"] = "rows") -> Surface:
     """Return the surface with the median of each scan line at that of the map, as AFM software aligns rows.
 
-    Each line of a scanning microscope drifts by itself. Long waves across the lines go with the shifts, real ones too:
-    align only what was measured line by line. A streak along part of a line is none of its shift: `despiked` first.
+    Each line of a scanning microscope drifts separately. Real long waves across the lines are also removed with the
+    shifts: align only maps that were measured line by line. A streak along part of a line is not a shift: call
+    `despiked` first.
 
     Parameters
     ----------
@@ -36,7 +37,7 @@ def aligned(surface: Surface, lines: Literal["rows", "columns"] = "rows") -> Sur
     Raises
     ------
     ValueError
-        If there are no such `lines`, or the surface is a profile.
+        If `lines` is neither, or the surface is a profile.
 
     Examples
     --------

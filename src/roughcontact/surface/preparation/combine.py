@@ -1,4 +1,4 @@
-"""Two rough bodies as one, also when their grids differ."""
+"""Combination of two rough bodies into one, also for different grids."""
 
 from __future__ import annotations
 
@@ -33,30 +33,29 @@ def combined(
     grid: Grid | None = None,
     interpolation: Interpolation = "cubic",
 ) -> Surface:
-    """Return the one surface against a flat that stands for two rough bodies: the sum of their heights.
+    """Return the surface that replaces two rough bodies in contact with a flat: the sum of their heights.
 
-    The gap of two rough bodies is a constant less both heights, each positive out of its own body, so that their
-    elastic contact is that of one body with both heights and the reduced modulus.
+    The gap of two rough bodies is a constant less both heights, each positive out of its body. Their elastic contact
+    is therefore that of one body with the sum of the heights and the reduced modulus.
 
     Parameters
     ----------
     lower, upper : Surface
-        Both as measured, each seen from outside, with its first row at the top of the picture. Their middles coincide.
+        Both as measured, seen from outside, with the first row at the top of the picture. Their middles coincide.
     turned_about : {"y", "x", None}
-        Axis about which the upper body is turned over to face the lower one. About y, as a page is turned:
-        its columns are reversed. About x: its rows. None: it is given as seen through its
-        back, in the lower one's coordinates.
+        Axis about which the upper body is turned over to face the lower one. About y, like a page: its columns are
+        reversed. About x: its rows. None: it is given as seen from behind, in the coordinates of the lower body.
     grid : Grid, optional
         Grid of the result, whose middle coincides with theirs. By default that of the surface with the
         smaller cells; of the lower one if they are equal.
     interpolation : {"cubic", "linear"}
         How a surface on another grid is resampled, see `resampled` for its cost. Surfaces on equal grids are added
-        as they are.
+        without interpolation.
 
     Returns
     -------
     Surface
-        Missing where either is missing or has no cells.
+        Missing where either surface is missing or has no cells.
 
     Raises
     ------
@@ -66,8 +65,8 @@ def combined(
     Warns
     -----
     UserWarning
-        If cells of either lie beyond the other or beyond the grid, so that they are lost: how many. The provenance
-        says so, too.
+        If cells of either lie beyond the other or beyond the grid, and are lost; the warning and the provenance state
+        how many.
 
     Examples
     --------
@@ -103,7 +102,7 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     ----------
     surface : Surface
     grid : Grid
-        Along a periodic axis of the same length, elsewhere of any; cells outside the surface are missing.
+        Of the same length along a periodic axis, of any length along others; cells outside the surface are missing.
     interpolation : {"cubic", "linear"}
         Through four neighbouring points along each axis, or two. Where one of them is missing, "cubic" falls back to
         "linear", and where one of two is missing, so is the result.
@@ -121,10 +120,10 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     Notes
     -----
     Error of a wave of amplitude h and wavenumber q along an axis of spacing D, at most ``h (qD)^2/8`` with "linear" and
-    ``3h (qD)^4/128`` with "cubic": 1 % of h needs 23 and 8 points a wave. Waves of fewer points lose most of
-    their height, so that a surface that is rough down to its spacing comes out smoother between its points. Between
-    the outermost points and the edges of their cells the same polynomials are continued. Onto a coarser grid nothing is
-    averaged: waves shorter than twice its spacing appear as longer ones.
+    ``3h (qD)^4/128`` with "cubic": 1 % of h needs 23 and 8 points a wave. Waves of fewer points lose most of their
+    height: a surface that is rough down to its spacing becomes smoother between its points. The same polynomials are
+    used between the outermost points and the edges of their cells. On a coarser grid heights are not averaged: waves
+    shorter than twice its spacing appear as longer ones.
 
     Examples
     --------
@@ -152,7 +151,7 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
 
 
 def _lost(lower: Grid, upper: Grid, target: Grid) -> str:
-    """Return in words how many cells of each body have their centre outside of the other one or of the new grid."""
+    """Return a text with the number of cells of each body whose centre lies outside the other body or the new grid."""
     common = [min(ends) for ends in zip(lower.lengths, upper.lengths, target.lengths, strict=True)]
     found = []
     for name, grid in (("lower", lower), ("upper", upper)):
@@ -221,7 +220,7 @@ def _weights(source: Grid, target: Grid, axis: int, degree: int) -> Any:
     m = target.shape[axis]
     # In cells of the old grid, counted from its first centre; the middles coincide.
     place = (np.arange(m) - (m - 1) / 2) * (target.spacing[axis] / step) + (n - 1) / 2
-    # A point that coincides with an old one takes its height, whatever its neighbours are.
+    # A point that coincides with an old one gets its height, even if its neighbours are missing.
     whole = np.round(place)
     place = np.where(np.abs(place - whole) < _SAME * n, whole, place)
     first = np.floor(place).astype(int) - degree // 2
@@ -238,5 +237,5 @@ def _weights(source: Grid, target: Grid, axis: int, degree: int) -> Any:
     matrix = scipy.sparse.csr_array(
         (values.ravel(), (rows.ravel(), np.mod(columns, n).ravel())), shape=(m, n)
     )
-    matrix.eliminate_zeros()  # zero times a missing height must stay out
+    matrix.eliminate_zeros()  # zero times a missing height must not enter the sum
     return matrix

@@ -14,32 +14,32 @@ from roughcontact.validation import require
 
 __all__ = ["despiked", "without_spikes"]
 
-_PASSES = 20  # what a map of spikes needs; one that needs more is rough all over
+_PASSES = 20  # enough for a map with spikes; a map that needs more is rough everywhere
 
 
 @on_host_only
 def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> Surface:
     """Return the surface without its spikes and streaks, see `find_spikes`.
 
-    They are looked for again in what is left, until none is found.
+    The search is repeated in the remaining cells until no spike is found.
 
     Parameters
     ----------
     surface : Surface
     to : {"missing", "filled"}
-        What becomes of their cells: not measured, so that contact leaves them out; or filled in smoothly from the
-        heights around them, as `filled` does. Points that were missing before stay missing. A cell that still stands
-        out when it is filled, because the heights around it are missing or faulty, is set to missing.
+        Treatment of their cells: set to missing, and ignored in contact; or filled in smoothly from the heights around
+        them, as by `filled`. Points that were missing before stay missing. A cell that still stands out after it is
+        filled, because the heights around it are missing or faulty, is set to missing.
 
     Returns
     -------
     Surface
-        With their number in the provenance, and what is left after 20 passes; the surface itself if it has none.
+        Its provenance states their number, and the number left after 20 passes; the surface itself if it has none.
 
     Raises
     ------
     ValueError
-        If `to` is neither.
+        If `to` is neither of these.
 
     Examples
     --------
@@ -56,9 +56,9 @@ def despiked(surface: Surface, to: Literal["missing", "filled"] = "missing") -> 
 
 
 def without_spikes(surface: Surface, spikes: Spikes, to: Literal["missing", "filled"] = "missing") -> Surface:
-    """Return the surface without the spikes that were found on it, and those that are found in what is left."""
+    """Return the surface without the given spikes, and without those found in the remaining cells."""
     taken = np.zeros(surface.grid.shape, dtype=np.bool_)
-    given_up = taken.copy()  # of the cells that are taken, those that stand out when they are filled
+    given_up = taken.copy()  # of the selected cells, those that stand out after they are filled
     clean = surface
     for _ in range(_PASSES):
         if spikes.count == 0:
@@ -80,9 +80,9 @@ def without_spikes(surface: Surface, spikes: Spikes, to: Literal["missing", "fil
         words += " filled in, harmonic"
     else:
         words += f": {int(taken.sum()) - count} filled in, harmonic, and {count} set to missing, because the heights "
-        words += "around them are missing or faulty too"
+        words += "around them are also missing or faulty"
     if spikes.count:
         words += (
-            f"; {spikes.count} more are left after {_PASSES} passes: the map is rough all over, filter it"
+            f"; {spikes.count} more are left after {_PASSES} passes: the map is rough everywhere, filter it"
         )
     return surface.with_heights(clean.heights, words)

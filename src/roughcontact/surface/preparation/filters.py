@@ -18,7 +18,7 @@ __all__ = ["ALPHA", "filtered", "gaussian_mean", "require_cells"]
 ALPHA = math.sqrt(math.log(2) / math.pi)
 # Beyond this many times alpha * cut-off the weight is below the rounding of the largest one.
 _REACH = math.sqrt(53 * math.log(2) / math.pi)
-# With fewer cells a cut-off wave the sampled weights no longer have the transmission that they should.
+# With fewer cells per cut-off wave the sampled weights do not have the required transmission.
 _CELLS = 4
 
 
@@ -33,10 +33,10 @@ def filtered(
     ----------
     surface : Surface
     short_cutoff : float, optional
-        Wavelength [m] below which waves are taken out (the S-filter; low-pass).
+        Wavelength [m] below which waves are removed (the S-filter; low-pass).
     long_cutoff : float, optional
-        Wavelength [m] above which waves are taken out, the mean with them (the L-filter; high-pass). With both the
-        long waves are taken out of what the S-filter leaves (the S-L surface; band-pass).
+        Wavelength [m] above which waves are removed, including the mean (the L-filter; high-pass). With both, the long
+        waves are removed from the result of the S-filter (the S-L surface; band-pass).
 
     Returns
     -------
@@ -52,8 +52,8 @@ def filtered(
     Notes
     -----
     The Gaussian filter of ISO 16610-61 for areas and ISO 16610-21 for profiles. A wave of length l is transmitted by
-    exp(-pi (alpha c/l)^2) = 2^(-(c/l)^2) by a low-pass of cut-off c, alpha^2 = ln 2 / pi, and by one less this by a
-    high-pass. Along a periodic axis that is exact. Along a free axis the heights within reach are averaged with the
+    exp(-pi (alpha c/l)^2) = 2^(-(c/l)^2) by a low-pass of cut-off c, alpha^2 = ln 2 / pi, and by one minus this by a
+    high-pass. Along a periodic axis this is exact. Along a free axis the heights within reach are averaged with the
     weights exp(-pi (x/(alpha c))^2), divided by their sum: near an edge, about half a cut-off wide, the mean is taken
     over the cells that exist (regression of order 0). Missing points have no weight and stay missing.
 
@@ -105,7 +105,7 @@ def gaussian_mean(
     periodic: tuple[bool, ...],
     cutoffs: tuple[float | None, ...],
 ) -> Array:
-    """Return the Gaussian mean of the measured heights about each of them; NaN stays NaN.
+    """Return the Gaussian mean of the measured heights around each of them; NaN stays NaN.
 
     Parameters
     ----------
@@ -116,10 +116,10 @@ def gaussian_mean(
     periodic : tuple of bool
         Which axes repeat themselves.
     cutoffs : tuple of float or None
-        For each axis the wavelength of which one half is left [m], or None for no mean along it.
+        For each axis the wavelength with transmission one half [m], or None for no mean along it.
     """
     measured = ~np.isnan(heights)
-    # Heights count from their mean, so that those far from zero keep their digits.
+    # Heights count from their mean: heights far from zero keep their digits.
     level = float(heights[measured].mean())
     mean = np.where(measured, heights - level, 0.0)
     whole = bool(measured.all())
@@ -171,7 +171,7 @@ def require_cells(cutoff: float, surface: Surface) -> None:
     Raises
     ------
     ValueError
-        If a wave of this length has too few cells, or is none.
+        If a wave of this length has too few cells, or the cut-off is not positive and finite.
     """
     require(
         math.isfinite(cutoff) and cutoff > 0,

@@ -13,9 +13,9 @@ from roughcontact.validation import Array
 __all__ = ["round_form"]
 
 
-# Points that the fit looks at: five numbers are known well enough from them.
+# Points used in the fit: enough for five numbers.
 _POINTS = 40_000
-_STEP = 1e-6  # of central differences: they err by about 1e-10 of numbers of order one
+_STEP = 1e-6  # of central differences: their error is about 1e-10 for numbers of order one
 
 
 def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[Array, str]:
@@ -57,8 +57,9 @@ def round_form(heights: Array, spacing: tuple[float, ...], kind: str) -> tuple[A
         return model(with_free(values), px, py) - pz
 
     def derivatives(values: Array) -> Array:
-        # All are numbers of order one, and some are zero: the step is the same for each, where older SciPy takes a
-        # share of its value, and finds nothing but rounding for those near zero.
+        # All parameters are of order one, and some are zero: the step is the same for each. Older versions of SciPy
+        # use a
+        # step relative to the value, which gives only rounding for values near zero.
         columns = [misfit(values + step) - misfit(values - step) for step in _STEP * np.eye(values.size)]
         return np.stack(columns, axis=1) / (2 * _STEP)
 
@@ -77,7 +78,7 @@ def _arc(curvature: float, slope: Array, square: Array, steepness: float) -> Arr
     """Return the height over a point of the circle: linear part `slope`, squared distance, from that point."""
     level = 1 / math.sqrt(1 + steepness)  # the vertical part of the normal
     c = curvature / 2 * square + level * slope
-    # Beyond the equator there is no height: a trial that reaches it is held there.
+    # Beyond the equator there is no height: a trial is limited to it.
     return np.asarray(2 * c / (level + np.sqrt(np.maximum(level**2 - 2 * curvature * c, 0))))
 
 

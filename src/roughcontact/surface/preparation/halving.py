@@ -23,10 +23,10 @@ FEWEST = 4  # cells along an axis that can be halved
 def halved(surface: Surface) -> Surface:
     """Return the surface on half as many cells along each axis, over the same sides: the mean height of each new cell.
 
-    Of an odd number of cells the half is rounded down, and the new cells are a little longer than two old ones; a cell
-    that lies in two of them counts in each by its part. Means keep the long waves and where they are: of a wave of
-    length l along an axis cos(pi d/l) is left, d the old cell. A new cell of which less than half was measured is
-    missing. With even numbers of cells this is `Surface.averaged` by 2.
+    Half of an odd number of cells is rounded down, and the new cells are slightly longer than two old ones; an old
+    cell in two new cells counts in each by its part. Means keep the long waves and their positions: a wave of length l
+    along an axis is multiplied by cos(pi d/l), with the old cell d. A new cell is missing if less than half of it was
+    measured. With even numbers of cells this is `Surface.averaged` by 2.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def halved(surface: Surface) -> Surface:
         """Return the sum over the old cells in each new one."""
         return reduce(lambda table, axis: _along(table, parts[axis], axis), range(grid.ndim), values)
 
-    level = float(np.nanmean(surface.heights))  # heights far from zero keep their digits
+    level = float(np.nanmean(surface.heights))  # subtracted: heights far from zero keep their digits
     measured = surface.measured
     count = gathered(measured.astype(np.float64))
     total = gathered(np.where(measured, surface.heights - level, 0.0))
@@ -58,9 +58,9 @@ def halved(surface: Surface) -> Surface:
 
 
 def _overlaps(old: int, new: int) -> scipy.sparse.csr_array:
-    """Return which part of each of the old cells of an axis lies in each of the new ones, shape (new, old)."""
+    """Return the part of each old cell of an axis that lies in each new one, shape (new, old)."""
     ends = np.arange(new + 1) * (old / new)
-    last = np.minimum(np.ceil(ends[1:] - 1e-9), old)  # the rounding of an end is no part of a cell
+    last = np.minimum(np.ceil(ends[1:] - 1e-9), old)  # the rounding error of an end is not a part of a cell
     rows = [np.arange(int(low), int(high)) for low, high in zip(ends[:-1], last, strict=True)]
     counts = [len(row) for row in rows]
     columns, which = np.concatenate(rows), np.repeat(np.arange(new), counts)

@@ -1,4 +1,4 @@
-"""Remove the tilt of a surface, or its form: what remains is its roughness."""
+"""Removal of the tilt or the form of a surface, which leaves its roughness."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from roughcontact.validation import require
 
 __all__ = ["levelled", "without_form"]
 
-# The degree of the polynomial that is taken out, and what the provenance calls it.
+# The degree of the polynomial that is removed, and its name in the provenance.
 _TRENDS = {
     "mean": (0, "mean height removed"),
     "plane": (1, "tilt removed by a least-squares plane"),
@@ -31,9 +31,9 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic", "auto
     ----------
     surface : Surface
     kind : {"plane", "mean", "quadratic", "auto"}
-        What is removed: the least-squares plane and with it the tilt, the mean height alone, or the least-squares
+        The trend to remove: the least-squares plane, and with it the tilt; only the mean height; or the least-squares
         polynomial of the second degree. On a line these are a straight line, the mean and a parabola. ``"auto"`` is
-        the mean of a surface that repeats itself in every direction, which has no tilt, and the plane of any other.
+        the mean for a surface that is periodic in every direction, which has no tilt, and otherwise the plane.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def levelled(surface: Surface, kind: Literal["mean", "plane", "quadratic", "auto
     Raises
     ------
     ValueError
-        If there is no such `kind`.
+        If `kind` is none of these.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def without_form(surface: Surface, form: int | Literal["sphere", "cylinder"]) ->
 
     Notes
     -----
-    Differences of heights are made small, not distances normal to the form: for caps much flatter than half a
+    Differences of heights are minimised, not distances normal to the form: for caps much flatter than half a
     sphere the two agree.
 
     Examples

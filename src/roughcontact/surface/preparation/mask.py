@@ -1,4 +1,4 @@
-"""Regions that are taken out of a surface: a box, an ellipse, what lies below or above a height."""
+"""Regions that are masked: a box, an ellipse, heights below or above a limit."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def masked(
     above: float | None = None,
     outside: bool = False,
 ) -> Surface:
-    """Return the surface with the points of a region missing: never in contact, and no part of any fit or mean.
+    """Return the surface with the points of a region missing: never in contact, and ignored in every fit and mean.
 
     Parameters
     ----------
@@ -35,11 +35,11 @@ def masked(
     box : sequence of slice, optional
         A rectangle of cells, one slice of step 1 for each axis as in `cropped`: rows, then columns.
     ellipse : sequence of slice, optional
-        The ellipse that fits into such a rectangle; a cell belongs to it with its centre.
+        The ellipse that fits into such a rectangle; a cell belongs to it if its centre does.
     below, above : float, optional
         The points lower than one height or higher than another [m], or both.
     outside : bool
-        Take out all but the region.
+        Mask everything except the region.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def masked(
     Raises
     ------
     ValueError
-        If there is not one region, it ends beyond the map, it has no cell, or no measured point is left.
+        If not exactly one region is given, it ends beyond the map, it has no cell, or no measured point is left.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def masked(
     heights = surface.heights
     given = [box is not None, ellipse is not None, below is not None or above is not None]
     if sum(given) != 1:
-        raise InputError("masked() takes out one region", "give box, ellipse, or below and above")
+        raise InputError("masked() needs exactly one region", "give box, ellipse, or below and above")
     parts = box if box is not None else ellipse
     if parts is not None:
         ranges = cell_ranges(surface.grid, parts, "a mask")

@@ -1,4 +1,4 @@
-"""Points that were not measured: filled in from those around them."""
+"""Filling of points that were not measured, from the points around them."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ __all__ = ["filled"]
 def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
     """Return the surface with heights at the points that were not measured.
 
-    Nothing is known of them: what is filled in is smooth or flat, has no roughness of its own, and never exceeds
-    the heights around it. Contact needs no filling; spectra and filters by Fourier transform do.
+    The true heights are unknown: the filling is smooth or flat, without roughness, and within the range of the heights
+    around it. Spectra and filters by Fourier transform need it; contact does not.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def filled(surface: Surface, method: Literal["harmonic", "nearest"] = "harmonic"
     Raises
     ------
     ValueError
-        If there is no such `method`.
+        If `method` is neither.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The same surface, seen from another side."""
+"""Mirrored and rotated surfaces."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def flipped(surface: Surface, axis: Literal["y", "x"]) -> Surface:
     ----------
     surface : Surface
     axis : {"y", "x"}
-        "y" exchanges top and bottom, "x" left and right. A line has "x" only.
+        "y" exchanges top and bottom, "x" left and right. A line only has "x".
 
     Returns
     -------
@@ -85,7 +85,7 @@ def rotated(surface: Surface, quarters: int = 1) -> Surface:
     Returns
     -------
     Surface
-        After an odd number of quarters on the grid with its axes exchanged.
+        After an odd number of quarters its grid has the axes exchanged.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Heights far from nearly all: where they begin, so that `masked` can take them out."""
+"""Limits of outlying heights, for `masked`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from roughcontact.validation import Array
 
 __all__ = ["OUTLYING", "height_limits", "without_far"]
 
-_FAR = 4.0  # interquartile ranges beyond the quartiles: of a normal distribution 1e-8 of the values
-_FEW = 0.02  # of the values: more, pits or peaks, are not far out
-OUTLYING = 8.0  # rms heights: of a Gaussian surface of 10^14 points the highest stands lower
-_CHOSEN = 100_000  # heights that quantiles and moments are taken of
+_FAR = 4.0  # interquartile ranges beyond the quartiles: 1e-8 of the values of a normal distribution
+_FEW = 0.02  # of the values: a larger share, of pits or peaks, is not an outlier
+OUTLYING = 8.0  # rms heights: the highest of 10^14 points of a Gaussian surface is lower
+_CHOSEN = 100_000  # heights from which quantiles and moments are computed
 
 
 def without_far(values: Array, few: float = _FEW) -> Array:
-    """Return finite values without those far from the quartiles; all of them where these are more than a `few`."""
+    """Return finite values without those far from the quartiles; all values if the share of these exceeds `few`."""
     first, third = (float(end) for end in np.quantile(values, (0.25, 0.75)))
     reach = _FAR * (third - first)
     near = values[(values >= first - reach) & (values <= third + reach)]
@@ -23,11 +23,11 @@ def without_far(values: Array, few: float = _FEW) -> Array:
 
 
 def height_limits(heights: Array) -> tuple[float, float]:
-    """Return the heights 8 rms heights below and above the mean [m], both of the measured points that are not far out.
+    """Return the heights 8 rms heights below and above the mean [m], with both from the points that are not outliers.
 
-    To three digits, as a mask is written.
+    They are rounded to three digits for display.
     """
-    # An odd stride meets every column of a map, whose width is even as a rule.
+    # An odd stride visits every column of a map, whose width is usually even.
     chosen = heights.reshape(-1)[:: 2 * (heights.size // _CHOSEN // 2) + 1]
     measured = chosen[~np.isnan(chosen)]
     if measured.size == 0:

@@ -14,9 +14,10 @@ from roughcontact.validation import Array
 __all__ = ["polynomial_trend"]
 
 
-# Passes over what the fit before has left: the normal equations square the condition number, these undo it.
+# Passes over the residual of the previous fit, which compensate for the squared condition number of the normal
+# equations.
 _PASSES = 3
-_SLAB = 2**20  # points whose sums are taken at once
+_SLAB = 2**20  # points that are summed at once
 
 
 def polynomial_trend(heights: Array, degree: int) -> Array:
@@ -38,7 +39,7 @@ def polynomial_trend(heights: Array, degree: int) -> Array:
     -----
     The basis is products of Legendre polynomials over centred coordinates from -1 to 1: nearly orthogonal at any
     size and unit. Its products separate into factors of y and of x, so the sums over all points are two matrix
-    products. No matrix of points times terms is built: beside the answer, memory is that of a few rows.
+    products. No matrix of points times terms is built: in addition to the result, memory for a few rows is needed.
     """
     field: Any = heights
     if isinstance(field, SlabArray):
@@ -52,10 +53,10 @@ def polynomial_trend(heights: Array, degree: int) -> Array:
 def _trend(
     heights: Array, shape: tuple[int, ...], part: slice, degree: int, total: Callable[[Array], Array]
 ) -> Array:
-    """Return the polynomial at the rows `part` of a plane; `total` adds up the sums over the rows of all processes."""
+    """Return the polynomial at the rows `part` of a map; `total` adds the sums over the rows of all processes."""
     factors = [_legendre(n, degree) for n in shape]
     factors[0] = factors[0][part]
-    # A term is chosen by its degree along each axis.
+    # A term is selected by its degree along each axis.
     terms = [term for term in product(range(degree + 1), repeat=heights.ndim) if sum(term) <= degree]
     pairs = total(
         np.sum(
@@ -88,9 +89,9 @@ def _trend(
 
 
 def _slabs(heights: Array, factors: list[Array]) -> Iterator[tuple[slice, list[Array]]]:
-    """Yield rows of `heights`, few enough that what is made of them takes no memory to speak of."""
+    """Yield slabs of rows of `heights`, small enough that temporary arrays take almost no memory."""
     step = max(1, _SLAB * len(heights) // max(1, heights.size))
-    for start in range(0, max(1, len(heights)), step):  # of no rows the sums are zero
+    for start in range(0, max(1, len(heights)), step):  # without rows the sums are zero
         rows = slice(start, start + step)
         yield rows, [factors[0][rows], *factors[1:]]
 

@@ -20,7 +20,7 @@ __all__ = ["averaged", "cell_ranges", "cropped", "downsampled", "range_words"]
 def cropped(surface: Surface, *parts: slice) -> Surface:
     """Return the part of the surface in `parts`.
 
-    An axis that is cut is free in the result; one that is kept whole stays as it was.
+    An axis that is cut is free in the result; an axis that is kept whole is unchanged.
 
     Parameters
     ----------
@@ -66,10 +66,10 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
     ----------
     surface : Surface
     factor : int or tuple of int
-        For all axes, or one an axis (y, x).
+        One number for all axes, or one for each axis (y, x).
     anti_alias : bool
         Filter first: the Gaussian filter with the shortest wave of the new grid, two new cells, as its cut-off.
-        Without it, shorter waves come back as long ones that are not there.
+        Without it, shorter waves are aliased to spurious long ones.
 
     Returns
     -------
@@ -115,13 +115,13 @@ def downsampled(surface: Surface, factor: int | tuple[int, ...], anti_alias: boo
 
 @on_host_only
 def averaged(surface: Surface, factor: int | tuple[int, ...]) -> Surface:
-    """Return the surface as pixels of `factor` cells a side record it: the mean over each block.
+    """Return the surface as recorded by pixels of `factor` cells a side: the mean over each block.
 
     Parameters
     ----------
     surface : Surface
     factor : int or tuple of int
-        Cells a pixel for all axes, or one number an axis (y, x).
+        Cells per pixel for all axes, or one number for each axis (y, x).
 
     Returns
     -------
@@ -182,7 +182,7 @@ def _factors(grid: Grid, factor: int | tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _left_out(grid: Grid, factors: tuple[int, ...]) -> str:
-    """Return which cells at the end fill no block, as the end of a line of the history."""
+    """Return the cells at the end that fill no block, as the end of a line of the history."""
     names = ("rows", "columns") if grid.ndim == 2 else ("cells",)
     over = [n % k for n, k in zip(grid.shape, factors, strict=True)]
     parts = [
@@ -202,8 +202,8 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
     Raises
     ------
     ValueError
-        If there is not one for each axis, one has a step, ends beyond the grid, or holds no cell; the message says
-        `what` they are of.
+        If there is not one for each axis, one has a step, ends beyond the grid, or holds no cell; the message begins
+        with `what`.
     """
     if len(parts) != grid.ndim:
         raise about(
@@ -223,7 +223,7 @@ def cell_ranges(grid: Grid, parts: Sequence[slice], what: str) -> list[tuple[int
             )
     ranges = [part.indices(n)[:2] for part, n in zip(parts, grid.shape, strict=True)]
     if any(stop <= start for start, stop in ranges):
-        raise InputError(f"nothing is left of {grid.shape} cells in {range_words(ranges)}")
+        raise InputError(f"no cell is left of {grid.shape} cells in {range_words(ranges)}")
     return ranges
 
 

@@ -1,4 +1,4 @@
-"""Spikes and streaks: clusters of cells that stand out of all that is around them, as faulty measurements do."""
+"""Spikes and streaks: clusters of cells that stand out from their surroundings, like faulty measurements."""
 
 from __future__ import annotations
 
@@ -16,34 +16,34 @@ from roughcontact.validation import Array, Mask, numeric
 __all__ = ["Spikes", "described", "find_spikes", "spikes_in"]
 
 _REACH = {1: 4, 2: 2}  # cells from the middle of a window to its edge, by the number of axes: 9 and 25 cells
-_GROUP = 3  # one in so many cells of a window may stand out of it: 2 of 9 and 8 of 25
-_EXTENT = 0.5  # of the limit: neighbours that stand out by that much belong to a spike ...
+_GROUP = 3  # one in this number of cells of a window may stand out: 2 of 9 and 8 of 25
+_EXTENT = 0.5  # of the limit: neighbours that stand out by this much belong to a spike ...
 _LARGEST = 2  # ... which has at most half the cells of a window
-_AROUND = {1: 30, 2: 7}  # cells from a spike within which the steps say how rough its surroundings are
-_CHOSEN = 100_000  # windows that the quantiles are taken of
+_AROUND = {1: 30, 2: 7}  # cells from a spike within which the steps measure the roughness of its surroundings
+_CHOSEN = 100_000  # windows from which the quantiles are computed
 _FEWEST = 100
-_PASSES = 4  # over what is left beside spikes that were found: their flanks
+_PASSES = 4  # over the flanks of spikes that were found
 _SLAB = 2**14  # windows sorted at once
-_ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences that mean nothing
+_ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences below it are rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Spikes:
-    """The spikes of a surface, streaks along its scan lines among them.
+    """The spikes of a surface, including streaks along its scan lines.
 
     Attributes
     ----------
     mask : array of bool, shape of the surface
         Their cells.
     places : array of int, shape (count, axes)
-        Of each spike the cell that stands out most: its row and column, of a line its position.
+        The cell of each spike that stands out most: its row and column, or its position on a line.
     height : array, shape (count,)
-        By how much that cell stands above the median of the cells around the spike [m], negative below; the
-        largest come first.
+        Height of that cell above the median of the cells around the spike [m], negative below it; the largest come
+        first.
     cells : array of int, shape (count,)
-        Number of cells of each.
+        Number of cells of each spike.
     streak : array of bool, shape (count,)
-        Whether it is a streak: it reaches over 16 cells or more.
+        Whether the spike is a streak: it extends over 16 cells or more.
 
     Examples
     --------
@@ -80,12 +80,13 @@ class Spikes:
 @numeric
 @analysed_on_host
 def find_spikes(surface: Surface) -> Spikes:
-    """Return the clusters of a few cells, and the streaks along scan lines, that stand out of all around them.
+    """Return the clusters of a few cells, and the streaks along scan lines, that stand out from their surroundings.
 
     Parameters
     ----------
     surface : Surface
-        Tilt does not matter. A map of fewer than 100 measured cells has no statistics, and no spikes.
+        Tilt does not matter. A map with fewer than 100 measured cells is too small for statistics: no spikes are
+        found.
 
     Returns
     -------
@@ -93,22 +94,24 @@ def find_spikes(surface: Surface) -> Spikes:
 
     Notes
     -----
-    The heights in a window of 5 x 5 cells (of 9 on a line) are put in order. Among the third of them at either end, 8
-    cells, the widest step to the next height is looked for: a spike in the middle shows as a wide step with the spike
-    beyond it, and neither an edge nor a right corner of a plateau does. A cell is marked where that step exceeds
+    The heights in a window of 5 x 5 cells (9 on a line) are sorted. The widest step to the next height is determined
+    in the lowest and in the highest third, 8 cells: a spike in the middle causes a wide step with the spike beyond it,
+    but an edge or a right corner of a plateau does not. A cell is marked where that step exceeds
 
         q50 + (q90 - q50) / ln 5 * ln(500 N),
 
-    q50 and q90 the quantiles of the widest steps of all N windows, whatever is in their middle. An exponential tail
-    through both goes beyond that in one window of a thousand maps; steps on Gaussian surfaces, self-affine ones among
-    them, have a lighter tail, and spikes that touch less than a tenth of the windows hardly move the quantiles. Where
-    half the steps in the 15 x 15 cells around (61 on a line) exceed q90, the limit is as many times higher. Neighbours
-    beyond half the limit belong to a spike, which has at most 12 cells (4 on a line); what stands out beside it once it
-    is gone, its flank, is marked as well. Of windows cut by edges or missing points a third is fewer cells.
+    where q50 and q90 are the quantiles of the widest steps of all N windows, whatever is in their middle. An
+    exponential tail through both exceeds this limit in one window of a thousand maps. Steps on Gaussian surfaces,
+    including self-affine ones, have a lighter tail, and spikes that touch less than a tenth of the windows barely
+    change the quantiles. If the median of the steps in the 15 x 15 cells around (61 on a line) exceeds q90, the limit
+    is raised by their ratio. Neighbours beyond half the limit belong to a spike, which has at most 12 cells (4 on a
+    line); cells beside it that stand out once it is removed, its flank, are also marked. In windows cut by edges or
+    missing points a third is fewer cells.
 
-    A streak is a run of at least 16 cells along one to four rows or columns. Its steps to the lines on both sides go
-    one way and have half the limit, the limit itself somewhere, with the quantiles of all N steps between neighbouring
-    lines. A run along more than nine tenths of a line is a line that is shifted as a whole, see `aligned`.
+    A streak is a run of at least 16 cells along one to four rows or columns. Its steps to the lines on both sides have
+    one sign and exceed half the limit everywhere and the limit somewhere, with the quantiles of all N steps between
+    neighbouring lines. A run along more than nine tenths of a line is a line that is shifted as a whole, see
+    `aligned`.
 
     Examples
     --------
@@ -145,8 +148,8 @@ def spikes_in(heights: Array, periodic: tuple[bool, ...]) -> Spikes:
 def _limits(
     heights: Array, periodic: tuple[bool, ...], measured: npt.NDArray[np.int64]
 ) -> tuple[float, float]:
-    """Return what most of the widest steps stay below, and the limit beyond which one makes a spike [m]."""
-    # An odd stride meets every column of a map, whose width is even as a rule.
+    """Return the quantile q90 of the widest steps, and the limit beyond which a step makes a spike [m]."""
+    # An odd stride visits every column of a map, whose width is usually even.
     chosen = measured[:: 2 * (measured.size // _CHOSEN // 2) + 1]
     steps = _steps(_padded(heights, periodic), np.stack(np.unravel_index(chosen, heights.shape), axis=1))
     most, limit = tail_of(steps, measured.size)
@@ -154,7 +157,7 @@ def _limits(
 
 
 def _padded(heights: Array, periodic: tuple[bool, ...]) -> Array:
-    """Return the heights with the reach of a window beyond each edge: missing, or across it where periodic."""
+    """Return the heights padded by the reach of a window beyond each edge: missing, or wrapped around if periodic."""
     reach = _REACH[heights.ndim]
     for axis, repeats in enumerate(periodic):
         width = [(reach, reach) if k == axis else (0, 0) for k in range(heights.ndim)]
@@ -185,7 +188,7 @@ def _steps(padded: Array, cells: npt.NDArray[np.int64]) -> Array:
 
 
 def _gaps(padded: Array, cells: npt.NDArray[np.int64]) -> Array:
-    """Return the widest step that has the cell beyond it: positive below the cell, negative above [m]."""
+    """Return the widest step with the cell beyond it: positive below the cell, negative above [m]."""
     found = np.zeros(len(cells))
     for part, window in _windows(padded, cells):
         middle = window[:, window.shape[1] // 2]
@@ -196,7 +199,7 @@ def _gaps(padded: Array, cells: npt.NDArray[np.int64]) -> Array:
 
 def _widest(window: Array, middle: Array) -> Array:
     """Return the widest step among the lowest third of the heights, those with `middle` before them."""
-    ordered = np.sort(window, axis=1)  # what is missing goes last
+    ordered = np.sort(window, axis=1)  # missing heights go last
     group = (np.count_nonzero(~np.isnan(ordered), axis=1) - 1) // _GROUP
     widest = np.zeros(len(ordered))
     for k in range(1, (ordered.shape[1] - 1) // _GROUP + 1):

@@ -1,4 +1,4 @@
-"""Streaks: runs along one to four scan lines that stand out of the lines on both sides, as a tip that slips records."""
+"""Streaks: runs along one to four scan lines that stand out from the lines on both sides, caused by a slipping tip."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["LONG", "streaks_in", "tail_of"]
 
-LONG = 16  # cells along the line: neighbours of equal sign on a rough surface are rarely so many
+LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
 _WIDE = 4  # lines side by side
 _WHOLE = 0.9  # of the measured cells of a line: a longer run is a line that is shifted as a whole
-_EXTENT = 0.5  # of the limit: cells that stand out by that much belong to a streak
+_EXTENT = 0.5  # of the limit: cells that stand out by this much belong to a streak
 _HALF, _MOST = 0.5, 0.9  # quantiles between which the tail of sizes is measured
-_EXPECTED = 1e-3  # sizes of a map without outliers that an exponential tail has beyond the limit
-_CHOSEN = 100_000  # steps that the quantiles are taken of
+_EXPECTED = 1e-3  # expected number of sizes beyond the limit in a map with an exponential tail
+_CHOSEN = 100_000  # steps from which the quantiles are computed
 _FEWEST = 100
-_ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences that mean nothing
+_ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences below it are rounding
 
 
 def tail_of(values: Array, count: int) -> tuple[float, float]:
-    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in a map of a thousand.
+    """Return q90 of sizes, and the size that an exponential tail through q50 and q90 exceeds in one map of 1000.
 
-    The map has `count` of them.
+    A map has `count` sizes.
     """
     half, most = (float(np.quantile(values, share)) for share in (_HALF, _MOST))
     rate = (most - half) / math.log((1 - _HALF) / (1 - _MOST))
@@ -35,9 +35,9 @@ def tail_of(values: Array, count: int) -> tuple[float, float]:
 def streaks_in(heights: Array) -> Mask:
     """Return the cells of streaks along rows and along columns of heights [m], NaN where not measured.
 
-    The steps from a streak to the lines on both sides have one sign and half the limit of `tail_of` along at least 16
-    cells, the limit itself somewhere; the limit is that of all steps between neighbouring lines. A run along more than
-    nine tenths of a line is no streak but a line that is shifted, see `aligned`.
+    The steps from a streak to the lines on both sides have one sign and exceed half the limit of `tail_of` along at
+    least 16 cells, and the limit somewhere; the limit is computed from all steps between neighbouring lines. A run
+    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
@@ -52,13 +52,13 @@ def _along_rows(heights: Array) -> Mask:
     sizes = np.abs(steps[~np.isnan(steps)])
     if sizes.size < _FEWEST:
         return found
-    # An odd stride meets every column of a map, whose width is even as a rule.
+    # An odd stride visits every column of a map, whose width is usually even.
     _, limit = tail_of(sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1], sizes.size)
     limit = max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
     for width in range(1, min(_WIDE, len(steps) - 1) + 1):
         for rise in (steps, -steps):
-            out = np.minimum(rise[:-width], -rise[width:])  # of the lines on both sides, NaN where either is
+            out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
             runs = _long_runs(out > _EXTENT * limit, out > limit, most[1 : 1 + len(out)])
             for line in range(1, 1 + width):
                 found[line : line + len(out)] |= runs

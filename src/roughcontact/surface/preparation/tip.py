@@ -1,4 +1,4 @@
-"""What a tip of finite radius makes of a surface."""
+"""The record of a surface by a tip of finite radius."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ __all__ = ["scanned"]
 @on_host_only
 @lengths_method
 def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "paraboloid"] = "sphere") -> Surface:
-    """Return the surface as a tip records it that follows without force: the heights of its lowest point.
+    """Return the surface as recorded by a tip that follows without force: the heights of its lowest point.
 
-    Peaks come out wider, valleys narrower, and the tip does not reach into those too narrow for it (thesis, section
-    2.1).
+    Peaks become wider and valleys narrower, and the tip does not reach into valleys that are too narrow (thesis,
+    section 2.1).
 
     Parameters
     ----------
@@ -39,14 +39,14 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
     Raises
     ------
     ValueError
-        If the radius is not positive, or no such tip is known.
+        If the radius is not positive, or the tip is unknown.
 
     Notes
     -----
     The record is max over u of h(x + u) - t(u), the dilation of the surface by the tip t(u) = R - sqrt(R^2 - u^2)
-    or u^2 / 2R. Points of the grid alone touch the tip. Missing points touch nothing and stay missing. Time grows
-    with the number of cells below the tip up to the range of the heights, area times 2 pi R range / cell; a
-    paraboloid is done axis by axis.
+    or u^2 / 2R. Only points of the grid touch the tip. Missing points do not touch it and stay missing. Time grows
+    with the number of cells below the tip up to the range of the heights, area times 2 pi R range / cell; a paraboloid
+    is treated axis by axis.
 
     Examples
     --------
@@ -80,10 +80,11 @@ def scanned(surface: Surface, tip_radius: float, tip: Literal["sphere", "parabol
 def _dilated(
     heights: Array, grid: Grid, reach: float, radius: float, tip: str, axes: tuple[int, ...]
 ) -> Array:
-    """Return the largest height less the tip's over all shifts along `axes` within `reach` [m]."""
+    """Return the largest height less that of the tip over all shifts along `axes` within `reach` [m]."""
     import scipy.ndimage
 
-    # On a free axis no neighbour is farther than the other end; on a periodic one all have been met by then.
+    # On a free axis no neighbour is further than the other end; on a periodic axis all cells have been visited by
+    # then.
     far = [
         min(math.floor(reach / step * (1 + 1e-12)), n - 1) if axis in axes else 0
         for axis, (n, step) in enumerate(zip(heights.shape, grid.spacing, strict=True))

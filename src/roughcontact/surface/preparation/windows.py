@@ -1,4 +1,4 @@
-"""Windows: factors that take the heights to zero toward the edges, so that a free map may be repeated."""
+"""Windows: factors that reduce the heights to zero toward the edges, for periodic continuation of a free map."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from roughcontact.validation import Array, numeric_method, require
 __all__ = ["WINDOWS", "Window", "tapered", "window_values"]
 
 Window: TypeAlias = Literal["hann", "hamming", "blackman", "welch", "tukey"]
-# Each but Tukey's, which has a parameter, as a function of the phase, from 0 to 2 pi along the axis.
+# Each window except Tukey's, which has a parameter, as a function of the phase, from 0 to 2 pi along the axis.
 _SHAPES: dict[str, Callable[[Array], Array]] = {
     "hann": lambda t: 0.5 - 0.5 * np.cos(t),
     "hamming": lambda t: 0.54 - 0.46 * np.cos(t),
@@ -48,8 +48,8 @@ def window_values(name: str, count: int, share: float = 0.25) -> Array:
 def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> Surface:
     """Return the heights above their mean times a window along every free axis.
 
-    Periodic axes need none and are left. The mean square falls by the factor that the provenance states; a
-    spectrum takes its own window and corrects for it, so it wants the surface as it is.
+    Periodic axes need no window and are unchanged. The mean square falls by the factor in the provenance. Do not taper
+    before `power_spectrum`, which applies a window and corrects for it.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> S
         With t from 0 to 1 along the axis, Hann: sin^2(pi t), Welch: 1 - (2t - 1)^2, Tukey: a flat middle between two
         halves of a Hann window.
     share : float
-        For "tukey": the part of the length that is bent, both ends together, from 0 to 1.
+        For "tukey": the tapered part of the length, both ends together, from 0 to 1.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def tapered(surface: Surface, window: Window = "hann", share: float = 0.25) -> S
     Raises
     ------
     ValueError
-        If there is no such `window`, or `share` lies outside 0 to 1.
+        If `window` is unknown, or `share` lies outside 0 to 1.
 
     Examples
     --------

@@ -1,13 +1,13 @@
-r"""Asperities of Gaussian heights that stick, each by itself, under a flat at the separation s of the mean planes.
+r"""Independent adhesive asperities of Gaussian heights under a flat at the separation s of the mean planes.
 
     p(s) = n int F(z - s) phi(z) dz
 
-over the heights z of those in contact, n being their density. By Fuller and Tabor (Proc. R. Soc. A 345, 327 (1975))
-F is the force of Johnson, Kendall and Roberts, and the flat is drawn back: an asperity stays in contact down to the
-smallest depth of an equilibrium. By Maugis (J. Adhesion Sci. Technol. 10, 161 (1996)) it is Hertz's force less
-2 pi w R, on the asperities above the flat.
+over the heights z of the asperities in contact, with their density n. For Fuller and Tabor (Proc. R. Soc. A 345, 327
+(1975)) F is the force of Johnson, Kendall and Roberts, and the flat is retracted: an asperity stays in contact down to
+the smallest depth of an equilibrium. For Maugis (J. Adhesion Sci. Technol. 10, 161 (1996)) it is Hertz's force less 2
+pi w R, on the asperities above the flat.
 
-Asperities neither touch nor move each other: for small contact areas, and for surfaces that are nominally flat.
+Asperities do not interact: the theory is for small contact areas and nominally flat surfaces.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from roughcontact.validation import Array, number, numeric, positive_scalar, sho
 __all__ = ["AdhesiveAsperities", "Limit"]
 
 Limit = Literal["jkr", "dmt"]
-HIGHEST = 9.0  # standard deviations, beyond which there is 1e-19 of the asperities
+HIGHEST = 9.0  # standard deviations: 1e-19 of the asperities are higher
 NODES = 400
-SAMPLES = 200  # of the separation, between which the largest tension is looked for
+SAMPLES = 200  # separations at which the search for the largest tension starts
 
 
 @dataclass(frozen=True, slots=True)
 class AdhesiveAsperities:
-    """Spherical asperities of one radius and Gaussian heights that stick.
+    """Adhesive spherical asperities of one radius and Gaussian heights.
 
     Parameters
     ----------
@@ -50,12 +50,12 @@ class AdhesiveAsperities:
     work : float
         Work of adhesion w [J/m^2].
     limit : {"jkr", "dmt"}
-        Fuller and Tabor's asperities, or Maugis'.
+        Asperities of Fuller and Tabor, or of Maugis.
 
     Raises
     ------
     ValueError
-        If a number is not positive and finite, or there is no such limit.
+        If a number is not positive and finite, or `limit` is unknown.
 
     Examples
     --------
@@ -85,7 +85,7 @@ class AdhesiveAsperities:
 
     @property
     def roughness_number(self) -> float:
-        """Standard deviation of the heights over the length by which an asperity stretches before it comes off."""
+        """Standard deviation of the heights over the length by which an asperity stretches before it detaches."""
         return self.std / -self._stuck.least_depth
 
     @numeric
@@ -150,7 +150,8 @@ class AdhesiveAsperities:
         """Return the sum over the asperities in contact, per area."""
         s = np.asarray(number(separation, "separation [m]"))
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        # At the smallest depth the force begins like a root, and 3/2 power: with t squared it is smooth.
+        # At the smallest depth the force begins like a square root or a 3/2 power: as a function of t squared it is
+        # smooth.
         low = np.maximum(s + self._least, -HIGHEST * self.std)
         span = np.sqrt(np.maximum(HIGHEST * self.std - low, 0.0))
         t = 0.5 * span[..., None] * (nodes + 1)

@@ -1,15 +1,15 @@
-r"""A sphere that sticks, in the two limits of the range of its attraction.
+r"""An adhesive sphere, in the two limits of the range of its attraction.
 
 Johnson, Kendall and Roberts (Proc. R. Soc. A 324, 301 (1971)): no range, large Tabor number. With a the contact radius,
 
     F = 4 E* a^3/(3 R) - sqrt(8 pi E* w a^3)          d = a^2/R - sqrt(2 pi w a/E*)
 
 Derjaguin, Muller and Toporov (J. Colloid Interface Sci. 53, 314 (1975); here in the form of Maugis): the attraction
-2 pi w R acts outside Hertz's contact and deforms nothing, small Tabor number,
+2 pi w R acts outside Hertz's contact and causes no deformation, small Tabor number,
 
     F = 4 E* a^3/(3 R) - 2 pi w R                     d = a^2/R
 
-Between them stands `maugis`.
+`maugis` covers the transition between them.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from roughcontact.validation import Array, number, numeric, positive, positive_s
 
 __all__ = ["DMTSphere", "JKRSphere"]
 
-STEPS = 60  # of Newton's method, which halves its error where the root is double, and is quadratic elsewhere
+STEPS = 60  # of Newton's method, which halves its error at a double root, and is quadratic elsewhere
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class JKRSphere:
 
     @property
     def least_depth(self) -> float:
-        """Smallest depth of an equilibrium [m], negative: there a sphere held at given depths comes off."""
+        """Smallest depth of an equilibrium [m], negative: a sphere under a given depth detaches there."""
         return -3 * 6 ** (-2 / 3) * self._unit**2 / self.radius
 
     @property
@@ -117,7 +117,7 @@ class JKRSphere:
 
     @numeric
     def contact_radius(self, depth: npt.ArrayLike) -> Array:
-        """Return the contact radius of the equilibrium at a depth that is stable at given depth.
+        """Return the contact radius at a depth, for the equilibrium that is stable under a given depth.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class JKRSphere:
         Raises
         ------
         ValueError
-            If a depth is smaller: there is no equilibrium in contact.
+            If a depth is smaller than that: there is no equilibrium in contact.
         """
         d = np.asarray(number(depth, "depth [m]"))
         least = self.least_depth
@@ -150,13 +150,13 @@ class JKRSphere:
 
     @property
     def _unit(self) -> float:
-        """Length ``(3 pi w R^2/(4 E*))^(1/3)`` [m], in which radii are counted."""
+        """Unit of length of the contact radii, ``(3 pi w R^2/(4 E*))^(1/3)`` [m]."""
         return math.cbrt(0.75 * math.pi * self.work * self.radius**2 / self.modulus)
 
 
 @dataclass(frozen=True, slots=True)
 class DMTSphere:
-    """A sphere with an attraction that deforms nothing (Derjaguin, Muller and Toporov).
+    """A sphere with an attraction that causes no deformation (Derjaguin, Muller and Toporov).
 
     Parameters
     ----------

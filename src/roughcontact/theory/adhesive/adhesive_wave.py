@@ -1,4 +1,4 @@
-r"""A wave that sticks to a flat, in plane strain (Johnson, Int. J. Solids Struct. 32, 423 (1995)).
+r"""An adhesive wave on a flat, in plane strain (Johnson, Int. J. Solids Struct. 32, 423 (1995)).
 
 The limit of Johnson, Kendall and Roberts: an attraction of no range. Westergaard's contact of half width a, less the
 tension that opens the cracks beside it, whose stress intensity is that of w:
@@ -7,8 +7,8 @@ tension that opens the cracks beside it, whose stress intensity is that of w:
     p = (pi E* D/L) s - T             T = sqrt(2 E* w tan(pi a/L)/L)
     d = D (s - s ln s) - C T          C = -(L/(pi E*)) ln s
 
-with the amplitude D, the wavelength L, and C the compliance of the contact as it is. In full contact there is no crack,
-and a wave without a flaw would never come off.
+with the amplitude D, the wavelength L, and the compliance C of the contact. In full contact there is no crack, and a
+wave without a flaw would never detach.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = ["AdhesiveWave"]
 
 @dataclass(frozen=True, slots=True)
 class AdhesiveWave:
-    """A wave of heights ``D cos(2 pi x/L)`` that sticks to a flat.
+    """An adhesive wave of heights ``D cos(2 pi x/L)`` on a flat.
 
     Parameters
     ----------

@@ -2,23 +2,23 @@ r"""The pull-off of hard rough surfaces from their bearing area: Ciavarella's mo
 
 Meccanica 53, 241 (2018). Heights are Gaussian, of rms h, under a flat at the separation u of the mean planes. The
 attraction w/range acts where the undeformed gap is between 0 and the range; the reaction is that of Persson
-(Phys. Rev. Lett. 99, 125502 (2007)) at small loads, q0 being the smallest wavenumber:
+(Phys. Rev. Lett. 99, 125502 (2007)) at small loads, with the smallest wavenumber q0:
 
     p(u) = 3/(8 gamma) E* q0 h exp(-u/(gamma h)) - w/range [erfc((u - range)/(sqrt2 h)) - erfc(u/(sqrt2 h))]/2
 
-The largest tension over u is the pull-off. For a range far below h it is there if
+The largest tension over u is the pull-off. For a range far below h it is positive if
 
     h^2 < 8 gamma exp(1/(2 gamma^2))/(3 sqrt(2 pi)) w/(E* q0)
 
-which for gamma = 1/2 is 0.63 w/E* times the longest wave. The paper itself could not be read here.
+which for gamma = 1/2 is 0.63 w/E* times the longest wave. The formulas were not compared with the paper itself.
 
 **Constants.** 3/(8 gamma) and gamma = 1/2 are for a Hurst exponent near 0.8 without roll-off. The energy of
 partial contact with ``gamma=0.5`` in `persson_separation.reference_pressure` gives 1.07 E* q0 h there in place of
-0.75 (``benchmarks/stickiness.py``): the rms height above is then 0.84 times as large, and no better known.
+0.75 (``benchmarks/stickiness.py``): the rms height above is then 0.84 times as large, with the same uncertainty.
 
-**Where it ends.** The attraction does not change the contact (hard solids, small Tabor number); the attracted area
-is that of undeformed surfaces; separations of the order of h. Short waves do not enter: Pastewka and Robbins find
-that they decide (`pastewka_robbins`).
+**Limits.** The attraction does not change the contact (hard solids, small Tabor number); the attracted area is that of
+undeformed surfaces; separations are of the order of h. Short waves have no influence; according to Pastewka and
+Robbins they are decisive (`pastewka_robbins`).
 """
 
 from __future__ import annotations
@@ -35,28 +35,28 @@ from roughcontact.validation import Array, number, numeric, positive_scalar
 
 __all__ = ["BearingAreaModel"]
 
-HIGHEST = 9.0  # standard deviations, beyond which there is 1e-19 of the heights
-SAMPLES = 400  # of the separation, between which the largest tension is looked for
+HIGHEST = 9.0  # standard deviations: 1e-19 of the heights are larger
+SAMPLES = 400  # separations at which the search for the largest tension starts
 
 
 @dataclass(frozen=True, slots=True)
 class BearingAreaModel:
-    """A hard rough surface that attracts a flat by what lies within the range below it.
+    """A hard rough surface that attracts a flat over the area within the range below it.
 
     Parameters
     ----------
     rms : float
         Root mean square height h [m].
     wavenumber : float
-        Smallest of the roughness, q0 [rad/m]: 2 pi over the longest wave.
+        Smallest wavenumber of the roughness, q0 [rad/m]: 2 pi over the longest wave.
     modulus : float
         Reduced modulus E* [Pa].
     work : float
         Work of adhesion w [J/m^2].
     range : float
-        Up to which the attraction w/range reaches [m].
+        Largest gap of the attraction w/range [m].
     gamma : float
-        Length over which the reaction falls, over h [-].
+        Decay length of the reaction over h [-].
 
     Raises
     ------
@@ -150,11 +150,11 @@ class BearingAreaModel:
 
     @property
     def sticking_rms(self) -> float:
-        """Rms height [m] below which there is a pull-off, if the range is far below it."""
+        """Rms height [m] below which there is a pull-off force, if the range is far below it."""
         peak = math.exp(0.5 / self.gamma**2) / math.sqrt(2 * math.pi)
         return math.sqrt(peak * self.work / self._stiffness)
 
     @property
     def _stiffness(self) -> float:
-        """Of the reaction, over the rms height, at the separation zero [Pa/m]."""
+        """Factor of the reaction: its pressure at separation zero over the rms height [Pa/m]."""
         return 3 / (8 * self.gamma) * self.modulus * self.wavenumber

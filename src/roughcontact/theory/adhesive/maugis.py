@@ -1,13 +1,13 @@
-r"""A sphere that sticks, by the model of Dugdale (Maugis, J. Colloid Interface Sci. 150, 243 (1992)).
+r"""An adhesive sphere, by the model of Dugdale (Maugis, J. Colloid Interface Sci. 150, 243 (1992)).
 
-Around the contact of radius a, as far as the radius c, the surfaces attract each other by the constant traction s,
-which ends where they are w/s apart. With t = arccos(a/c) and b = sqrt(c^2 - a^2):
+Around the contact of radius a, up to the radius c, the surfaces attract each other by the constant traction s, which
+ends at the gap w/s. With t = arccos(a/c) and b = sqrt(c^2 - a^2):
 
     w = s/(pi R) (a b + (c^2 - 2 a^2) t) + 4 s^2/(pi E*) (b t - c + a)
     F = 4 E* a^3/(3 R) - 2 s (a b + c^2 t)
     d = a^2/R - 2 s b/E*
 
-Between the theories of Derjaguin, Muller and Toporov (small lambda) and of Johnson, Kendall and Roberts (large).
+It covers the range from Derjaguin, Muller and Toporov (small lambda) to Johnson, Kendall and Roberts (large lambda).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from roughcontact.validation import Array, number, numeric, positive, positive_s
 
 __all__ = ["DugdaleSphere"]
 
-SAMPLES = 400  # of the contact radius, between which the smallest force is looked for
+SAMPLES = 400  # contact radii at which the search for the smallest force starts
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class DugdaleSphere:
     work : float
         Work of adhesion w [J/m^2].
     strength : float
-        Attraction s [Pa], which reaches as far as w/s.
+        Attraction s [Pa], up to the gap w/s.
 
     Raises
     ------
@@ -74,7 +74,7 @@ class DugdaleSphere:
 
     @classmethod
     def of_number(cls, number: float) -> DugdaleSphere:
-        """Return the sphere of Maugis' number lambda whose radius, modulus and work are one.
+        """Return the sphere with Maugis' number lambda whose radius, modulus and work are 1.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class DugdaleSphere:
         Returns
         -------
         DugdaleSphere
-            Of that number.
+            The sphere.
         """
         return cls(1.0, 1.0, 1.0, positive_scalar(number, "lambda") * math.cbrt(2 * math.pi / 9))
 
@@ -95,7 +95,7 @@ class DugdaleSphere:
 
     @numeric
     def zone_radius(self, contact_radius: npt.ArrayLike) -> Array:
-        """Return the radius c as far as which the surfaces attract each other.
+        """Return the radius c up to which the surfaces attract each other.
 
         Parameters
         ----------
@@ -161,7 +161,8 @@ class DugdaleSphere:
     @property
     def pull_off_force(self) -> float:
         """Largest tension of an equilibrium in contact [N], positive."""
-        # Beyond the radius without load of Johnson, Kendall and Roberts, which is the largest, forces press.
+        # Beyond the radius without load in the limit of Johnson, Kendall and Roberts, the largest, forces are
+        # compressive.
         most = math.cbrt(9 * math.pi * self.work * self.radius**2 / (2 * self.modulus))
         radii = np.linspace(0.0, most, SAMPLES)
         forces = self.force(radii)
@@ -176,6 +177,6 @@ class DugdaleSphere:
 
 
 def _edge(a: Array, c: Array) -> tuple[Array, Array]:
-    """Return ``sqrt(c^2 - a^2)`` and ``arccos(a/c)``, good where c is next to a."""
+    """Return ``sqrt(c^2 - a^2)`` and ``arccos(a/c)``, accurate also for c close to a."""
     b = np.sqrt((c - a) * (c + a))
     return np.asarray(b), np.asarray(np.arctan2(b, a))

@@ -1,31 +1,31 @@
 r"""Whether a rough surface sticks, from its slopes and curvatures: the criterion of Pastewka and Robbins.
 
-Proc. Natl. Acad. Sci. 111, 3298 (2014). Where little is in contact the reaction acts on the area that it has
-without attraction, and a band beside the edge is attracted by the constant w/range. Both areas grow with the
-length P of the edge,
+Proc. Natl. Acad. Sci. 111, 3298 (2014). At small contact areas the reaction acts on the same area as without
+attraction, and a band beside the edge is attracted by the constant w/range. Both areas grow with the length P of the
+edge,
 
     A_rep = P d_rep/pi  under  E* h'/kappa,        A_att = P d_att  under  -w/range
 
-so that the attraction is a fixed part of the reaction, whatever the load: above 1 contacts hold under tension.
+and the attraction is a fixed part of the reaction, whatever the load. If it exceeds 1, contacts hold under tension.
 
     stickiness = pi kappa w/(E* h' range) d_att/d_rep
 
-d_rep is the mean chord of the contact spots. d_att is the width over which the gap beside a cylinder that meets
-the flat under the slope h', g = (4/3) h' d_rep (x/d_rep)^(3/2), grows to the range:
+d_rep is the mean chord of the contact spots. d_att is the width over which the gap beside a cylinder with the slope h'
+at the edge, g = (4/3) h' d_rep (x/d_rep)^(3/2), grows to the range:
 
     d_rep = 4 h'/h'',        d_att = d_rep (3 range/(4 h' d_rep))^(2/3)
 
-h' and h'' are the root mean squares of the gradient and of the Laplacian, 2/h'' being the radius of a summit. The
-criterion then reads ``E* h' range/(kappa w) (h'^2/(h'' range))^(2/3) < pi (3/16)^(2/3) = 1.03``.
+h' and h'' are the root mean squares of the gradient and of the Laplacian; 2/h'' is the radius of a summit. The
+criterion is then ``E* h' range/(kappa w) (h'^2/(h'' range))^(2/3) < pi (3/16)^(2/3) = 1.03``.
 
-**Constants.** Some take half the Laplacian as h'' in d_rep = 4 h'/h'', which makes the stickiness 1.6 times
-smaller. In contacts without attraction (``benchmarks/stickiness.py``) d_rep is 1.5 to 2.3 h'/h'', below either, and
-so A_att/A_rep 1.2 to 2.7 times that of the criterion; kappa is 2.3 to 2.6, and P d_att with the d_rep found is
-right to 40 %. So take the criterion as good to a factor of three, or give kappa and d_rep.
+**Constants.** Some authors use half the Laplacian as h'' in d_rep = 4 h'/h'', which makes the stickiness 1.6 times
+smaller. In contacts without attraction (``benchmarks/stickiness.py``) d_rep is 1.5 to 2.3 h'/h'', below both, and
+A_att/A_rep is 1.2 to 2.7 times that of the criterion; kappa is 2.3 to 2.6, and P d_att with the measured d_rep is
+right to 40 %. The criterion is therefore accurate to a factor of three; otherwise give kappa and d_rep.
 
-**Where it ends.** Small contact areas, a range far below h' d_rep, and an attraction that does not change the
-contact; it gives no pull-off force. Ciavarella (J. Tribol. 2017, doi 10.1115/1.4034530) disputes that slopes and
-curvatures decide: see `bearing_area_model`, in which the rms height and the longest wave do.
+**Limits.** Small contact areas, a range far below h' d_rep, and an attraction that does not change the contact. The
+criterion gives no pull-off force. Ciavarella (J. Tribol. 2017, doi 10.1115/1.4034530) disputes that slopes and
+curvatures are decisive: see `bearing_area_model`, which depends on the rms height and the longest wave.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def contact_diameter(spectrum: Spectrum) -> float:
     Raises
     ------
     ValueError
-        If the spectrum is none.
+        If `spectrum` is not a spectrum.
 
     Examples
     --------
@@ -78,9 +78,9 @@ def attracted_width(slope: float, diameter: float, range: float) -> float:
     Parameters
     ----------
     slope : float
-        At the edge of the undeformed surface, h' [-].
+        Slope h' of the undeformed surface at the edge [-].
     diameter : float
-        Of the contact, d_rep [m].
+        Chord of the contact, d_rep [m].
     range : float
         Range of the attraction [m], far below slope times diameter.
 
@@ -127,12 +127,12 @@ def stickiness(
     work : float
         Work of adhesion w [J/m^2].
     range : float
-        Up to which the attraction w/range reaches [m].
+        Largest gap of the attraction w/range [m].
     kappa : float
         Contact fraction times E* h' over the pressure, without attraction [-].
     diameter : float, optional
-        Mean chord of the contact spots d_rep [m], pi times their area over the length of their edges; without it
-        `contact_diameter`.
+        Mean chord of the contact spots d_rep [m], pi times their area over the length of their edges; by default that
+        of `contact_diameter`.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def stickiness(
     Raises
     ------
     ValueError
-        If a number is not positive, or the spectrum is none.
+        If a number is not positive, or `spectrum` is not a spectrum.
 
     Examples
     --------

@@ -1,13 +1,13 @@
-r"""The work of adhesion that is left of full contact with a rough surface.
+r"""The work of adhesion less the elastic energy of full contact with a rough surface.
 
 Persson and Tosatti, J. Chem. Phys. 115, 5597 (2001). To press an elastic body flat against every
 wave costs the elastic energy per area
 
     U = E*/4 int q C2D(q) d^2q = pi E*/2 int q^2 C2D(q) dq
 
-since the pressure under a wave of wavenumber q and height h is E* q h/2. What is left of w is w - U: where that is
-negative, full contact gives no energy back. The true area counts as the nominal one (slopes are small), and
-partial contact, which costs less, is not looked at. It is a statement on energies, not on a force.
+because the pressure under a wave of wavenumber q and height h is E* q h/2. The remainder is w - U: if it is negative,
+full contact releases no energy. The true area is assumed to equal the nominal one (small slopes), and partial contact,
+which costs less, is not considered. The result is an energy, not a force.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def full_contact_energy(spectrum: Spectrum, modulus: float) -> float:
     Raises
     ------
     ValueError
-        If the modulus is not positive, or the spectrum is none.
+        If the modulus is not positive, or `spectrum` is not a spectrum.
 
     Examples
     --------
@@ -53,7 +53,7 @@ def full_contact_energy(spectrum: Spectrum, modulus: float) -> float:
 
 @numeric
 def effective_work(spectrum: Spectrum, modulus: float, work: float) -> float:
-    """Return the work of adhesion less the elastic energy of full contact; negative where that is larger.
+    """Return the work of adhesion less the elastic energy of full contact; negative if the energy is larger.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def effective_work(spectrum: Spectrum, modulus: float, work: float) -> float:
     Raises
     ------
     ValueError
-        If a number is not positive, or the spectrum is none.
+        If a number is not positive, or `spectrum` is not a spectrum.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def effective_work(spectrum: Spectrum, modulus: float, work: float) -> float:
 
 @numeric
 def stickable_modulus(spectrum: Spectrum, work: float) -> float:
-    """Return the reduced modulus up to which full contact gives energy back.
+    """Return the reduced modulus up to which full contact releases energy.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def stickable_modulus(spectrum: Spectrum, work: float) -> float:
     Raises
     ------
     ValueError
-        If the work is not positive, or the spectrum is none.
+        If the work is not positive, or `spectrum` is not a spectrum.
 
     Examples
     --------

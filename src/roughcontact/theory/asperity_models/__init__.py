@@ -1,1 +1,1 @@
-"""Theories of summits: independent ones, and summits that push each other down."""
+"""Theories of asperities: independent ones, and asperities that interact through the body."""

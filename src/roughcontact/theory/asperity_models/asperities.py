@@ -1,11 +1,11 @@
 """The discrete asperity model: each summit of a surface a Hertz contact that pushes all others down.
 
-Ciavarella, Delfine and Demelio (J. Mech. Phys. Solids 54, 2569 (2006); thesis, figs 31 and 32). Where a summit is, how
-high and how round is taken from the surface itself; around its contact it sinks the half-space like a point force.
-Without interaction it is Greenwood and Williamson's theory of this one surface.
+Ciavarella, Delfine and Demelio (J. Mech. Phys. Solids 54, 2569 (2006); thesis, figs 31 and 32). Position, height and
+curvature of each summit are taken from the surface; outside its contact it displaces the half-space like a point
+force. Without interaction the model is Greenwood and Williamson's theory for this one surface.
 
-The model is one of separate spots; two equal spheres carry the force of the exact solution to 0.1 % until they touch.
-For merged spots it is an estimate, and `AsperityContact.merged` counts them.
+The model holds for separate spots: two equal spheres carry the force of the exact solution to 0.1 % until their spots
+touch. For merged spots, counted by `AsperityContact.merged`, it is an estimate.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ class AsperityContact:
     ----------
     asperities : Asperities
     compression : array, shape (n,)
-        Of each summit against the half-space around it [m]; 0 where it does not touch.
+        Compression of each summit relative to the half-space around it [m]; 0 without contact.
     depth : float
-        How far the flat has come since it touched the highest summit [m].
+        Displacement of the flat since it touched the highest summit [m].
     stiffness : float
-        dF/dd at the frozen contact [N/m]. With interaction that of the bodies' approach, as in thesis eq. 4.1; without,
-        that of the summits alone, an interfacial stiffness.
+        dF/dd at constant contact area [N/m]. With interaction d is the approach of the bodies, as in thesis eq. 4.1;
+        without it, the stiffness is that of only the summits, an interfacial stiffness.
     interaction : bool
         Whether summits push each other down.
 
@@ -81,7 +81,7 @@ class AsperityContact:
 
     @property
     def contact_area(self) -> float:
-        """Sum of the areas of all spots [m^2]; what merged ones share counts twice."""
+        """Sum of the areas of all spots [m^2]; the overlap of merged spots counts twice."""
         return float(np.pi * (self.asperities.radius * self.compression).sum())
 
     @property
@@ -99,7 +99,7 @@ class AsperityContact:
 
     @property
     def merged(self) -> int:
-        """Number of spots that overlap another one: where it is not 0, the model is outside its domain."""
+        """Number of spots that overlap another one: if it is not 0, the model is outside its domain."""
         touching = self.compression > 0
         x, y, a = self.asperities.x[touching], self.asperities.y[touching], self.spot_radius[touching]
         apart = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2 >= (a[:, None] + a) ** 2
@@ -120,9 +120,9 @@ def press(
     Parameters
     ----------
     asperities : Asperities
-        A few thousand of them in contact at most: their mutual influence is a dense matrix.
+        At most a few thousand of them in contact: their mutual influence is a dense matrix.
     force, depth : float
-        One of the two: the total force [N], or how far the flat comes since first touch [m].
+        One of the two: the total force [N], or the displacement of the flat since first touch [m].
     interaction : bool
         Whether summits push each other down.
 
@@ -135,7 +135,7 @@ def press(
     ValueError
         If not exactly one of force and depth is given, or it is not positive, or too many summits are in reach.
     RuntimeError
-        If the balance is not met, which has not been seen of separate spots.
+        If the iteration does not converge, which has not been observed for separate spots.
 
     Notes
     -----
@@ -175,9 +175,9 @@ def law(asperities: Asperities, *, interaction: bool = True) -> LoadingLaw:
     Returns
     -------
     LoadingLaw
-        "contact_area", "spots" and "elastic_energy"; with interaction "depth" and "stiffness", those of the approach of
-        the bodies, without it "interfacial_stiffness" alone, since nothing lies beneath the summits. Each call
-        solves for all forces again. The law has no upper force: `AsperityContact.merged` tells where spots merge.
+        "contact_area", "spots" and "elastic_energy"; with interaction "depth" and "stiffness", those of the approach
+        of the bodies; without it only "interfacial_stiffness", because there is no body beneath the summits. Each call
+        solves for all forces again. The law has no upper force: `AsperityContact.merged` counts the merged spots.
 
     Examples
     --------

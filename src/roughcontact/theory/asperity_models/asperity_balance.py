@@ -1,9 +1,9 @@
 """Summits that push each other down, and Newton's method for their balance.
 
-Unknown is the compression w of every summit, signed: ``w_i + sum_j F_j/(pi E* r_ij) + fall_i - d = 0`` with
-``F_j = (4/3) E* sqrt(R_j) max(w_j, 0)^(3/2)``, its fall below the highest summit, and the depth d of the flat. Where
-w is negative a summit does not touch and -w is its gap, so that one smooth equation holds for all of them and no set
-of contacts has to be guessed.
+The unknowns are the signed compressions w of all summits: ``w_i + sum_j F_j/(pi E* r_ij) + fall_i - d = 0`` with
+``F_j = (4/3) E* sqrt(R_j) max(w_j, 0)^(3/2)``, its fall below the highest summit, and the depth d of the flat. If w is
+negative, the summit does not touch and -w is its gap: one smooth equation holds for all summits, and no set of
+contacts has to be guessed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ __all__ = ["Asperities", "balance", "independent_depth"]
 
 TOLERANCE = 1e-12  # of the balance over the depth of the flat, and of the force
 STEPS = 60
-SHORTEST = 1e-4  # of a Newton step
+SHORTEST = 1e-4  # fraction of a Newton step
 MOST = 5e7  # numbers in the matrix of influences, 0.4 GB
 
 
@@ -32,9 +32,9 @@ class Asperities:
     Parameters
     ----------
     x, y : array, shape (n,)
-        Where they are [m]. From the summits of a surface: columns and rows times the spacing.
+        Positions [m]; for the summits of a surface: columns and rows times the spacing.
     height : array, shape (n,)
-        Above any common plane [m].
+        Height above a common plane [m].
     radius : array, shape (n,)
         Radius of curvature [m].
     modulus : float
@@ -75,29 +75,27 @@ class Asperities:
         positive(self.radius, "a radius [m]")
         positive(self.modulus, "the reduced modulus [Pa]")
         places = np.unique(np.stack([self.x, self.y]), axis=1)
-        require(
-            places.shape[1] == self.x.size, "two summits are in the same place", "leave the lower one out"
-        )
+        require(places.shape[1] == self.x.size, "two summits are in the same place", "remove the lower one")
 
     @property
     def fall(self) -> Array:
-        """Of each summit below the highest one [m], shape (n,)."""
+        """Distance of each summit below the highest one [m], shape (n,)."""
         return np.asarray(self.height.max() - self.height)
 
     @property
     def coefficient(self) -> Array:
-        """Of Hertz' law, force over compression to the power 3/2 [N/m^1.5], shape (n,)."""
+        """Coefficient of Hertz' law, force over compression to the power 3/2 [N/m^1.5], shape (n,)."""
         return np.asarray(4 / 3 * self.modulus * np.sqrt(self.radius))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _State:
-    """A trial: compressions and the depth of the flat, and how far they are from balance."""
+    """A trial: compressions and the depth of the flat, with their residuals."""
 
     compression: Array  # w, signed, shape (n,)
     depth: float
     touching: npt.NDArray[np.intp]  # indices, shape (m,)
-    influence: Array  # of the compression of a touching summit on the deflection of any other, shape (n, m)
+    influence: Array  # deflection of any summit per compression of a touching summit, shape (n, m)
     rate: Array  # dF/dw = 2 E* a, shape (m,)
     excess: Array  # left side of the balance, shape (n,)
     missing: float  # force still to be found
@@ -111,16 +109,16 @@ def balance(asperities: Asperities, depth: float, force: float | None = None) ->
     ----------
     asperities : Asperities
     depth : float
-        Of the flat since it touched the highest summit [m]; with a force only a first guess.
+        Displacement of the flat since it touched the highest summit [m]; with a force only an initial guess.
     force : float, optional
-        What the summits are to carry together [N].
+        Total force on the summits [N].
 
     Raises
     ------
     ValueError
-        If so many summits are in reach that their influences do not fit into memory.
+        If the matrix of influences of the summits in reach does not fit in memory.
     RuntimeError
-        If the iteration does not settle.
+        If the iteration does not converge.
     """
     state = _state(asperities, depth - asperities.fall, depth, force)
     for _ in range(STEPS):
@@ -150,7 +148,7 @@ def independent_depth(asperities: Asperities, force: float) -> float:
         excess = np.maximum(depth - fall, 0.0)
         return np.array([-(excess**1.5 @ coefficient)]), np.array([-1.5 * (np.sqrt(excess) @ coefficient)])
 
-    # The highest summit alone would take it at a larger depth.
+    # With only the highest summit, the depth would be larger.
     start = (force / coefficient[np.argmin(fall)]) ** (2 / 3)
     return float(concave_root(minus_force, np.array([-force]), np.array([start]), scale=0.0)[0])
 
@@ -169,18 +167,18 @@ def _state(asperities: Asperities, compression: Array, depth: float, force: floa
     dx = asperities.x[:, None] - asperities.x[touching]
     dy = asperities.y[:, None] - asperities.y[touching]
     distance = np.sqrt(dx**2 + dy**2)
-    distance[touching, np.arange(touching.size)] = np.inf  # its own share is w
+    distance[touching, np.arange(touching.size)] = np.inf  # its own contribution is w
     inside = distance < spot
     influence = np.divide(1 / (math.pi * modulus), distance, out=distance)
-    # Inside a spot r stops at its rim. The deflection there, F/(pi E* a), is linear in w. With 1/r instead, of two
-    # near summits either one could carry all, and nothing would decide between them.
+    # Inside a spot r is limited to its radius. The deflection there, F/(pi E* a), is linear in w. With 1/r instead,
+    # either of two close summits could carry the whole force: the solution would not be unique.
     deflection = np.minimum(influence, 1 / (math.pi * modulus * spot)) @ forces
     excess = compression + deflection + asperities.fall - depth
     rate = 2 * modulus * spot
     influence *= rate
     influence[inside] = 4 / (3 * math.pi)
     missing = 0.0 if force is None else force - float(forces.sum())
-    # Of a summit that does not touch only this matters: whether it should.
+    # A summit without contact is only wrong if it should touch.
     off = np.maximum(compression - excess, 0.0)
     off[touching] = np.abs(excess[touching])
     error = float(off.max()) / abs(depth)
@@ -190,7 +188,7 @@ def _state(asperities: Asperities, compression: Array, depth: float, force: floa
 
 
 def _search(asperities: Asperities, state: _State, step: Array, deeper: float, force: float | None) -> _State:
-    """Return the first of ever shorter steps that comes nearer to balance."""
+    """Return the first step of a line search by halving that reduces the residual."""
     length = 1.0
     while True:
         trial = _state(asperities, state.compression + length * step, state.depth + length * deeper, force)

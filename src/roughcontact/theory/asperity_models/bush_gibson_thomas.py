@@ -1,11 +1,11 @@
 """Bush, Gibson and Thomas' theory: all summits of a Gaussian surface as independent elliptic Hertz contacts.
 
 Heights and both curvatures of the summits have the joint density that follows from the spectrum (Wear 35, 87 (1975);
-Nayak 1971). With ``elliptic=False`` a summit is a sphere of its geometric mean curvature (Greenwood, Wear 261, 191
-(2006)): a simpler model, with a load lower by 1 to 3 % at the same separation.
+Nayak 1971). With ``elliptic=False`` a summit is replaced by a sphere of its geometric mean curvature (Greenwood, Wear
+261, 191 (2006)): a simpler model, whose load is lower by 1 to 3 % at the same separation.
 
-Like Greenwood and Williamson's theory it ends at the mean plane of the surface: its stiffness is interfacial. See
-`interaction` for the body underneath.
+Like Greenwood and Williamson's theory, it does not include the body below the mean plane of the surface: its stiffness
+is interfacial. See `interaction` for the body.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Summits:
     Raises
     ------
     ValueError
-        If there is no such surface, see `nayak.bandwidth` and `nayak.free_variance`.
+        If no surface has these moments, see `nayak.bandwidth` and `nayak.free_variance`.
 
     Examples
     --------
@@ -194,14 +194,15 @@ class Summits:
         highest = float(self.pressure(0.0))
         require(
             load <= highest * (1 + 1e-12),
-            f"at {highest:.4g} Pa the flat reaches the mean plane of the surface: more is no contact of summits",
+            f"at {highest:.4g} Pa the flat reaches the mean plane of the surface, the limit of this theory",
             value=load,
         )
         plane = np.full(np.shape(load), np.inf)
         target = np.log(load[load > 0] / self._force_scale)
         if target.size > FEW:
-            # The inverse is smooth: a spline through a few of its points leaves Newton next to nothing to do. A margin
-            # keeps these points apart if all targets are one.
+            # The inverse is smooth: from a spline through a few of its points Newton's method needs almost no
+            # iterations. A margin
+            # keeps these points apart if all targets are equal.
             known = np.linspace(target.min() - 0.01, target.max() + 0.01, FEW)
             start = make_interp_spline(known, self._invert(known, self._first_guess(known)))(target)
         else:
@@ -210,7 +211,7 @@ class Summits:
         return np.asarray(self.scale * plane)
 
     def _first_guess(self, target: Array) -> Array:
-        """Return the plane at which the limit of high separations, p ~ erfc(s0/sqrt(2))/4, has the load."""
+        """Return the plane at which the limit of high separations, p ~ erfc(s0/sqrt(2))/4, gives the load."""
         log_tail = target + math.log(self.nayak**0.75 * 4 / (3 * math.sqrt(math.pi)))
         return np.asarray(-ndtri_exp(np.minimum(log_tail, math.log(0.5))))
 
@@ -263,9 +264,9 @@ def _area_factor(ratio: Array) -> Array:
 def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulus: float) -> Array:
     """Return the contact fraction in the limit of no load, ``A/A0 = sqrt(pi/m2) p/E*`` [-].
 
-    Of both models and all spectra. It is 2.507 p/(E* g), g the rms slope, pi/2 times Persson's. A wide spectrum
-    comes near it only at contact fractions far below any real one: with Nayak's parameter 100, the area at 1 % is half
-    of it.
+    It is the same for both models and all spectra: 2.507 p/(E* g) with the rms slope g, pi/2 times Persson's. A wide
+    spectrum approaches it only at contact fractions far below any real one: with Nayak's parameter 100, the area at 1
+    % is half of the limit.
 
     Parameters
     ----------
@@ -298,8 +299,8 @@ def asymptotic_fraction(pressure: float | Array, moments: ProfileMoments, modulu
 def asymptotic_pressure(separation: float | Array, moments: ProfileMoments, modulus: float) -> Array:
     """Return the pressure in the limit of high separation s, ``E* sqrt(m2/pi) erfc(s/sqrt(2 m0))/4`` [Pa].
 
-    The contact area is then half of what lies above the flat. Within a few per cent from s = 3 sqrt(m0) on if Nayak's
-    parameter is near 2, much later for wide spectra.
+    The contact area is then half the area of the heights above the flat. The limit is accurate to a few per cent from
+    s = 3 sqrt(m0) on if Nayak's parameter is near 2, and only at much larger s for wide spectra.
 
     Parameters
     ----------

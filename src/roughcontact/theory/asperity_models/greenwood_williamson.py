@@ -1,7 +1,7 @@
 """Greenwood and Williamson's theory: independent asperities of one shape and random height under a flat.
 
-The load is what the asperities above the flat carry, each according to its own excess (Proc. R. Soc. A 295, 300
-(1966); thesis, section 3.1). The deformation of the body between asperities is left out: its stiffness is that
+The load is the sum over the asperities above the flat, each compressed by its excess height (Proc. R. Soc. A 295, 300
+(1966); thesis, section 3.1). The deformation of the body between asperities is neglected: the stiffness is that
 against the distance of the mean planes, an *interfacial* stiffness. See `interaction` for the body underneath.
 """
 
@@ -24,7 +24,7 @@ from roughcontact.validation import Array, number, numeric, positive, require, r
 
 __all__ = ["Asperity", "Population", "law", "population"]
 
-ROUNDING = 1e-12  # a flat that rests on the lowest asperity has not passed it, whatever its last digit
+ROUNDING = 1e-12  # tolerance for a flat that rests on the lowest asperity
 SOURCE = "Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966); parameters: McCool, Wear 107, 37 (1986)"
 
 
@@ -37,8 +37,8 @@ class Asperity:
     coefficient : float
         c [N/m^exponent].
     exponent : float
-        beta, from 1 to 11 [-]: 3/2 of a sphere, 1 + 1/H of a tip of height r^H, 1 of a flat end. A spring that
-        softens is no axisymmetric asperity and has no contact area.
+        beta, from 1 to 11 [-]: 3/2 of a sphere, 1 + 1/H of a tip of height r^H, 1 of a flat end. A spring that softens
+        is not an axisymmetric asperity and has no contact area.
     modulus : float
         Reduced modulus E* [Pa].
 
@@ -83,7 +83,7 @@ class Asperity:
 
     @property
     def area_coefficient(self) -> float:
-        """Of the contact area ``c_A depth**(2 exponent - 2)``, since stiffness is 2 E* times the radius."""
+        """Factor c_A of the contact area ``c_A depth**(2 exponent - 2)``, from the stiffness 2 E* times the radius."""
         return math.pi * (self.coefficient * self.exponent / (2 * self.modulus)) ** 2
 
 
@@ -94,7 +94,7 @@ class Population:
     Parameters
     ----------
     asperity : Asperity
-        Each of them.
+        Shape of each asperity.
     density : float
         Asperities per area [1/m^2].
     std : float
@@ -102,7 +102,8 @@ class Population:
     mean_height : float
         Mean of their heights above the mean plane of the surface [m]. Separations are counted from that plane.
     distribution : {"gaussian", "exponential"}
-        Of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at ``mean_height - std``.
+        Distribution of the heights. The exponential one, ``exp(-z/std)/std`` (thesis, eq. 3.1), begins at
+        ``mean_height - std``.
 
     Raises
     ------
@@ -136,7 +137,7 @@ class Population:
         require_numbers(self)
         if not isinstance(self.asperity, Asperity):
             raise InputError(
-                f"an Asperity is wanted, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}",
+                f"an Asperity is needed, such as Asperity.hertz(radius, modulus), not {shown(self.asperity)}",
                 place="asperity",
             )
         positive(self.density, "the density of asperities [1/m^2]")
@@ -276,10 +277,10 @@ class Population:
         return np.maximum(self.origin + self.std * plane, self.lowest)
 
     def _end(self) -> str:
-        """Say what ends the theory."""
+        """Return a description of the limit of the theory."""
         if self.lowest > 0:
-            return "touches every asperity, and lower the exponential law does not hold"
-        return "reaches the mean plane of the surface: more is no contact of asperities"
+            return "touches every asperity, the limit of the exponential law"
+        return "reaches the mean plane of the surface, the limit of this theory"
 
     def _plane(self, log_moment: Array) -> Array:
         """Return the standardised height t of the flat at which ln F_n(t) has a value, n the asperity's exponent."""
@@ -316,7 +317,7 @@ class Population:
 def population(
     moments: ProfileMoments, modulus: float, *, distribution: Distribution = "gaussian"
 ) -> Population:
-    """Return the spheres that stand for the summits of a surface (McCool 1986; see `nayak.summits`).
+    """Return the spheres that replace the summits of a surface (McCool 1986; see `nayak.summits`).
 
     Parameters
     ----------
@@ -325,7 +326,7 @@ def population(
     modulus : float
         Reduced modulus E* [Pa].
     distribution : {"gaussian", "exponential"}
-        Of the summit heights; both with the mean and the standard deviation that follow from the moments.
+        Distribution of the summit heights; both with the mean and the standard deviation from the moments.
 
     Returns
     -------
@@ -359,14 +360,14 @@ def law(
     area : float
         Nominal area A0 [m^2].
     distribution : {"gaussian", "exponential"}
-        Of the summit heights.
+        Distribution of the summit heights.
 
     Returns
     -------
     LoadingLaw
         "interfacial_stiffness", "contact_area", "mean_gap", "spots" and "elastic_energy". With exponential
-        heights the stiffness is F/std (thesis, eq. 3.9). No "stiffness": that takes the compliance of the body,
-        see `interaction`.
+        heights the stiffness is F/std (thesis, eq. 3.9). There is no "stiffness", which needs the compliance of the
+        body, see `interaction`.
 
     Raises
     ------

@@ -1,13 +1,13 @@
-"""Asperities that push each other down: the mean deflection of the body under a nominal contact of finite size.
+"""Interaction of asperities by the mean deflection of the body under a nominal contact of finite size.
 
-Theories of independent asperities end at the mean plane of the surface. Under a nominal pressure p on an area A0 this
-plane itself sinks into the body, by ``c p sqrt(A0)/E*`` on average: what Ciavarella, Greenwood and Paggi (Wear 265,
-729 (2008)) add to the Greenwood-Williamson theory. So the bodies approach further at the same load,
+Theories of independent asperities treat the mean plane of the surface as fixed. Under a nominal pressure p on an area
+A0 this plane sinks into the body, by ``c p sqrt(A0)/E*`` on average: Ciavarella, Greenwood and Paggi (Wear 265, 729
+(2008)) add this to the Greenwood-Williamson theory. The bodies approach further at the same load,
 
     approach = approach of the mean planes + c F/(E* L),    1/k = 1/K + c/(E* L),    L = sqrt(A0),
 
-with the interfacial stiffness K. The second relation is exact for any elastic contact with its own c, which lies
-between 0.561 and 1.122 on a square. On a periodic surface there is no such sinking: k = K.
+with the interfacial stiffness K. The second relation is exact for any elastic contact with its value of c, which lies
+between 0.561 and 1.122 on a square. On a periodic surface the mean plane does not sink: k = K.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["SQUARE", "finite_body", "law", "mean_gap"]
 
-# c of a uniform pressure on a square, 0.9464.
+# c for a uniform pressure on a square, 0.9464.
 SQUARE = 4 / math.pi * (math.log(1 + math.sqrt(2)) + (1 - math.sqrt(2)) / 3)
 SOURCE = "Ciavarella, Greenwood and Paggi, Wear 265, 729 (2008)"
 
@@ -43,7 +43,7 @@ def mean_gap(
     Parameters
     ----------
     plane : float or array
-        Height of the flat above the mean plane before that sinks [m]: the flat is moved as if on a rigid body.
+        Height of the flat above the undeformed mean plane [m].
     interface : Interface
         `greenwood_williamson.Population` or `bush_gibson_thomas.Summits`.
     modulus : float
@@ -51,13 +51,13 @@ def mean_gap(
     area : float
         Nominal area A0 [m^2].
     deflection : float
-        c, the mean deflection in p sqrt(A0)/E* [-]; that of a uniform pressure on a square if not given. 0 on a
-        periodic surface.
+        c, the mean deflection in p sqrt(A0)/E* [-]; by default that of a uniform pressure on a square; 0 on a periodic
+        surface.
 
     Returns
     -------
     array
-        The one root s of ``s = plane + c p(s) sqrt(A0)/E*``; ``interface.pressure`` gives the load there.
+        The unique root s of ``s = plane + c p(s) sqrt(A0)/E*``; ``interface.pressure`` gives the load there.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def mean_gap(
     def before_load(gap: Array) -> tuple[Array, Array]:
         return gap - factor * interface.pressure(gap), 1 + factor * interface.stiffness(gap)
 
-    # It grows, and is concave since the pressure is convex.
+    # The function increases, and is concave because the pressure is convex.
     return concave_root(before_load, height, np.maximum(height, lowest), scale=interface.scale)
 
 
@@ -98,7 +98,7 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     Parameters
     ----------
     law : LoadingLaw
-        That has an "interfacial_stiffness".
+        A law with an "interfacial_stiffness".
     modulus : float
         Reduced modulus E* [Pa].
     area : float
@@ -109,8 +109,8 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     Returns
     -------
     LoadingLaw
-        With "stiffness", the one against the approach of the bodies, as well; an "elastic_energy" has that of the
-        body added, ``c F^2/(2 E* L)``.
+        The law with a further "stiffness", that against the approach of the bodies; the energy of the body, ``c F^2/(2
+        E* L)``, is added to an "elastic_energy".
 
     Raises
     ------
@@ -126,7 +126,7 @@ def finite_body(law: LoadingLaw, modulus: float, area: float, *, deflection: flo
     >>> bool(law.predict("stiffness", 1.0) < law.predict("interfacial_stiffness", 1.0))  # springs in series
     True
     """
-    require("interfacial_stiffness" in law.quantities, f"{law.name} has no interfacial stiffness to add to")
+    require("interfacial_stiffness" in law.quantities, f"{law.name} has no interfacial stiffness")
     compliance = _compliance(modulus, area, deflection)
     of_interface = law.quantities["interfacial_stiffness"]
     more = dict(law.quantities)
@@ -166,7 +166,7 @@ def law(
     area : float
         Nominal area A0 [m^2].
     distribution : {"gaussian", "exponential"}
-        Of the summit heights.
+        Distribution of the summit heights.
     deflection : float
         See `mean_gap`.
 
@@ -177,8 +177,8 @@ def law(
 
     Notes
     -----
-    In terms of the force, interaction changes the approach and so the "stiffness", and nothing else: the same load
-    still has the same number of contacts and the same area. An estimate: the load is taken for uniform.
+    As a function of the force, interaction changes only the approach and therefore the "stiffness": the number of
+    contacts and the area at a load are the same. It is an estimate that assumes a uniform load.
 
     Examples
     --------

@@ -14,7 +14,7 @@ __all__ = ["Interface", "loading_law"]
 class Interface(Protocol):
     """Nominally flat rough contact as a function of the separation of the mean planes [m].
 
-    `greenwood_williamson.Population` and `bush_gibson_thomas.Summits` are such.
+    `greenwood_williamson.Population` and `bush_gibson_thomas.Summits` implement it.
     """
 
     @property
@@ -23,7 +23,7 @@ class Interface(Protocol):
 
     @property
     def scale(self) -> float:
-        """A length over which pressures change by much: the standard deviation of heights [m]."""
+        """A length over which the pressure changes strongly: the standard deviation of heights [m]."""
 
     def pressure(self, separation: float | Array) -> Array:
         """Nominal pressure [Pa]: decreasing, convex, and log-concave."""
@@ -60,7 +60,7 @@ def loading_law(interface: Interface, area: float, *, name: str, source: str) ->
     -------
     LoadingLaw
         "interfacial_stiffness", "contact_area", "mean_gap" (the separation of the mean planes), "spots" and
-        "elastic_energy" (that of the asperities alone). Its domain ends where the flat would reach the mean plane of
+        "elastic_energy" (only that of the asperities). Its domain ends where the flat would reach the mean plane of
         the surface: the gap of a contact is not negative.
     """
     nominal = float(positive(area, "the nominal area [m^2]"))

@@ -1,7 +1,8 @@
 """Partial slip of a sphere under constant normal and rising or oscillating tangential force.
 
-Cattaneo (1938) and Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2. Slip is taken to go along the
-force: exact if Poisson's ratio is 0; else slip across the force, a part of order nu/(2 - nu), is neglected.
+Cattaneo (1938) and Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2. Slip is assumed to be along the
+force, which is exact for Poisson's ratio 0; otherwise slip across the force, a part of order nu/(2 - nu), is
+neglected.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ __all__ = ["SlippingSphere"]
 
 @dataclass(frozen=True, slots=True)
 class SlippingSphere:
-    """A sphere pressed by a constant force and pulled sideways by Q, at most mu P.
+    """A sphere under a constant normal force and a tangential force Q, at most mu P.
 
     Parameters
     ----------
@@ -31,7 +32,7 @@ class SlippingSphere:
     friction : float
         Coefficient of friction mu [-].
     ratio : float
-        E*/G* [-], see `mindlin.ratio`: 1 to 1.5, and not below 0.75 for negative Poisson's ratios.
+        E*/G* [-], see `mindlin.ratio`: 1 to 1.5, or at least 0.75 for negative Poisson's ratios.
 
     Raises
     ------
@@ -65,11 +66,11 @@ class SlippingSphere:
     def __post_init__(self) -> None:
         for name in ("force", "radius", "modulus", "friction", "ratio"):
             positive_scalar(getattr(self, name), f"the {name}")
-        # Poisson's ratio goes from -1 to 1/2; the last digits are left to the rounding of `pair_ratio`.
+        # Poisson's ratio goes from -1 to 1/2; the margin allows for rounding in `pair_ratio`.
         require(
             0.75 * (1 - 1e-12) <= self.ratio <= 1.5 * (1 + 1e-12),
             "the ratio E*/G* of a round contact lies from 1 to 1.5, or from 0.75 with negative Poisson's ratios: "
-            f"mindlin.ratio(poisson_ratio) gives it; not {self.ratio}",
+            f"mindlin.ratio(poisson_ratio) returns it; not {self.ratio}",
             place="ratio",
         )
 
@@ -90,7 +91,7 @@ class SlippingSphere:
 
     @property
     def gross_slip(self) -> float:
-        """Displacement at Q = mu P [m], beyond which nothing holds."""
+        """Displacement at Q = mu P [m], at which the sphere begins to slide."""
         return self.friction * self.ratio * self.depth
 
     @numeric
@@ -105,7 +106,7 @@ class SlippingSphere:
         Returns
         -------
         float or array
-            c [m]; 0 where all slips.
+            c [m]; 0 if the whole contact slips.
         """
         return np.asarray(self.contact_radius * (1 - self._part(tangential)) ** (1 / 3))
 
@@ -187,7 +188,7 @@ class SlippingSphere:
 
     @numeric
     def cycle_loss(self, amplitude: float | Array) -> Array:
-        """Return the work [J] that friction takes in a cycle between +Q and -Q [N].
+        """Return the work [J] that friction dissipates in a cycle between +Q and -Q [N].
 
         Parameters
         ----------
@@ -211,7 +212,7 @@ class SlippingSphere:
         top = self.friction * self.force
         require(
             part <= 1,
-            f"a tangential force above mu P = {top:g} N is not to be had: the sphere slides",
+            f"the tangential force exceeds mu P = {top:g} N, at which the sphere slides",
             place="tangential",
         )
         return part

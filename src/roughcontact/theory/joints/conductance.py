@@ -1,13 +1,13 @@
 """Electrical and thermal conductance of a contact from its stiffness, and back: an exact analogy.
 
 Potential and temperature obey the same equation as the displacement under normal pressure. In the same contact
-region ``k/E* = Lambda_e (rho1 + rho2)/2`` (thesis, eq. 4.2) and ``k/E* = Lambda_t (1/lambda1 + 1/lambda2)/2``: eq. 4.4
-and with it 7.3 are printed with an arithmetic mean of conductivities where the harmonic one belongs (Barber,
-Proc. R. Soc. A 459, 53 (2003)).
+region ``k/E* = Lambda_e (rho1 + rho2)/2`` (thesis, eq. 4.2) and ``k/E* = Lambda_t (1/lambda1 + 1/lambda2)/2``: eqs 4.4
+and 7.3 are printed with the arithmetic mean of conductivities instead of the harmonic one (Barber, Proc. R. Soc. A
+459, 53 (2003)).
 
-The stiffness against the approach gives the conductance of the whole, the constriction towards the contact as a
-whole included; that against the mean gap the share of the interface, ``h A0 = lambda K/E*``. Current and
-heat cross in the contact region only: no film, no gas, no radiation.
+The stiffness against the approach gives the total conductance, including the constriction towards the whole contact;
+the stiffness against the mean gap gives that of the interface, ``h A0 = lambda K/E*``. Current and heat cross only in
+the contact region: no film, no gas, no radiation.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
     Parameters
     ----------
     stiffness : float or array
-        k [N/m]; per nominal area [Pa/m] the conductance is one per area, too.
+        k [N/m]; for k per nominal area [Pa/m] the conductance is also per area.
     modulus : float
-        Reduced modulus E* [Pa] of the computation of k, whatever bodies it belongs to.
+        Reduced modulus E* [Pa] used to compute k, of any bodies.
     resistivities : tuple of float
         rho of both bodies [ohm m]; 0 for a superconductor.
 
@@ -55,7 +55,7 @@ def electrical(stiffness: float | Array, modulus: float, resistivities: Pair) ->
     Raises
     ------
     ValueError
-        If a number is negative, or both bodies are superconductors: then nothing limits the current.
+        If a number is negative, or both bodies are superconductors: then the conductance is infinite.
 
     Examples
     --------
@@ -102,9 +102,9 @@ def thermal(stiffness: float | Array, modulus: float, conductivities: Pair) -> A
     Parameters
     ----------
     stiffness : float or array
-        k [N/m]; per nominal area [Pa/m] the conductance is one per area, too.
+        k [N/m]; for k per nominal area [Pa/m] the conductance is also per area.
     modulus : float
-        Reduced modulus E* [Pa] of the computation of k.
+        Reduced modulus E* [Pa] used to compute k.
     conductivities : tuple of float
         Thermal conductivity lambda of both bodies [W/(m K)]; 0 for an insulator, infinite for an isothermal body.
 
@@ -177,7 +177,7 @@ def harmonic_mean(conductivities: Pair) -> float:
 
 
 def resistance(conductance: float | Array) -> Array:
-    """Return 1/conductance: ohm of S, K/W of W/K, m^2 K/W of W/(m^2 K); infinite of 0.
+    """Return 1/conductance: ohm for S, K/W for W/K, m^2 K/W for W/(m^2 K); infinite for 0.
 
     Parameters
     ----------
@@ -213,18 +213,18 @@ def law(
     Parameters
     ----------
     mechanical : LoadingLaw
-        That predicts a stiffness.
+        A law that predicts a stiffness.
     modulus : float
         Reduced modulus E* [Pa] of that law.
     resistivities, conductivities : tuple of float, optional
-        Of both bodies, at least one of the two pairs; see `electrical` and `thermal`.
+        Values of both bodies, for at least one of the two; see `electrical` and `thermal`.
     quantity : str
-        ``"stiffness"`` for the conductance of the whole, ``"interfacial_stiffness"`` for that of the interface.
+        ``"stiffness"`` for the total conductance, ``"interfacial_stiffness"`` for that of the interface.
 
     Returns
     -------
     LoadingLaw
-        Of ``"electrical_conductance"`` [S] and ``"thermal_conductance"`` [W/K], what was asked for.
+        ``"electrical_conductance"`` [S], ``"thermal_conductance"`` [W/K] or both, according to the given pairs.
 
     Raises
     ------
@@ -246,12 +246,12 @@ def law(
         found["thermal_conductance"] = partial(thermal, modulus=modulus, conductivities=conductivities)
     require(len(found), "give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies")
     for conductance in found.values():
-        conductance(np.zeros(()))  # bad numbers show themselves here
+        conductance(np.zeros(()))  # invalid numbers raise here
     return mechanical.derived(quantity, found)
 
 
 def _lengths(stiffness: float | Array, modulus: float) -> Array:
-    """Return k/E* [m], twice the radius of the equivalent spot: all of the mechanics that is in a conductance."""
+    """Return k/E* [m], twice the radius of the equivalent spot: the only mechanical input of a conductance."""
     return _not_negative(stiffness, "a stiffness [N/m]") / positive(modulus, "the modulus [Pa]")
 
 
@@ -259,7 +259,7 @@ def _inverse(
     forward: Callable[[float, float, Pair], Array], conductance: float | Array, modulus: float, pair: Pair
 ) -> Array:
     unit = float(forward(1.0, modulus, pair))
-    require(unit > 0, "next to an insulator no stiffness has a conductance")
+    require(unit > 0, "with an insulator the conductance is zero, whatever the stiffness")
     return _not_negative(conductance, "a conductance") / unit
 
 
@@ -273,5 +273,5 @@ def _not_negative(values: ArrayLike, what: str) -> Array:
 def _both(values: Pair, what: str) -> Array:
     """Return the numbers of both bodies."""
     given = _not_negative(values, what)
-    require(given.shape == (2,), f"{what} of each of both bodies is wanted, not {shown(values)}")
+    require(given.shape == (2,), f"{what} of each body is needed, not {shown(values)}")
     return given

@@ -1,8 +1,8 @@
-"""Holm's contacts: the constriction resistance of one spot, of several, and the radius that stands for them.
+"""Holm's contacts: the constriction resistance of one spot, of several, and the equivalent radius.
 
-Holm, Electric Contacts (1967); several spots after Greenwood, Brit. J. Appl. Phys. 17, 1621 (1966). Everything
-is stated as a stiffness over E*, the contact length [m] that `conductance` converts to ohms or K/W: a disc of radius a
-has ``k/E* = 2a``, and the resistance ``(rho1 + rho2)/(4a)``.
+Holm, Electric Contacts (1967); several spots after Greenwood, Brit. J. Appl. Phys. 17, 1621 (1966). Results are
+stiffnesses over E*, the contact length [m] that `conductance` converts to ohms or K/W: a disc of radius a has ``k/E* =
+2a``, and the resistance ``(rho1 + rho2)/(4a)``.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def spot_resistance(radius: float | Array, resistivities: tuple[float, float]) -
     Returns
     -------
     float or array
-        R [ohm]; infinite of no spot.
+        R [ohm]; infinite for radius 0.
 
     Examples
     --------
@@ -45,9 +45,9 @@ def spot_resistance(radius: float | Array, resistivities: tuple[float, float]) -
 def spots_resistance(radii: Array, positions: Array, resistivities: tuple[float, float]) -> float:
     """Return the resistance of round spots of a plane between two half-spaces [ohm] (Greenwood 1966).
 
-    ``R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} a_i a_j/s_ij / (sum a_i)^2``, rho the mean of both.
-    It takes the current of each spot for proportional to its radius, and the other spots for points: right for
-    spots that are small beside their distances. See `contact_length` for the arguments and errors.
+    ``R = rho/(2 sum a_i) + (rho/pi) sum_{i != j} a_i a_j/s_ij / (sum a_i)^2`` with the mean rho of both.
+    It assumes that the current of each spot is proportional to its radius, and that the other spots are points: valid
+    for spots much smaller than their distances. See `contact_length` for the arguments and errors.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def spots_resistance(radii: Array, positions: Array, resistivities: tuple[float,
 
 
 def contact_length(radii: Array, positions: Array) -> float:
-    """Return k/E* [m] of round spots of a plane (Greenwood 1966): 2a of one, twice the sum of those far apart.
+    """Return k/E* [m] of round spots of a plane (Greenwood 1966): 2a for one, twice the sum of the radii if far apart.
 
     Parameters
     ----------
@@ -92,8 +92,7 @@ def contact_length(radii: Array, positions: Array) -> float:
     Raises
     ------
     ValueError
-        If a radius is not positive, or two spots overlap: then their shapes matter, and a computation is wanted
-        (`roughcontact.contact_stiffness`).
+        If a radius is not positive, or two spots overlap: then use `roughcontact.contact_stiffness`.
 
     Examples
     --------
@@ -108,12 +107,12 @@ def contact_length(radii: Array, positions: Array) -> float:
     if not (np.isfinite(a).all() and (a > 0).all() and np.isfinite(centre).all()):
         raise about("radii", "must be positive, and radii and positions finite")
     mutual = 0.0
-    # One row of distances at a time: spots may be many.
+    # One row of distances at a time: there may be many spots.
     for i in range(a.size - 1):
         distance = np.hypot(*(centre[i + 1 :] - centre[i]).T)
         if (distance < a[i] + a[i + 1 :]).any():
             raise InputError(
-                f"spot {i} overlaps another: the formula is one of separate spots",
+                f"spot {i} overlaps another: the formula is for separate spots",
                 "compute such a region with roughcontact.contact_stiffness",
             )
         mutual += 2 * a[i] * float(np.sum(a[i + 1 :] / distance))
@@ -123,7 +122,7 @@ def contact_length(radii: Array, positions: Array) -> float:
 
 @numeric
 def holm_radius(stiffness: float | Array, modulus: float) -> Array:
-    """Return the radius [m] of the one round spot with this stiffness, and so with its conductance: k/(2 E*).
+    """Return the radius [m] of the round spot with this stiffness and therefore this conductance: k/(2 E*).
 
     Also called contact length or Hertz radius (thesis, section 4.2, after eq. 4.6).
 
@@ -155,9 +154,9 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     Parameters
     ----------
     stiffness : float
-        k [N/m], of the whole.
+        Total stiffness k [N/m].
     local : float
-        Stiffness [N/m] of the spots without each other, ``2 E* sum a_i``, or that against the mean gap.
+        Stiffness [N/m] of the independent spots, ``2 E* sum a_i``, or that against the mean gap.
     modulus : float
         Reduced modulus E* [Pa].
 
@@ -169,7 +168,7 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     Raises
     ------
     ValueError
-        If the whole is not softer than its spots: then there is no cluster.
+        If the total stiffness is not below that of the spots: then there is no cluster.
 
     Examples
     --------
@@ -178,7 +177,10 @@ def cluster_radius(stiffness: float, local: float, modulus: float) -> float:
     1.0
     """
     k, apart = positive(stiffness, "the stiffness [N/m]"), positive(local, "the local stiffness [N/m]")
-    require(k < apart, f"spots that share a load are softer than apart: {k} N/m is not below {apart} N/m")
+    require(
+        k < apart,
+        f"a cluster is softer than its separate spots: {k} N/m is not below {apart} N/m",
+    )
     return float(k * apart / (2 * positive(modulus, "the modulus [Pa]") * (apart - k)))
 
 
@@ -187,6 +189,6 @@ def _resistivity(resistivities: tuple[float, float]) -> float:
     both = positive(resistivities, "the resistivity [ohm m]", zero=True)
     require(
         np.shape(both) == (2,),
-        f"the resistivity [ohm m] of each of both bodies is wanted, not {resistivities}",
+        f"the resistivity [ohm m] of each body is needed, not {resistivities}",
     )
     return float(np.mean(both))

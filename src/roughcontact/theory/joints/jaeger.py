@@ -1,13 +1,14 @@
-"""Partial slip of any contact from its frictionless loading curve alone.
+"""Partial slip of any contact, from only its frictionless loading curve.
 
-The traction is mu times what the pressure has gained since a smaller force, ``q = mu [p(F) - p(F - Q/mu)]``; so the
-displacement is mu E*/G* times what the depth has gained, and the region that sticks is the contact at the smaller force
-(Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27 (1998)). Exact on a line and
-for Poisson's ratio 0; else slip is taken to go along the force, and the ratio E*/G* for that of a disc.
+The traction is mu times the increase of the pressure from a smaller force, ``q = mu [p(F) - p(F - Q/mu)]``. The
+displacement is therefore mu E*/G* times the increase of the depth, and the sticking region is the contact at the
+smaller force (Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27 (1998)). This is
+exact on a line and for Poisson's ratio 0; otherwise slip is assumed to be along the force, and the ratio E*/G* of a
+disc is used.
 
 F stays constant while Q rises from zero. `loading` is a law that predicts ``"depth"`` or ``"stiffness"``, or a computed
-curve: it is interpolated by monotone cubics in the logarithms from its lowest to its highest force, has the depth 0
-without force, and is refused elsewhere.
+curve: it is interpolated by monotone cubics in the logarithms from its lowest to its highest force, and has the depth
+0 without force; other forces raise an error.
 """
 
 from __future__ import annotations
@@ -117,9 +118,9 @@ def stiffness(
 def cycle_loss(
     loading: LoadingLaw | ComputedCurve, force: float, amplitude: float, *, friction: float, ratio: float
 ) -> float:
-    """Return the work [J] that friction takes in a cycle between +Q1 and -Q1 [N].
+    """Return the work [J] that friction dissipates in a cycle between +Q1 and -Q1 [N].
 
-    ``W = 4 Q1 D(Q1) - 8 int_0^Q1 D dQ``, D the displacement as Q rises from zero: the branches of a cycle are
+    ``W = 4 Q1 D(Q1) - 8 int_0^Q1 D dQ`` with the displacement D as Q rises from zero: the branches of a cycle are
     copies of that curve at twice the scale (Masing's rule). Parameters as of `displacement`.
 
     Parameters
@@ -158,14 +159,14 @@ def cycle_loss(
 
 
 def _held(force: float, tangential: float | Array, friction: float) -> Array:
-    """Return the force F - Q/mu [N] whose contact sticks."""
+    """Return the force F - Q/mu [N] whose contact is the sticking region."""
     pressed = positive_scalar(force, "the force [N]")
     pulled = positive(tangential, "the tangential force [N]", zero=True) / positive(
         friction, "the friction coefficient"
     )
     require(
         pulled <= pressed,
-        f"a tangential force above mu F = {friction * pressed:g} N is not to be had: the contact slides",
+        f"the tangential force exceeds mu F = {friction * pressed:g} N, at which the contact slides",
         place="tangential",
     )
     return np.asarray(pressed - pulled)

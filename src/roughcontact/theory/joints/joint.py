@@ -1,7 +1,7 @@
-"""The correlations of thermal joints as laws of the contact itself: its area, and its stiffness by the exact analogy.
+"""The correlations of thermal joints as laws of the contact: its area, and its stiffness by the exact analogy.
 
 A contact that conducts heat as h per nominal area has the interfacial stiffness ``E* h/k_s`` per area (thesis, eq. 4.4
-corrected): the conductivities drop out, and the law stands beside a computed curve of any bodies.
+corrected): the conductivities cancel, and the law can be compared with a computed curve of any bodies.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from roughcontact.validation import Array, numeric
 
 __all__ = ["cooper_mikic_yovanovich", "mikic"]
 
-_ALIKE = (1.0, 1.0)  # of both bodies: any conductivities give the same stiffness
+_ALIKE = (1.0, 1.0)  # conductivities of both bodies: any values give the same stiffness
 
 
 @numeric
@@ -27,7 +27,7 @@ def mikic(moments: ProfileMoments, modulus: float, area: float) -> LoadingLaw:
     Parameters
     ----------
     moments : ProfileMoments
-        Of the sum of both surfaces.
+        Moments of the sum of both surfaces.
     modulus : float
         Reduced modulus E* [Pa].
     area : float
@@ -57,12 +57,12 @@ def mikic(moments: ProfileMoments, modulus: float, area: float) -> LoadingLaw:
 def cooper_mikic_yovanovich(
     moments: ProfileMoments, hardness: float, modulus: float, area: float
 ) -> LoadingLaw:
-    """Return the law of spots that flow: ``A = F/H``, stiffness ~ F^0.95.
+    """Return the law of plastic spots: ``A = F/H``, stiffness ~ F^0.95.
 
     Parameters
     ----------
     moments : ProfileMoments
-        Of the sum of both surfaces.
+        Moments of the sum of both surfaces.
     hardness : float
         H of the softer body at the size of the spots [Pa].
     modulus : float
@@ -74,7 +74,8 @@ def cooper_mikic_yovanovich(
     -------
     LoadingLaw
         "contact_area" and "interfacial_stiffness", up to a pressure of 5 % of the hardness. The stiffness is that of
-        all spots on unloading, which conducts; that of a curve under a hardness leaves out the plastic cells.
+        all spots on unloading, as for the conductance; the stiffness of a curve with a hardness does not include the
+        plastic cells.
 
     Notes
     -----
@@ -93,7 +94,7 @@ def cooper_mikic_yovanovich(
 
 
 def _law(conducting: LoadingLaw, modulus: float, area: float, *, plastic: bool) -> LoadingLaw:
-    """Return the law of area and stiffness of a joint from that of its conductance."""
+    """Return the law of area and stiffness of a joint from the law of its conductance."""
     stiffness: Callable[[Array], Array] = partial(
         stiffness_from_thermal, modulus=modulus, conductivities=_ALIKE
     )

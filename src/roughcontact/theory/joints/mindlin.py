@@ -1,9 +1,9 @@
-"""Tangential stiffness from the normal one, and how far a contact moves before it slips as a whole.
+"""Tangential stiffness from the normal stiffness, and the displacement of a contact before gross slip.
 
-In a round contact without slip the stiffnesses stand in the ratio of the moduli, ``k/k_t = E*/G*``, with
-``1/G* = sum (2 - nu)/(4G)`` (Mindlin 1949; thesis, eqs 4.5 and 7.4). It is exact if normal pressure moves the
-surfaces sideways by equal amounts (equal bodies, or both incompressible), and for other contact
-regions a good approximation: along the long side of a rectangle of 4 : 1 the ratio is 5 % higher at nu = 0.3.
+In a round contact without slip the ratio of the stiffnesses is that of the moduli, ``k/k_t = E*/G*``, with
+``1/G* = sum (2 - nu)/(4G)`` (Mindlin 1949; thesis, eqs 4.5 and 7.4). It is exact if normal pressure moves both
+surfaces sideways by equal amounts (equal bodies, or both incompressible), and a good approximation for other contact
+regions: along the long side of a rectangle of 4 : 1 the ratio is 5 % higher at nu = 0.3.
 
 `ratio` in the signatures is E*/G*, one to 1.5 for solids with Poisson's ratio 0 to 1/2.
 """
@@ -32,7 +32,7 @@ __all__ = [
 
 
 class ElasticSolid(Protocol):
-    """What is asked of a body; `roughcontact.Solid` is one.
+    """The attributes that a body must have; `roughcontact.Solid` has them.
 
     Examples
     --------
@@ -53,7 +53,7 @@ class ElasticSolid(Protocol):
 
 
 def ratio(poisson_ratio: float) -> float:
-    """Return k/k_t of two bodies of one Poisson's ratio, or of one against a rigid body, ``(2 - nu)/(2(1 - nu))``.
+    """Return k/k_t of two bodies of equal Poisson's ratio, or one against a rigid body, ``(2 - nu)/(2(1 - nu))``.
 
     Thesis, eqs 4.5 and 7.4: 1 at nu = 0, 1.5 at nu = 1/2.
 
@@ -91,7 +91,7 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     first : ElasticSolid
         One body.
     second : ElasticSolid, optional
-        The other; without it a rigid one.
+        The other body; by default rigid.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     Raises
     ------
     ValueError
-        If both are rigid, or one is no solid.
+        If both are rigid, or one is not a solid.
 
     Examples
     --------
@@ -113,7 +113,7 @@ def pair_ratio(first: ElasticSolid, second: ElasticSolid | None = None) -> float
     bodies = (first,) if second is None else (first, second)
     for body in bodies:
         if not (hasattr(body, "shear_modulus") and hasattr(body, "poisson_ratio")):
-            raise InputError(f"a solid with shear_modulus and poisson_ratio is wanted, not {shown(body)}")
+            raise InputError(f"a solid with shear_modulus and poisson_ratio is needed, not {shown(body)}")
     sideways = sum((2 - body.poisson_ratio) / (4 * body.shear_modulus) for body in bodies)
     inwards = sum((1 - body.poisson_ratio) / (2 * body.shear_modulus) for body in bodies)
     require(inwards > 0, "two rigid bodies have no stiffness", "give one of them a finite shear modulus")
@@ -150,14 +150,14 @@ def tangential_stiffness(stiffness: float | Array, ratio: float) -> Array:
 
 @numeric
 def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
-    """Return the tangential stiffness ``"tangential_stiffness"`` [N/m] that belongs to the stiffness of another law.
+    """Return the law of the tangential stiffness ``"tangential_stiffness"`` [N/m] from the stiffness of another law.
 
-    Of the power law of a rough surface it is the thesis' eq. 7.5.
+    For the power law of a rough surface it is eq. 7.5 of the thesis.
 
     Parameters
     ----------
     mechanical : LoadingLaw
-        That predicts a "stiffness".
+        A law that predicts a "stiffness".
     ratio : float
         E*/G* [-], see `mindlin.ratio` and `mindlin.pair_ratio`.
 
@@ -188,7 +188,8 @@ def law(mechanical: LoadingLaw, ratio: float) -> LoadingLaw:
 def gross_slip(depth: float | Array, friction: float, ratio: float) -> Array:
     """Return the tangential displacement [m] at which a contact begins to slip as a whole, ``mu (E*/G*) d``.
 
-    Of any shape, smooth or rough (Ciavarella 1998, Jaeger 1998; behind thesis, eq. 7.6); `jaeger` has the way there.
+    It holds for any shape, smooth or rough (Ciavarella 1998, Jaeger 1998; basis of thesis, eq. 7.6). See `jaeger` for
+    partial slip.
 
     Parameters
     ----------
@@ -234,7 +235,7 @@ def slip_constant(
         zeta of the power law 7.2, by default that of eq. 4.74.
     constants : {"consistent", "printed"}
         ``(H+1)/(zeta H) Theta^(1/(H+1))``, which makes 7.6 the depth of eq. 7.2; or eq. 7.7 as printed, whose 0.2055
-        and 0.086 come from another fit. They amount to a zeta of its own: 4 % above that of eq. 4.74 at H = 0.3, 7 %
+        and 0.086 come from another fit. They correspond to another zeta: 4 % above that of eq. 4.74 at H = 0.3, 7 %
         below at 0.5, 18 % below at 1 and 2.
 
     Returns
@@ -245,7 +246,7 @@ def slip_constant(
     Raises
     ------
     ValueError
-        If a number is out of range, or a prefactor comes with the printed constants, which have their own.
+        If a number is out of range, or a prefactor is given with the printed constants, which include one.
 
     Examples
     --------
@@ -258,9 +259,7 @@ def slip_constant(
     """
     size, alpha = float(positive(theta, "theta [m^(1-H)]")), _exponent(hurst)
     if constants == "printed":
-        require(
-            prefactor is None, "the printed constants have their prefactor in them", "leave out prefactor"
-        )
+        require(prefactor is None, "the printed constants include a prefactor", "omit prefactor")
         return math.pow(0.086 * size, alpha) / (0.2055 * (1 - alpha))
     require(
         constants == "consistent",
@@ -277,7 +276,7 @@ def fractal_gross_slip(
 ) -> Array:
     """Return the largest tangential displacement before gross slip of a fractal [m] (thesis, eq. 7.6).
 
-    ``u_max = mu C_m Z (F/E*)^(H/(H+1))``: the size of the surface is not in it.
+    ``u_max = mu C_m Z (F/E*)^(H/(H+1))``: it does not depend on the size of the surface.
 
     Parameters
     ----------
@@ -315,6 +314,6 @@ def _exponent(hurst: float) -> float:
     h = scalar(hurst, "hurst")
     require(
         0 < h <= pohrt_popov.SMOOTH,
-        f"a Hurst exponent above 0 and at most 2 is wanted, where k ~ F^(1/(H+1)), not {h}",
+        f"the Hurst exponent must be above 0 and at most 2, where k ~ F^(1/(H+1)), not {h}",
     )
     return 1 / (moderate(h, "hurst") + 1)

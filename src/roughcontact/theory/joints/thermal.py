@@ -1,10 +1,10 @@
-"""Thermal contact conductance of conforming rough surfaces in vacuum: the engineers' correlations.
+"""Thermal contact conductance of conforming rough surfaces in vacuum: correlations used in engineering.
 
-A nominally flat joint is taken for a number of equal cells with a round spot each. Its conductance per
-nominal area is h [W/(m^2 K)]; A0 h is a conductance [W/K] as in `conductance`. The models have Gaussian heights cut
-off at a plane (Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969)); the correlations follow
-them to 5 % at fractions in contact from 1e-6 to 0.05. Whether the models are right is another matter:
-`conductance` goes from a computed stiffness to the same number without them.
+A nominally flat joint is modelled as a number of equal cells with a round spot each. Its conductance per
+nominal area is h [W/(m^2 K)]; A0 h is a conductance [W/K] as in `conductance`. The models use Gaussian heights
+truncated at a plane (Cooper, Mikic and Yovanovich, Int. J. Heat Mass Transfer 12, 279 (1969)); the correlations agree
+with them to 5 % at contact fractions from 1e-6 to 0.05. The models are themselves approximate: `conductance` computes
+the same number from a computed stiffness without them.
 
 Moments are those of the sum of both surfaces, and k_s is the harmonic mean of both conductivities.
 """
@@ -34,7 +34,7 @@ __all__ = [
     "plastic_law",
 ]
 
-FIT_LIMIT = 0.05  # of the fraction in contact
+FIT_LIMIT = 0.05  # largest contact fraction
 # psi of an isothermal disc in a coaxial tube, powers 0, 1, 3, 5, 7 of a/b (Negus and Yovanovich 1984).
 TUBE = (1.0, -1.40978, 0.34406, 0.04350, 0.02271)
 
@@ -89,7 +89,7 @@ def cell_resistance(
     radius, cell_radius : float or array
         a and b [m].
     conductivities : tuple of float
-        Of both bodies [W/(m K)].
+        Thermal conductivities of both bodies [W/(m K)].
     form : {"power", "tube"}
         See `constriction`.
 
@@ -137,7 +137,7 @@ def mean_absolute_slope(moments: ProfileMoments) -> float:
 def plastic_conductance(
     pressure: float | Array, hardness: float, conductivities: Pair, moments: ProfileMoments
 ) -> Array:
-    """Return h [W/(m^2 K)] of spots that flow, ``1.25 k_s (m/sigma) (P/H_c)^0.95`` (CMY; Yovanovich 1982).
+    """Return h [W/(m^2 K)] of plastic spots, ``1.25 k_s (m/sigma) (P/H_c)^0.95`` (CMY; Yovanovich 1982).
 
     Parameters
     ----------
@@ -158,8 +158,7 @@ def plastic_conductance(
     Raises
     ------
     ValueError
-        If a number is out of range, or the pressure beyond 5 % of the hardness: the fit is one of small
-        fractions.
+        If a number is out of range, or the pressure above 5 % of the hardness: the fit is for small fractions.
 
     Examples
     --------
@@ -184,8 +183,8 @@ def elastic_conductance(
     pressure : float or array
         Nominal pressure P [Pa].
     modulus : float
-        Reduced modulus E* [Pa]. E* m/sqrt2 stands for the hardness: it is the mean pressure of asperity
-        theory at small loads, ``E* g/sqrt(2 pi)``.
+        Reduced modulus E* [Pa]. E* m/sqrt2 takes the place of the hardness: it is the mean pressure of asperity theory
+        at small loads, ``E* g/sqrt(2 pi)``.
     conductivities : tuple of float
         Of both bodies [W/(m K)].
     moments : ProfileMoments
@@ -285,7 +284,7 @@ def _law(
     name: str, source: str, conductance: Callable[[Array], Array], area: float, hardness: float
 ) -> LoadingLaw:
     """Return the law of a conductance per area, up to the pressure at which its fit ends."""
-    conductance(np.zeros(()))  # bad numbers show themselves here
+    conductance(np.zeros(()))  # invalid numbers raise here
     top = FIT_LIMIT * hardness * positive_scalar(area, "the nominal area [m^2]")
     return LoadingLaw(
         name, source, {"thermal_conductance": partial(over_area, conductance, area)}, (0.0, top)
@@ -305,8 +304,8 @@ def _scale(conductivities: Pair, moments: ProfileMoments) -> float:
 def _small(fraction: Array, limit: str) -> Array:
     if (fraction > FIT_LIMIT * (1 + 1e-9)).any():
         raise InputError(
-            f"the correlation holds for pressures up to {FIT_LIMIT} of {limit}, not {float(fraction.max()):.3g} of it: "
-            "beyond, spots merge",
+            f"the correlation holds for pressures up to {FIT_LIMIT} of {limit}, not {float(fraction.max()):.3g} of it, "
+            "where spots merge",
             "use conductance.thermal on a computed stiffness",
         )
     return fraction

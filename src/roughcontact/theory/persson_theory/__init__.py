@@ -1,1 +1,1 @@
-"""Persson's theory: area, pressure, separation and stiffness as roughness is added wave by wave."""
+"""Persson's theory: area, pressure, separation and stiffness as functions of the magnification."""

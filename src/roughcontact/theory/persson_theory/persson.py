@@ -1,11 +1,11 @@
 """Persson's theory: real contact area and the distribution of pressure, at any magnification.
 
-Pressure spreads out as ever shorter waves of the surface come into view, like a particle that diffuses and is
-absorbed where the pressure vanishes (Persson, J. Chem. Phys. 115, 3840 (2001); Surf. Sci. Rep. 61, 201 (2006); on
+As shorter waves of the surface are included, the distribution of pressure widens, like that of a particle that
+diffuses and is absorbed at zero pressure (Persson, J. Chem. Phys. 115, 3840 (2001); Surf. Sci. Rep. 61, 201 (2006); on
 the absorbing boundary Manners and Greenwood, Wear 261, 600 (2006)). In full contact a wave of amplitude B and
-wavenumber q presses with E* q B/2, so the variance of pressure is (E* g/2)^2, g the rms slope.
+wavenumber q causes the pressure E* q B/2: the variance of pressure is (E* g/2)^2 with the rms slope g.
 
-A surface enters through its rms slope alone: `surface` is anything with profile moments, such as
+Only the rms slope of a surface matters: `surface` is anything with profile moments, such as
 `roughcontact.Moments`, or a spectrum. A lower magnification is the surface without its short waves:
 ``Waves.of_spectrum(spectrum, q_max=...)``.
 """
@@ -51,7 +51,7 @@ def contact_fraction(pressure: float | Array, modulus: float, surface: ProfileMo
     modulus : float
         Reduced modulus E* [Pa].
     surface : ProfileMoments or spectrum
-        Its rms slope g.
+        Provides the rms slope g.
 
     Returns
     -------
@@ -76,9 +76,9 @@ def contact_fraction(pressure: float | Array, modulus: float, surface: ProfileMo
 
 @numeric
 def magnified_fraction(pressure: float, modulus: float, spectrum: Spectrum) -> tuple[Array, Array]:
-    """Return wavenumbers q [rad/m] and the contact fraction when only waves up to q are seen [-].
+    """Return wavenumbers q [rad/m] and the contact fraction with only the waves up to q [-].
 
-    At the last wavenumber it is not quite that of the whole surface: take `contact_fraction` for that.
+    At the last wavenumber it differs slightly from that of the whole surface: use `contact_fraction` for that.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def pressure_for(fraction: float | Array, modulus: float, surface: ProfileMoment
     within = (part >= 0) & (part < 1)
     require(
         within,
-        f"a contact fraction lies from 0 to below 1, which no load reaches, not {fraction}",
+        f"a contact fraction must lie from 0 to below 1, not {fraction}",
         place="fraction",
     )
     return np.asarray(math.sqrt(2) * pressure_spread(modulus, surface) * erfinv(part))
@@ -211,7 +211,7 @@ def pressure_density(
     1.0
     """
     s, p, spread = _pressure(stress), _pressure(pressure), pressure_spread(modulus, surface)
-    # exp(-(s-p)^2/2V) - exp(-(s+p)^2/2V), without a difference of near equals
+    # exp(-(s-p)^2/2V) - exp(-(s+p)^2/2V), without cancellation
     towards = np.exp(-((s - p) ** 2) / (2 * spread**2))
     return np.asarray(-towards * np.expm1(-2 * s * p / spread**2) / (math.sqrt(2 * math.pi) * spread))
 
@@ -288,7 +288,7 @@ def law(spectrum: Spectrum, modulus: float, area: float, *, gamma: float = separ
     """
     waves, area = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     given: dict[str, Any] = {"modulus": modulus, "spectrum": waves, "gamma": gamma}
-    separation.stiffness(0.0, **given)  # bad numbers show themselves here
+    separation.stiffness(0.0, **given)  # invalid numbers raise here
     return LoadingLaw(
         "Persson",
         "Persson, J. Chem. Phys. 115, 3840 (2001); Yang and Persson, J. Phys.: Condens. Matter 20, 215214 (2008)",

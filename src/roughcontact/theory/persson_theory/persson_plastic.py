@@ -1,10 +1,11 @@
-"""Persson's theory of an elastic and perfectly plastic body: which parts of the area are elastic, plastic, and open.
+"""Persson's theory of an elastic and perfectly plastic body: the elastic, the plastic, and the open part of the area.
 
-As ever shorter waves come into view, pressure spreads out like a particle that diffuses between two absorbing ends: at
-zero the contact opens, at the hardness the material flows (Persson, Phys. Rev. Lett. 87, 116101 (2001); J. Chem. Phys.
-115, 3840 (2001)). What has come to either end stays there. The variance of the free spread is (E* g/2)^2 as in
-`persson`, g the rms slope, and the three parts follow in closed sums from ``p/H`` and ``E* g/(2 H)`` alone: a sine
-series where the spread is wide beside the hardness, a sum over images where it is narrow.
+As shorter waves are included, the distribution of pressure widens like that of a particle that diffuses between two
+absorbing ends: at zero the contact opens, at the hardness the material flows (Persson, Phys. Rev. Lett. 87, 116101
+(2001); J. Chem. Phys. 115, 3840 (2001)). Area that has reached either end stays there. The variance of the free
+distribution is (E* g/2)^2 as in `persson`, with the rms slope g. The three parts are closed sums of only ``p/H`` and
+``E* g/(2 H)``: a sine series if the distribution is wide compared with the hardness, a sum over images if it is
+narrow.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from roughcontact.validation import Array, numeric, positive, positive_scalar, r
 __all__ = ["contact_fraction", "elastic_fraction", "law", "plastic_fraction"]
 
 SOURCE = "Persson, Phys. Rev. Lett. 87, 116101 (2001)"
-# Spread over hardness up to which images are summed. Either sum is good to the rounding of 1 there.
+# Ratio of standard deviation to hardness up to which images are summed. Both sums are accurate to rounding there.
 NARROW = 0.5
 IMAGES = 4  # the next is erfc(8 / (sqrt2 NARROW)), below 1e-50
 TERMS = 7  # the next is exp(-(8 pi NARROW)^2/2), below 1e-34
@@ -109,7 +110,7 @@ def plastic_fraction(
 
     Notes
     -----
-    ``x - (2/pi) sum_n (-1)^(n+1) sin(n pi x) exp(-n^2 pi^2 v/2)/n``: all of the load where roughness is strong.
+    ``x - (2/pi) sum_n (-1)^(n+1) sin(n pi x) exp(-n^2 pi^2 v/2)/n``: it carries the whole load if roughness is strong.
 
     Examples
     --------
@@ -155,7 +156,7 @@ def elastic_fraction(
 
     Notes
     -----
-    ``(4/pi) sum over odd n of sin(n pi x) exp(-n^2 pi^2 v/2)/n``: the shorter the waves in view, the less of it.
+    ``(4/pi) sum over odd n of sin(n pi x) exp(-n^2 pi^2 v/2)/n``: it decreases as shorter waves are included.
 
     Examples
     --------
@@ -210,7 +211,7 @@ def law(spectrum: Spectrum, hardness: float, modulus: float, area: float) -> Loa
     """
     waves, nominal = Waves.of(spectrum), float(positive(area, "the nominal area [m^2]"))
     given: dict[str, Any] = {"hardness": hardness, "modulus": modulus, "surface": waves}
-    contact_fraction(0.0, **given)  # bad numbers show themselves here
+    contact_fraction(0.0, **given)  # invalid numbers raise here
     return LoadingLaw(
         "Persson, plastic",
         SOURCE,
@@ -225,7 +226,7 @@ def _reduced(
     """Return p/H and E* g/(2 H)."""
     most = positive_scalar(hardness, "the hardness [Pa]")
     x = positive(pressure, "a pressure [Pa]", zero=True) / most
-    # The rounding of a force over its area is let pass.
+    # Tolerance for the rounding of a force over its area.
     require(
         x <= 1 + 1e-12,
         f"no pressure above the hardness of {most:.4g} Pa can be carried",
@@ -239,7 +240,7 @@ def _sines(x: Array, spread: float, sign: float) -> Array:
     """Return ``(2/pi) sum_n sign^(n+1) sin(n pi x) exp(-n^2 pi^2 v/2)/n``."""
     n = np.arange(1, TERMS + 1)
     weights = 2 / math.pi * sign ** (n + 1) * np.exp(-((n * math.pi * spread) ** 2) / 2) / n
-    # sin(n pi x) of x near 1 by its distance from 1, where the sine of a rounded angle has no digits.
+    # sin(n pi x) for x near 1 from the distance to 1: the sine of a rounded angle would lose its digits.
     rest = 1 - np.asarray(x)[..., None]
     near = np.where(n % 2 == 1, 1.0, -1.0) * np.sin(n * math.pi * rest)
     sines = np.where(rest < 0.5, near, np.sin(n * math.pi * np.asarray(x)[..., None]))

@@ -1,11 +1,11 @@
 """Persson's theory: mean gap, stiffness of the interface and elastic energy.
 
-The energy of the waves that are squeezed flat is that of full contact times W(P), P the contact fraction at the
-magnification of the wave: ``W = P (gamma + (1 - gamma) P^2)``. Waves of the contact regions are flatter than the
-others, so that gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson,
-J. Phys.: Condens. Matter 20, 215214 (2008); the factor is fitted to computed contacts, no consequence of the theory.
-All else follows: the mean gap from du = -dU/(A0 p), the stiffness from K = -A0 dp/du (thesis, eqs 3.11 to 3.16;
-below 3.16 the minus sign is missing there).
+The energy of the flattened waves is that of full contact times W(P), with the contact fraction P at the magnification
+of the wave: ``W = P (gamma + (1 - gamma) P^2)``. Waves in the contact regions are flatter than elsewhere, which makes
+gamma < 1. It is 1 in Persson, Phys. Rev. Lett. 99, 125502 (2007), and 0.45 in Yang and Persson, J. Phys.: Condens.
+Matter 20, 215214 (2008); the factor is fitted to computed contacts and does not follow from the theory. The other
+results follow: the mean gap from du = -dU/(A0 p), the stiffness from K = -A0 dp/du (thesis, eqs 3.11 to 3.16; below
+3.16 the minus sign is missing there).
 
 `spectrum` is a continuous or measured spectrum or `Waves`. With g(q) the slope of all waves longer than q,
 ``q^2 C2D w dq = sqrt2 q/(2 pi g) d<h^2>`` for w = sqrt2/g, and every integral below is a sum over the waves.
@@ -40,7 +40,7 @@ ERF_SQUARED_TAIL = 0.40712493463432379  # int_0^inf erf(x)^2 exp(-x^2) dx/x
 
 @numeric
 def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA) -> Array:
-    """Return the mean gap u [m] over the nominal area; infinite without load, as a Gaussian surface has no top.
+    """Return the mean gap u [m] over the nominal area; infinite without load, because a Gaussian surface has no top.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ def mean_gap(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gam
 def stiffness(pressure: float | Array, modulus: float, spectrum: Spectrum, *, gamma: float = GAMMA) -> Array:
     """Return the stiffness of the interface per nominal area, K/A0 = -dp/du = p/l(p) [Pa/m].
 
-    ``l(p) = sqrt(pi) int q^2 C2D w [gamma + 3 (1 - gamma) P^2] exp(-(w p/E*)^2) dq`` is `decay_length` at no load. Near
-    full contact it vanishes, and K grows without limit. Parameters as of `mean_gap`.
+    ``l(p) = sqrt(pi) int q^2 C2D w [gamma + 3 (1 - gamma) P^2] exp(-(w p/E*)^2) dq`` is `decay_length` at no load.
+    Near full contact it vanishes, and K diverges. Parameters as of `mean_gap`.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def elastic_energy(
 ) -> Array:
     """Return the elastic energy of the interface per nominal area, U/A0 = (E*/4) sum q W(P) <h^2> [J/m^2].
 
-    That of uniform compression is not in it. Parameters as of `mean_gap`.
+    The energy of uniform compression is not included. Parameters are those of `mean_gap`.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def elastic_energy(
     1.0
     """
     waves, share = Waves.of(spectrum), _checked(gamma)
-    # Of the common factor sqrt2 q/(2 sqrt(pi) g) only q belongs here.
+    # Only q of the common factor sqrt2 q/(2 sqrt(pi) g) belongs here.
     undo = modulus / 4 * math.sqrt(2 * math.pi) * waves.slope
 
     def squeezed(x: Array) -> Array:
@@ -241,9 +241,9 @@ def reference_pressure(modulus: float, spectrum: Spectrum, *, gamma: float = GAM
 
 @numeric
 def self_affine_decay(hurst: float) -> float:
-    """Return u0/(gamma h) of a self-affine surface with a longest and no shortest wave [-], h its rms height.
+    """Return u0/(gamma h) of a self-affine surface of rms height h with a longest and no shortest wave [-].
 
-    H = 1/2: sqrt(pi/2); H = 1: 1; H = 2: sqrt(pi)/2. A shortest wave makes it smaller, little if H is large.
+    H = 1/2: sqrt(pi/2); H = 1: 1; H = 2: sqrt(pi)/2. A shortest wave reduces it, only slightly if H is large.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def self_affine_decay(hurst: float) -> float:
     Raises
     ------
     ValueError
-        If H is not positive: then the short waves carry the height, and there is no such limit.
+        If H is not positive: then the height depends on the short waves, and there is no limit.
 
     Examples
     --------
@@ -283,7 +283,7 @@ def _over_waves(
     p, waves = positive(pressure, "the pressure [Pa]", zero=True), Waves.of(spectrum)
     weights = waves.power * waves.wavenumber / (math.sqrt(2 * math.pi) * waves.slope)
     rate = math.sqrt(2) / (positive(modulus, "the modulus [Pa]") * waves.slope)
-    # One pressure at a time: the waves are many already.
+    # One pressure at a time, because there are many waves.
     return np.array([weights @ function(rate * one) for one in p.ravel()]).reshape(p.shape)
 
 

@@ -1,9 +1,9 @@
 """Chang, Etsion and Bogy: asperities that keep their volume as they yield, under a flat.
 
-Up to first yield an asperity follows Hertz. Beyond, its summit flows and the volume that it loses above keeps its
-contact area growing as ``pi R w (2 - w_c/w)``, w the interference; the mean pressure on it is K H (J. Tribol. 109, 257
-(1987)). At first yield the mean pressure of Hertz is two thirds of that, so that the load of an asperity jumps there
-by half: the theory's own, and smoothed out by the spread of heights. Asperities do not press each other down.
+Up to first yield an asperity follows Hertz. Beyond it, the summit flows at constant volume: its contact area is ``pi R
+w (2 - w_c/w)`` with the interference w, and the mean pressure on it is K H (J. Tribol. 109, 257 (1987)). At first
+yield the mean pressure of Hertz is two thirds of K H, and the load of an asperity jumps by half. This jump is a
+property of the theory and is smoothed by the spread of heights. Asperities do not interact.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ def population(
     Parameters
     ----------
     moments : ProfileMoments
-        Of an isotropic Gaussian surface.
+        Moments of an isotropic Gaussian surface.
     hardness : float
         H of the softer body [Pa].
     modulus : float
         Reduced modulus E* [Pa].
     poisson : float
-        Poisson's ratio of the softer body [-], on which the pressure at first yield depends a little:
+        Poisson's ratio of the softer body [-], on which the pressure at first yield depends slightly:
         K = 0.454 + 0.41 nu.
 
     Returns
@@ -57,8 +57,8 @@ def population(
 
     Notes
     -----
-    Where the hardness is very high it is the theory of Greenwood and Williamson; where it is very low the area is
-    that of spheres cut by the flat, 2 pi R w, and the pressure on it K H.
+    For very high hardness it is the theory of Greenwood and Williamson; for very low hardness the area is that of
+    spheres cut by the flat, 2 pi R w, and the pressure on it is K H.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def law(
     Raises
     ------
     ValueError
-        As of `population`.
+        As for `population`.
 
     Examples
     --------

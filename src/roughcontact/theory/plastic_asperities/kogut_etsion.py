@@ -2,8 +2,8 @@
 
 From the interference w_c of first yield on, load and area of a sphere of an elastic and perfectly plastic material
 follow powers of w/w_c that were fitted to finite elements, with one pair up to 6 w_c and another up to 110 w_c
-(J. Appl. Mech. 69, 657 (2002)). Beyond, it is taken for fully plastic, with the area 2 pi R w of a cut sphere and the
-pressure H (Tribol. Trans. 46, 383 (2003)). Asperities do not press each other down.
+(J. Appl. Mech. 69, 657 (2002)). Beyond, it is assumed to be fully plastic, with the area 2 pi R w of a cut sphere and
+the pressure H (Tribol. Trans. 46, 383 (2003)). Asperities do not interact.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def population(
     modulus : float
         Reduced modulus E* [Pa].
     poisson : float
-        Poisson's ratio of the softer body [-], on which the pressure at first yield depends a little:
+        Poisson's ratio of the softer body [-], on which the pressure at first yield depends slightly:
         K = 0.454 + 0.41 nu.
 
     Returns
@@ -64,9 +64,9 @@ def population(
 
     Notes
     -----
-    The fits do not quite meet: at w_c the load of an asperity jumps by 3 % and its area falls by 7 %, at 6 w_c both
+    The fits are not continuous: at w_c the load of an asperity jumps by 3 % and its area falls by 7 %, at 6 w_c both
     grow by 2 to 3 %, and at 110 w_c both by 7 to 8 % (Poisson's ratio 0.3), the mean pressure by less than 1 %. The
-    spread of heights smooths all of that out.
+    spread of heights smooths these jumps.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def law(
     Raises
     ------
     ValueError
-        As of `population`.
+        As for `population`.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Plasticity indices: whether asperities of a surface yield before they are crushed, at any load.
+"""Plasticity indices: whether the asperities of a surface yield, at any load.
 
-Two forms of one idea: the pressure in the contact spots of an elastic surface hardly depends on the load, so
-its ratio to the hardness tells the kind of contact from roughness and material alone.
+There are two forms of one idea: the pressure in the contact spots of an elastic surface is almost independent of the
+load. Its ratio to the hardness therefore determines the regime from only roughness and material.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ELASTIC_BELOW, PLASTIC_ABOVE = 0.6, 1.0  # Greenwood and Williamson (1966)
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PlasticityIndex:
-    """An index with the limits its authors gave it.
+    """An index with the limits given by its authors.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class PlasticityIndex:
     elastic_below : float
         Contact is elastic at any usual load if the index is lower.
     plastic_above : float
-        Contact is plastic at the lightest load if it is higher; infinite where the source states none.
+        Contact is plastic at the lightest load if the index is higher; infinite if the source states none.
 
     Examples
     --------
@@ -48,13 +48,13 @@ class PlasticityIndex:
 
     @property
     def regime(self) -> str:
-        """What the index predicts: "elastic", "plastic", or "mixed", where it depends on the load."""
+        """The predicted regime: "elastic", "plastic", or "mixed", where it depends on the load."""
         if self.value < self.elastic_below:
             return "elastic"
         return "plastic" if self.value > self.plastic_above else "mixed"
 
     def __repr__(self) -> str:
-        """Say the index, what it predicts, and by which limits."""
+        """Return the index, the predicted regime, and the limits."""
         limits = f"elastic below {self.elastic_below:.3g}"
         if math.isfinite(self.plastic_above):
             limits += f", plastic above {self.plastic_above:.3g}"
@@ -68,7 +68,7 @@ def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> Pla
     Parameters
     ----------
     moments : ProfileMoments
-        m2 [-]; on a fractal with H <= 1 it grows without limit as shorter waves come into view.
+        m2 [-]; on a fractal with H <= 1 it diverges as shorter waves are included.
     modulus : float
         Reduced modulus E* [Pa].
     hardness : float
@@ -80,8 +80,8 @@ def slope_index(moments: ProfileMoments, modulus: float, hardness: float) -> Pla
 
     Notes
     -----
-    The thesis names Greenwood and Williamson, whose own index is `asperity_index`; one of slopes is Mikic's (Int. J.
-    Heat Mass Transfer 17, 205 (1974)). On a Gaussian surface their ratio is a function of Nayak's parameter.
+    The thesis cites Greenwood and Williamson, whose index is `asperity_index`; the index from slopes is Mikic's (Int.
+    J. Heat Mass Transfer 17, 205 (1974)). On a Gaussian surface their ratio is a function of Nayak's parameter.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> 
     Parameters
     ----------
     moments : ProfileMoments
-        Those of `nayak.summits`, which gives their standard deviation s and mean radius R.
+        Moments for `nayak.summits`, which returns the standard deviation s and the mean radius R of the summits.
     modulus : float
         Reduced modulus E* [Pa].
     hardness : float
@@ -113,8 +113,8 @@ def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> 
 
     Notes
     -----
-    Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966): with it the nominal pressure at which a fiftieth of
-    the contact area has begun to yield falls from above any usual one to next to nothing.
+    Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966): as it rises between these limits, the nominal pressure
+    at which a fiftieth of the contact area has begun to yield falls from above any usual pressure to almost zero.
 
     Examples
     --------
@@ -130,12 +130,12 @@ def asperity_index(moments: ProfileMoments, modulus: float, hardness: float) -> 
 
 @numeric
 def summit_index(height: Array, curvature: Array, modulus: float, hardness: float) -> PlasticityIndex:
-    """Return ``(E*/sigma_0) sqrt(s kappa)`` of summits that were found on a surface; limits as of `asperity_index`.
+    """Return ``(E*/sigma_0) sqrt(s kappa)`` of summits that were found on a surface; limits as for `asperity_index`.
 
     Parameters
     ----------
     height : array, shape (n,)
-        Of each summit above any common plane [m]; s is their standard deviation.
+        Height of each summit above a common plane [m]; s is their standard deviation.
     curvature : array, shape (n,)
         Mean curvature of each summit [1/m]; kappa is the mean of all.
     modulus : float
@@ -150,14 +150,14 @@ def summit_index(height: Array, curvature: Array, modulus: float, hardness: floa
     Raises
     ------
     ValueError
-        If there are less than two summits, their heights or curvatures are not finite or not as many, or the mean
+        If there are fewer than two summits, heights and curvatures are not finite or differ in number, or the mean
         curvature is not positive.
 
     Notes
     -----
     Greenwood and Williamson, Proc. R. Soc. A 295, 300 (1966). On an isotropic Gaussian surface whose shortest waves are
-    well resolved it is `asperity_index`; any other surface has summits, too. Spikes of a measurement are among them:
-    remove them first.
+    well resolved it is `asperity_index`; it is also defined for any other surface. Spikes of a measurement count as
+    summits: remove them first.
 
     Examples
     --------
@@ -175,7 +175,7 @@ def summit_index(height: Array, curvature: Array, modulus: float, hardness: floa
     )
     require(
         heights.size == curvatures.size and heights.size > 1,
-        f"an index takes heights and curvatures of two summits or more, not {heights.size} and {curvatures.size}",
+        f"an index needs heights and curvatures of at least two summits, not {heights.size} and {curvatures.size}",
     )
     for each, name in ((heights, "height [m]"), (curvatures, "curvature [1/m]")):
         require(np.isfinite(each), f"every {name} of a summit must be finite")

@@ -1,17 +1,17 @@
-"""Pullen and Williamson: plastic contact under large loads, where the material that is pressed away rises elsewhere.
+"""Pullen and Williamson: plastic contact under large loads, in which the displaced material rises elsewhere.
 
-Metal that flows keeps its volume. Crushed at the heights, it comes up by the same measure everywhere where there is no
-contact (Proc. R. Soc. A 327, 159 (1972)). The more of the area is in contact, the less room there is to rise, and the
-more pressure it takes: ``A/A0 = (p/H)/(1 + p/H)``, so that the mean pressure on the spots is H/(1 - A/A0), and the
-contact is never full. At small loads the area is p/H, and the pressure on it the hardness.
+Metal flows at constant volume. Material that is displaced from the contact rises uniformly over the whole area without
+contact (Proc. R. Soc. A 327, 159 (1972)). As the contact area grows, less area is left to rise, and more pressure is
+needed: ``A/A0 = (p/H)/(1 + p/H)``. The mean pressure on the spots is H/(1 - A/A0), and the contact is never full. At
+small loads the area is p/H, and the pressure on it is the hardness.
 
-What is open has kept its shape and is only nearer to the flat by the rise u. So all that stood above the height
-c = d - u is in contact, d the distance of the flat from the mean plane, and volume is conserved if u is the mean over
-the nominal area of what stood above c. The area gives c by the bearing curve of the heights before (Abbott's), and c
-gives u and d. Elastic deformation is left out.
+The area without contact keeps its shape and is only raised by u. All points above the height c = d - u are therefore
+in contact, with the distance d of the flat from the mean plane. Volume is conserved if u is the mean over the nominal
+area of the excess of the heights above c. The area determines c by the bearing curve of the initial heights
+(Abbott's), and c determines u and d. Elastic deformation is neglected.
 
-The paper itself could not be had: the area's formula is checked by its limits; the rise, the mean gap and the stiffness
-follow from it here.
+The paper was not available: the formula of the area was checked in its limits; the rise, the mean gap and the
+stiffness are derived from it here.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def contact_fraction(pressure: float | Array, hardness: float | Array) -> Array:
 
 @numeric
 def rise(pressure: float | Array, hardness: float | Array, rms: float | Array) -> Array:
-    """Return by how much the open part of a Gaussian surface has come up [m].
+    """Return the rise of the part of a Gaussian surface without contact [m].
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def rise(pressure: float | Array, hardness: float | Array, rms: float | Array) -
 
 @numeric
 def mean_gap(pressure: float | Array, hardness: float | Array, rms: float | Array) -> Array:
-    """Return the mean gap of a Gaussian surface [m]: the distance of the flat from the mean plane, which stays.
+    """Return the mean gap of a Gaussian surface [m]: the distance of the flat from the fixed mean plane.
 
     Parameters
     ----------
@@ -126,13 +126,13 @@ def mean_gap(pressure: float | Array, hardness: float | Array, rms: float | Arra
     >>> [f"{value:.3g}" for value in gap]
     ['3.09e-06', '3.99e-07', '2.77e-10']
     """
-    # What is missing below the cut, by the symmetry of the heights.
+    # The mean depth below the cut, by the symmetry of the heights.
     return _height(rms) * _mean_above(-_cut(pressure, hardness))
 
 
 @numeric
 def stiffness(pressure: float | Array, hardness: float | Array, rms: float | Array) -> Array:
-    """Return the pressure it takes to close the mean gap further, -dp/dd, on first loading [Pa/m].
+    """Return the derivative of the pressure by the mean gap, -dp/dd, on first loading [Pa/m].
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def stiffness(pressure: float | Array, hardness: float | Array, rms: float | Arr
 
     Notes
     -----
-    ``H phi(t)/(rms (1 - A/A0)^3)``, phi the normal density at the cut t. On unloading the joint is elastic, and
+    ``H phi(t)/(rms (1 - A/A0)^3)`` with the normal density phi at the cut t. On unloading the joint is elastic and
     stiffer.
 
     Examples
@@ -173,12 +173,12 @@ def stiffness(pressure: float | Array, hardness: float | Array, rms: float | Arr
 
 @numeric
 def flattened(heights: Array, pressure: float, hardness: float) -> Array:
-    """Return the heights of a surface after plastic contact with a flat; their mean is that of before.
+    """Return the heights of a surface after plastic contact with a flat; their mean does not change.
 
     Parameters
     ----------
     heights : array
-        Of the surface, any shape, of cells of equal area [m].
+        Heights of the surface, any shape, of cells of equal area [m].
     pressure : float
         Nominal pressure p, above 0 [Pa].
     hardness : float
@@ -187,7 +187,7 @@ def flattened(heights: Array, pressure: float, hardness: float) -> Array:
     Returns
     -------
     array
-        Those that were in contact are level with the flat, the others risen [m].
+        Heights [m]: those in contact at the level of the flat, the others raised.
 
     Raises
     ------
@@ -204,7 +204,7 @@ def flattened(heights: Array, pressure: float, hardness: float) -> Array:
     (0.2, True)
     """
     h = finite(heights, "heights [m]")
-    require(np.size(h) > 0, "heights of a surface are wanted, not an empty array", place="heights")
+    require(np.size(h) > 0, "heights of a surface are needed, not an empty array", place="heights")
     _loaded(pressure)
     cut = np.quantile(h, 1 - contact_fraction(pressure, positive_scalar(hardness, "the hardness [Pa]")))
     raised = float(np.maximum(h - cut, 0.0).mean())
@@ -234,9 +234,9 @@ def law(hardness: float, area: float) -> LoadingLaw:
 
     Notes
     -----
-    A curve that is computed under a `hardness` holds every pressure down to it, so that its area is at least F/H; this
-    one is below F/H, the more the larger the load: neighbours support each other. The mean gap of such a curve
-    counts plastic cells below zero, that of `mean_gap` does not: the law leaves it out.
+    A computed curve with a `hardness` limits every pressure to it: its area is at least F/H. In this law the area is
+    below F/H, increasingly at larger loads, because neighbours support each other. The mean gap of a computed curve
+    counts plastic cells as negative, that of `mean_gap` does not: it is not part of the law.
 
     Examples
     --------
@@ -256,16 +256,16 @@ def law(hardness: float, area: float) -> LoadingLaw:
 
 
 def _cut(pressure: float | Array, hardness: float | Array) -> Array:
-    """Return the height above which all is in contact, in rms heights above the mean plane."""
+    """Return the height above which all points are in contact, in rms heights above the mean plane."""
     _loaded(pressure)
-    # Both parts of the area, so that neither is the difference of numbers near 1.
+    # Both parts of the area are computed, which avoids the difference of numbers near 1.
     part = contact_fraction(pressure, hardness)
     rest = np.asarray(hardness / (np.asarray(pressure) + hardness))
     return np.where(part < 0.5, -ndtri(part), ndtri(rest))
 
 
 def _mean_above(t: Array) -> Array:
-    """Return the mean over all heights of what stands above t, of a normal distribution."""
+    """Return the mean over all heights of the excess above t, for a normal distribution."""
     return np.asarray(np.exp(log_gaussian(1.0, t)))
 
 
@@ -274,4 +274,4 @@ def _height(rms: float | Array) -> Array:
 
 
 def _loaded(pressure: float | Array) -> None:
-    positive(pressure, "the pressure [Pa] (without load no height is a highest one)")
+    positive(pressure, "the pressure [Pa] (without load the gap is infinite)")

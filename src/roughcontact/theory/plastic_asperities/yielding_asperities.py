@@ -1,8 +1,8 @@
-"""Spheres of random height that yield one by one: regimes of the interference, each with sums of powers.
+"""Independent yielding spheres of random height: regimes of the interference, each with sums of powers.
 
-Theories of elastic-plastic asperities share a first yield, at an interference that hardness and modulus set, and differ
-in what an asperity bears beyond it. Counted in the interference, load and area at first yield, every regime is a sum
-of powers with pure numbers, so that one quadrature over the heights serves all of them.
+Theories of elastic-plastic asperities have a common first yield, at an interference that depends on hardness and
+modulus, and differ in the load of an asperity beyond it. In units of the interference, load and area at first yield,
+every regime is a sum of powers with pure numbers: one quadrature over the heights serves all theories.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ __all__ = ["Regime", "YieldingAsperities", "asperity_law", "hardness_factor", "y
 
 Powers = tuple[tuple[float, float], ...]  # (coefficient, exponent), summed
 
-NODES = 64  # in each regime: rounding is reached, see the tests
+NODES = 64  # in each regime: enough for rounding accuracy, see the tests
 LEFT_OUT = 90.0  # exp(-45) of the density at its highest point within reach is below rounding
-HIGHEST = 60.0  # standard deviations: exp(-1800) is beyond every positive number
+HIGHEST = 60.0  # standard deviations: exp(-1800) underflows
 
 
 @dataclass(frozen=True, slots=True)
 class Regime:
-    """Load and area of one sphere from an interference on, until the next regime begins.
+    """Load and area of one sphere from an interference up to the next regime.
 
     Parameters
     ----------
     start : float
-        Where it begins, in interferences at first yield [-].
+        Start of the regime, in interferences at first yield [-].
     load : tuple of (float, float)
         Coefficients and exponents of the interference, whose sum is the load over that at first yield.
     area : tuple of (float, float)
-        The same of the contact area.
+        The same for the contact area.
     """
 
     start: float
@@ -69,7 +69,7 @@ def hardness_factor(poisson: float) -> float:
     nu = scalar(poisson, "poisson [-]")
     require(
         0 <= nu <= 0.5,
-        f"poisson: the fit for the first yield holds from 0 to 0.5, not at {nu}",
+        f"poisson: the fit of the first yield holds from 0 to 0.5, not for {nu}",
         place="poisson",
     )
     return 0.454 + 0.41 * nu
@@ -82,11 +82,11 @@ class YieldingAsperities:
     Parameters
     ----------
     regimes : tuple of Regime
-        In the order of their beginnings; the first is `HERTZ`.
+        In increasing order; the first is `HERTZ`.
     density : float
         Asperities per area [1/m^2].
     radius : float
-        R of each of them [m].
+        Radius R of each asperity [m].
     std : float
         Standard deviation of their heights [m].
     mean_height : float
@@ -112,7 +112,7 @@ class YieldingAsperities:
 
     @property
     def critical_interference(self) -> float:
-        """At which a sphere begins to yield, ``(pi K H/(2 E*))^2 R`` [m]."""
+        """Interference at which a sphere begins to yield, ``(pi K H/(2 E*))^2 R`` [m]."""
         return (math.pi * self.yield_pressure / (2 * self.modulus)) ** 2 * self.radius
 
     @property
@@ -146,7 +146,7 @@ class YieldingAsperities:
         Raises
         ------
         ValueError
-            If the separation is negative: the flat would pass the mean plane, and there the theory does not hold.
+            If the separation is negative: the flat would pass the mean plane, the limit of the theory.
         """
         return np.asarray(np.exp(self._log_pressure(self._plane(separation))))
 
@@ -166,7 +166,7 @@ class YieldingAsperities:
         plane, width = self._plane(separation), self._width
         slopes = [tuple((c * n, n - 1) for c, n in regime.load if n) for regime in self.regimes]
         mean = self._mean(plane, slopes)
-        # Where the load of a sphere jumps, the number of spheres that come to the jump counts.
+        # A jump of the load of a sphere contributes with the density of spheres at the jump.
         for before, after in pairwise(self.regimes):
             jump = _sum(after.load, after.start) - _sum(before.load, after.start)
             at = np.maximum(plane, 0.0) ** 2 - (plane + after.start * width) ** 2
@@ -243,7 +243,7 @@ class YieldingAsperities:
         highest = float(self.pressure(0.0))
         require(
             load <= highest * (1 + 1e-12),
-            f"at {highest:.4g} Pa the flat reaches the mean plane of the surface: more is no contact of asperities",
+            f"at {highest:.4g} Pa the flat reaches the mean plane of the surface, the limit of this theory",
             value=load,
         )
         plane = np.full(np.shape(load), np.inf)
@@ -273,7 +273,7 @@ class YieldingAsperities:
         return np.asarray(math.log(self.density * self.critical_load) + np.log(mean) + _log_peak(plane))
 
     def _area(self, separation: float | Array, first: int) -> Array:
-        """Return the area of the asperities in the regimes from the first named one on."""
+        """Return the area of the asperities in the regimes from `first` on."""
         plane = self._plane(separation)
         areas = [regime.area if each >= first else () for each, regime in enumerate(self.regimes)]
         scale = self.density * self.critical_area
@@ -282,7 +282,7 @@ class YieldingAsperities:
     def _mean(self, plane: Array, functions: list[Powers]) -> Array:
         """Return the mean of a function of the interference over all heights, without its factor `_log_peak`.
 
-        It is given by sums of powers in each regime, and the plane in standard deviations above the mean height.
+        The function is given by sums of powers in each regime, the plane in standard deviations above the mean height.
         """
         t, width = plane[..., None], self._width
         far = math.sqrt(LEFT_OUT)
@@ -302,12 +302,12 @@ class YieldingAsperities:
 def yielding_population(
     regimes: tuple[Regime, ...], moments: ProfileMoments, yield_pressure: float, modulus: float
 ) -> YieldingAsperities:
-    """Return the spheres that stand for the summits of a surface (McCool 1986; see `nayak.summits`).
+    """Return the spheres that replace the summits of a surface (McCool 1986; see `nayak.summits`).
 
     Parameters
     ----------
     regimes : tuple of Regime
-        Of each of them.
+        Regimes of each sphere.
     moments : ProfileMoments
         Of an isotropic Gaussian surface.
     yield_pressure : float
@@ -368,5 +368,5 @@ def _sum(powers: Powers, x: float | Array) -> Array:
 
 
 def _log_peak(plane: Array) -> Array:
-    """Return the logarithm of what was taken out of the mean: the normal density at the plane over that at 0."""
+    """Return the logarithm of the factor of the mean: the normal density at the plane over that at 0."""
     return np.asarray(-(np.maximum(plane, 0.0) ** 2) / 2)

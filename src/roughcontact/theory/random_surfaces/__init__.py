@@ -1,1 +1,1 @@
-"""What is known of random surfaces: waves, summits, moments."""
+"""Random surfaces: waves, summits, moments."""

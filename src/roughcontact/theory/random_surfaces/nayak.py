@@ -1,7 +1,7 @@
-"""Summits of an isotropic Gaussian surface: how many, how high, how sharp (Nayak 1971; McCool 1986).
+"""Summits of an isotropic Gaussian surface: density, heights, curvatures (Nayak 1971; McCool 1986).
 
-Dimensionless throughout the densities: heights in ``sqrt(m0)`` above the mean plane, curvatures in ``sqrt(m4)``,
-summits per area in ``m4/(2 pi m2)``.
+Densities are dimensionless: heights in ``sqrt(m0)`` above the mean plane, curvatures in ``sqrt(m4)``, summits per area
+in ``m4/(2 pi m2)``.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from roughcontact.validation import Array, finite, numeric, require
 
 __all__ = ["SummitStatistics", "bandwidth", "free_variance", "geometric_density", "summit_density", "summits"]
 
-NARROWEST = 1.5  # Nayak's parameter of waves of one length from all directions: no isotropic surface has less
-SPREAD = 1 + 16 / math.pi - 3 * math.sqrt(3)  # 0.8968: what 1/alpha takes from the variance of summit heights
+NARROWEST = 1.5  # Nayak's parameter of waves of one length, the minimum of isotropic surfaces
+SPREAD = 1 + 16 / math.pi - 3 * math.sqrt(3)  # 0.8968: factor of 1/alpha in the variance of summit heights
 
 
 @dataclass(frozen=True, slots=True)
 class SummitStatistics:
-    """The mean asperity of a surface, as theories of equal spheres take it.
+    """The mean asperity of a surface, for theories of equal spheres.
 
     Attributes
     ----------
     density : float
         Summits per area [1/m^2].
     radius : float
-        Of the sphere with the mean curvature of all summits [m].
+        Radius of the sphere with the mean curvature of all summits [m].
     std : float
         Standard deviation of summit heights [m].
     mean_height : float
@@ -79,7 +79,7 @@ def bandwidth(moments: ProfileMoments) -> float:
     """
     m0, m2, m4 = moment(moments, "m0"), moment(moments, "m2"), moment(moments, "m4")
     alpha = m0 * m4 / m2**2
-    # One part in 10^9 is left to the rounding of moments that were summed.
+    # A relative error of 10^-9 is allowed for the rounding of summed moments.
     require(
         alpha >= NARROWEST * (1 - 1e-9),
         f"Nayak's parameter of an isotropic surface is at least 3/2, not {alpha:.6g}: are these the moments of "
@@ -103,13 +103,13 @@ def summits(moments: ProfileMoments) -> SummitStatistics:
     Raises
     ------
     ValueError
-        If there is no such surface, see `bandwidth`.
+        If no surface has these moments, see `bandwidth`.
 
     Notes
     -----
     ``m4/(6 sqrt(3) pi m2)``, ``(3/8) sqrt(pi/m4)``, ``(1 - 0.8968/alpha) m0`` (squared) and ``4 sqrt(m0/(pi alpha))``
-    (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. All but the last two depend on the shortest
-    waves: without a shortest wave a fractal has no summits to count.
+    (McCool, Wear 107, 37 (1986)); 0.8968 is ``1 + 16/pi - 3 sqrt(3)``. Density and radius depend strongly on the
+    shortest waves: a fractal without a shortest wave has no finite density of summits.
 
     Examples
     --------
@@ -150,8 +150,8 @@ def summit_density(
 
     Notes
     -----
-    ``(t^2 - r^2) N(t; 0, 2/3) N(s; 3t/(2 sqrt(alpha)), 1 - 3/(2 alpha)) 3 r exp(-3 r^2/2)``, N(x; mean, variance) the
-    normal density: the determinant of the curvatures counts the points where both slopes vanish.
+    ``(t^2 - r^2) N(t; 0, 2/3) N(s; 3t/(2 sqrt(alpha)), 1 - 3/(2 alpha)) 3 r exp(-3 r^2/2)`` with the normal density
+    N(x; mean, variance): the determinant of the curvatures counts the points where both slopes vanish.
 
     Examples
     --------
@@ -186,8 +186,8 @@ def geometric_density(height: float | Array, curvature: float | Array, alpha: fl
 
     Notes
     -----
-    `summit_density` integrated at fixed g (Greenwood, Wear 261, 191 (2006)). In logarithms, since its two
-    exponentials and the error function leave the range of floats one by one where their product does not.
+    `summit_density` integrated at fixed g (Greenwood, Wear 261, 191 (2006)). Computed in logarithms, because its two
+    exponentials and the error function leave the range of floats where their product does not.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Partial moments of a height distribution: what lies above a plane, weighed by a power of its excess."""
+"""Partial moments of a height distribution: integrals of powers of the excess above a plane."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ __all__ = ["DISTRIBUTIONS", "Distribution", "log_exponential", "log_gaussian"]
 
 Distribution = Literal["gaussian", "exponential"]
 
-HIGHEST_ORDER = 20.0  # the area of a tip of height r^H asks for 2/H; beyond, digits are lost at LOW
-LOW = 1.5  # below, two Kummer functions cancel little; above, 96 nodes of Laguerre are exact to rounding
+HIGHEST_ORDER = 20.0  # the area of a tip of height r^H needs 2/H; at higher orders digits are lost at LOW
+LOW = 1.5  # below it, two Kummer functions barely cancel; above it, 96 Laguerre nodes are exact to rounding
 NODES = 96
 
 
@@ -35,7 +35,7 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     Returns
     -------
     array
-        The logarithm, since F_n itself falls like exp(-t^2/2) and is no number any more at t = 39.
+        The logarithm, because F_n falls like exp(-t^2/2) and underflows at t = 39.
 
     Raises
     ------
@@ -45,8 +45,8 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     Notes
     -----
     ``F_n(t) = int_t^inf (x - t)^n phi(x) dx`` with ``dF_n/dt = -n F_{n-1}`` (Greenwood and Williamson 1966); F_0
-    is the upper tail of the normal distribution. It is ``Gamma(n + 1)/sqrt(2 pi) exp(-t^2/4) D_{-n-1}(t)`` with
-    the parabolic cylinder function, but that of the library underflows at t = 37 and keeps nine digits at t = 6.
+    is the upper tail of the normal distribution. It is ``Gamma(n + 1)/sqrt(2 pi) exp(-t^2/4) D_{-n-1}(t)`` with the
+    parabolic cylinder function, but SciPy's function underflows at t = 37 and has nine digits at t = 6.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def log_gaussian(order: float, plane: float | Array) -> Array:
     n = _checked(order)
     t = np.asarray(number(plane, "plane"))
     require(
-        t > -np.inf, "plane must not be infinitely low: nothing would be left out", value=t, place="plane"
+        t > -np.inf, "plane must not be minus infinity: the moment would be infinite", value=t, place="plane"
     )
     value = np.empty(t.shape)
     low = t < LOW
@@ -86,7 +86,7 @@ def log_exponential(order: float, plane: float | Array) -> Array:
     Raises
     ------
     ValueError
-        If the order lies outside, or a plane is below 0, where every height counts and the law is another.
+        If the order is out of range, or a plane is below 0, where every height counts and the formula differs.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def log_exponential(order: float, plane: float | Array) -> Array:
     if (t < 0).any():
         raise InputError(
             f"a plane {-t.min():.3g} standard deviations below the lowest of all exponential heights touches "
-            "every asperity: the exponential law holds above it only",
+            "every asperity: the exponential law holds only above it",
             place="plane",
         )
     return np.asarray(special.gammaln(n + 1) - t)

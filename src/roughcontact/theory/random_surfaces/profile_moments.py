@@ -1,4 +1,4 @@
-"""What theories of random surfaces ask of a surface: its profile moments."""
+"""The input of theories of random surfaces: profile moments."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def moment(moments: ProfileMoments, name: Literal["m0", "m2", "m4"], note: str =
     Raises
     ------
     ValueError
-        If these are no moments, or this one is not positive and finite.
+        If `moments` has no moments, or this one is not positive and finite.
     """
     if not hasattr(moments, name):
         raise about(
             "the moments",
-            f"m0, m2 and m4 of a surface are wanted, such as rc.surface_moments(surface) and "
-            f"spectrum.moments() return them, not {shown(moments)}",
+            f"m0, m2 and m4 of a surface are needed, for example from rc.surface_moments(surface) or "
+            f"spectrum.moments(), not {shown(moments)}",
         )
     return float(positive(getattr(moments, name), f"the moment {name}{note}"))

@@ -14,8 +14,8 @@ from roughcontact.validation import Array
 
 __all__ = ["log_integrals"]
 
-NODES = 64  # in each of two panels: rounding is reached for all planes and all alpha
-REACH = 9.0  # standard deviations of curvature beyond which nothing is left at double precision
+NODES = 64  # in each of two panels: rounding accuracy for all planes and all alpha
+REACH = 9.0  # standard deviations of curvature beyond which the integrand is negligible in double precision
 LEFT_OUT = 90.0  # exp(-45) of the density at the plane is below rounding, powers of heights included
 
 
@@ -33,7 +33,7 @@ def log_integrals(
     alpha : float
         Nayak's parameter, above 3/2.
     power : float
-        Of the geometric mean curvature g, in sqrt(m4); below 2.
+        Exponent of the geometric mean curvature g, in sqrt(m4); below 2.
     factor : callable or None
         f of the ratio of principal curvatures; None for 1.
 
@@ -44,9 +44,9 @@ def log_integrals(
 
     Notes
     -----
-    D is `nayak.summit_density`. At given curvatures heights are normal, so that their integral is a partial moment;
-    with ``u = (r/t)^2`` what is left is ``t^(4 - power) exp(-3 t^2/4)`` times a Laplace transform over u from 0 to 1.
-    At given height t is normal too, which locates the peak, however narrow the density.
+    D is `nayak.summit_density`. At given curvatures heights are normal, and their integral is a partial moment; with
+    ``u = (r/t)^2`` the rest is ``t^(4 - power) exp(-3 t^2/4)`` times a Laplace transform over u from 0 to 1. At given
+    height t is also normal, which locates the peak even of a narrow density.
     """
     s0 = np.asarray(plane, dtype=np.float64)
     above, root = np.maximum(s0, 0.0), math.sqrt(alpha)
@@ -63,14 +63,14 @@ def log_integrals(
     results = []
     for n in orders:
         moment = log_gaussian(n, (s0[..., None] - 1.5 * t / root) / sigma)
-        # exp(-s0^2/2), the height density at the plane, is taken out of the sum.
+        # The factor exp(-s0^2/2), the height density at the plane, is taken out of the sum.
         sums = (kernel * np.exp(moment - 0.75 * t**2 + above[..., None] ** 2 / 2)).sum(axis=-1)
         results.append(np.log(sums) - above**2 / 2 + n * math.log(sigma))
     return results
 
 
 def _over_deviators(t: Array, power: float, factor: Callable[[Array], Array] | None) -> Array:
-    """Return ``(3/2) int_0^1 (1 - u)^(1 - power/2) f exp(-3 t^2 u/2) du``, u = (r/t)^2, for each t."""
+    """Return ``(3/2) int_0^1 (1 - u)^(1 - power/2) f exp(-3 t^2 u/2) du`` with u = (r/t)^2, for each t."""
     # Double exponential: the integrand has a root and a logarithm at u = 1, and lies near u = 0 for large t.
     k, step = np.linspace(-3.2, 3.2, 81, retstep=True)
     u, rest = expit(math.pi * np.sinh(k)), expit(-math.pi * np.sinh(k))

@@ -1,4 +1,4 @@
-"""The waves of an isotropic surface, from the longest to the shortest, as Persson's theory adds them up."""
+"""The waves of an isotropic surface, from the longest to the shortest, for Persson's theory."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from roughcontact.validation import Array, number, pair, require, shown
 
 __all__ = ["ContinuousSpectrum", "MeasuredSpectrum", "Spectrum", "Waves"]
 
-START = 1e-9  # where the graded panels begin, in parts of the first wave: what lies before weighs as much
+START = 1e-9  # start of the graded panels, relative to the first wave: the weight of the rest before it
 MERGED = 1e-3  # waves of a grid whose wavenumbers differ by less than this part count as one band
 
 
@@ -70,7 +70,7 @@ class MeasuredSpectrum(Protocol):
 
     @property
     def q_min(self) -> float:
-        """Lower end of the band that is to be relied upon [rad/m]."""
+        """Lower end of the reliable band [rad/m]."""
 
     @property
     def q_max(self) -> float:
@@ -81,17 +81,17 @@ class MeasuredSpectrum(Protocol):
 class Waves:
     """Nodes of a quadrature over all waves of a surface: ``2 pi int q C2D f(q, g) dq = sum(power * f)``.
 
-    Here g(q) is the rms slope of all waves longer than q. Make one by `of_spectrum`, `of_measured`,
-    `of_heights` or `of_bands`, or by `of` from whatever describes the surface. It is a ``ProfileMoments``.
+    Here g(q) is the rms slope of all waves longer than q. Create one by `of_spectrum`, `of_measured`, `of_heights` or
+    `of_bands`, or by `of` from any description of the surface. It is a ``ProfileMoments``.
 
     Parameters
     ----------
     wavenumber : array, shape (n,)
         q at each node [rad/m], not decreasing.
     power : array, shape (n,)
-        Mean square height for which the node stands [m^2].
+        Mean square height represented by the node [m^2].
     slope : array, shape (n,)
-        g at the node, the rms slope of the waves up to it [-], increasing.
+        The rms slope g of the waves up to the node [-], increasing.
 
     Raises
     ------
@@ -101,11 +101,11 @@ class Waves:
     Notes
     -----
     Integrands of the theory behave like 1/g, which at the longest wave q0 is ``(q - q0)^(-1/2)``; and at small
-    pressures they have features at small g. The nodes are those of Gauss on panels whose widths in g shrink
-    geometrically towards g = 0, for which both are smooth.
+    pressures they have features at small g. The nodes are Gauss nodes on panels whose widths in g shrink geometrically
+    towards g = 0, on which both are smooth.
 
-    A single wave of the surface that stands for itself is the limit of a narrow band: in it q is one number, and
-    g grows from the slope of all longer waves to that with the wave, over several nodes.
+    A single wave of the surface is the limit of a narrow band: q is constant, and g grows over several nodes from the
+    slope of all longer waves to that including the wave.
 
     Examples
     --------
@@ -170,7 +170,7 @@ class Waves:
         Parameters
         ----------
         spectrum : Waves, measured or continuous spectrum
-            Waves themselves, a measured spectrum or a continuous one.
+            Waves, a measured spectrum or a continuous one.
 
         Returns
         -------
@@ -183,8 +183,8 @@ class Waves:
         if callable(spectrum):
             return cls.of_spectrum(spectrum)
         raise InputError(
-            f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is wanted, not {shown(spectrum)}; of a "
-            "surface take rc.power_spectrum(surface), of one with a lay Waves.of_heights(heights, spacing)",
+            f"Waves, a measured spectrum or an isotropic spectrum C2D(q) is needed, not {shown(spectrum)}; for a "
+            "surface use rc.power_spectrum(surface), for one with a lay Waves.of_heights(heights, spacing)",
             place="spectrum",
         )
 
@@ -205,7 +205,7 @@ class Waves:
         q_min, q_max : float, optional
             The band [rad/m], within that of the spectrum. A smaller `q_max` is a smaller magnification.
         breaks : iterable of float
-            Wavenumbers at which the spectrum has a corner [rad/m]; `q_rolloff` of the spectrum is taken by itself.
+            Wavenumbers at which the spectrum has a corner [rad/m]; `q_rolloff` of the spectrum is always included.
 
         Returns
         -------
@@ -217,13 +217,13 @@ class Waves:
             If the band is not finite, or the spectrum is that of a line, negative or zero.
         """
         if getattr(spectrum, "dimension", 2) != 2:
-            raise InputError("Persson's theory wants the spectrum C2D of a surface, not that of a line")
+            raise InputError("Persson's theory needs the spectrum C2D of a surface, not that of a line")
         low = max(getattr(spectrum, "q_min", 0.0), 0.0 if q_min is None else q_min)
         high = min(getattr(spectrum, "q_max", math.inf), math.inf if q_max is None else q_max)
         if not low > 0:
             raise about(
                 "the spectrum",
-                "has no longest wave, and without one no surface of finite size",
+                "has no longest wave, as of an infinite surface",
                 "give long_cutoff, or q_min, 2 pi over the side of the surface [rad/m]",
             )
         if not math.isfinite(high):
@@ -244,9 +244,9 @@ class Waves:
         Parameters
         ----------
         spectrum : MeasuredSpectrum
-            Such as `roughcontact.power_spectrum` returns.
+            For example from `roughcontact.power_spectrum`.
         q_min, q_max : float, optional
-            The band [rad/m]; by default the one to be relied upon. The area depends on `q_max`: state it.
+            The band [rad/m]; by default the reliable band. The area depends on `q_max`: state it.
 
         Returns
         -------
@@ -259,21 +259,21 @@ class Waves:
         """
         if spectrum.kind != "C2D":
             raise InputError(
-                f"Persson's theory wants the spectrum C2D of a surface, not {spectrum.kind}",
+                f"Persson's theory needs the spectrum C2D of a surface, not {spectrum.kind}",
                 "convert the spectrum of profiles by roughcontact.surface_spectrum",
             )
         low = spectrum.q_min if q_min is None else q_min
         high = spectrum.q_max if q_max is None else q_max
         q, density = np.asarray(spectrum.wavenumber), np.asarray(spectrum.density)
         keep = (q >= low * (1 - 1e-9)) & (q <= high * (1 + 1e-9)) & (density > 0)
-        require(keep.sum() >= 2, f"two bins with power are wanted between {low:g} and {high:g} rad/m")
+        require(keep.sum() >= 2, f"two bins with power are needed between {low:g} and {high:g} rad/m")
         ln_q, ln_c = np.log(q[keep]), np.log(density[keep])
         bins = np.asarray(q[keep])
         return _of_density(lambda x: np.exp(np.interp(np.log(x), ln_q, ln_c)), bins[0], bins[-1], bins)
 
     @classmethod
     def of_heights(cls, heights: Array, spacing: tuple[float, float]) -> Waves:
-        """Return the waves of heights, taken for one period of a surface; directions are averaged.
+        """Return the waves of heights, as one period of a surface; directions are averaged.
 
         Parameters
         ----------
@@ -289,7 +289,7 @@ class Waves:
         Raises
         ------
         ValueError
-            If the heights are no map, hold holes or are flat.
+            If the heights are not a map, have missing points or are flat.
         """
         z = np.asarray(number(heights, "heights [m]"))
         require(z.ndim == 2, f"heights must have two axes, not {z.ndim}", place="heights")
@@ -298,7 +298,7 @@ class Waves:
         )
         (ny, nx), (dy, dx) = z.shape, map(float, pair(spacing, "the spacing (dy, dx) [m]"))
         power = np.abs(scipy.fft.rfft2(z - z.mean()) / z.size) ** 2
-        # Every column stands for q and -q, but the first and, of an even number, the last.
+        # Every column stands for q and -q, except the first and, for an even number, the last.
         power[:, 1 : (nx + 1) // 2] *= 2
         q = 2 * np.pi * np.hypot(scipy.fft.fftfreq(ny, dy)[:, None], scipy.fft.rfftfreq(nx, dx))
         waves = (q > 0) & (power > 0)
@@ -316,7 +316,7 @@ class Waves:
         Parameters
         ----------
         wavenumber : array, shape (n,)
-            Of each band, increasing [rad/m].
+            Wavenumber of each band, increasing [rad/m].
         power : array, shape (n,)
             Mean square height of each band [m^2].
 
@@ -371,7 +371,7 @@ def _of_density(density: Callable[[Array], Array], low: float, high: float, brea
     powers = 2 * math.pi * q * values * (2 * low * s * width)
     squares = q**2 * powers
     before = np.concatenate([[0.0], np.cumsum(squares @ weights)[:-1]])[:, None]
-    # Where hardly any power is left, rounding must not reverse the order.
+    # Where almost no power is left, rounding must not reverse the order.
     slope = np.maximum.accumulate(np.sqrt(np.maximum(before + squares @ running(x).T, 0)).ravel()).reshape(
         q.shape
     )

@@ -20,7 +20,7 @@ from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["coefficient", "crossover_force", "force", "law", "stiffness"]
 
-# Newton's steps from above, where the force is at most twice the wanted one: a few reach rounding.
+# Newton's steps from above, where the force is at most twice the target: a few steps reach rounding.
 STEPS = 12
 
 
@@ -28,7 +28,7 @@ STEPS = 12
 def coefficient(
     hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, *, prefactor: ArrayLike | None = None
 ) -> Array:
-    """Return Q of the indenter z = Q r^H that stands for the roughness [m^(1-H)] (thesis, eq. 5.6).
+    """Return Q of the indenter z = Q r^H that replaces the roughness [m^(1-H)] (thesis, eq. 5.6).
 
     Q = (2/(zeta L))^(H+1) (H+1) L h/(2 H kappa(H)).
 
@@ -51,7 +51,7 @@ def coefficient(
     Raises
     ------
     ValueError
-        If H lies outside the range in which the stiffness of the roughness goes as F^(1/(H+1)).
+        If H lies outside the range in which the stiffness of the roughness scales as F^(1/(H+1)).
 
     Examples
     --------
@@ -133,7 +133,7 @@ def stiffness(
 ) -> Array:
     """Return the contact stiffness of a rough sphere [N/m], the inverse of `force` (thesis, eq. 5.9).
 
-    It is below that of the smooth sphere and below that of the roughness alone, at any force.
+    At any force it is below that of the smooth sphere and below that of only the roughness.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def stiffness(
     """
     e, sphere, rough, h = _terms(radius, hurst, rms, length, modulus, prefactor)
     f = positive(force, "force [N]", zero=True) / e
-    # From the smaller of both asymptotes: the sum is convex, so that Newton's steps fall monotonely to the root.
+    # From the smaller of both asymptotes: the sum is convex, and Newton's steps decrease monotonically to the root.
     x = np.minimum(np.cbrt(f / sphere), (f / rough) ** (1 / (h + 1)))
     loaded = f > 0
     for _ in range(STEPS):
@@ -176,9 +176,9 @@ def crossover_force(
     *,
     prefactor: ArrayLike | None = None,
 ) -> Array:
-    """Return the force at which smooth sphere and roughness alone are equally stiff [N] (thesis, eq. 5.10).
+    """Return the force at which the smooth sphere and only the roughness are equally stiff [N] (thesis, eq. 5.10).
 
-    F = E* (zeta^(3H+3) h^-3 L^(3H) (6R)^-(H+1))^(1/(H-2)); below it the roughness decides.
+    F = E* (zeta^(3H+3) h^-3 L^(3H) (6R)^-(H+1))^(1/(H-2)); below it the roughness dominates.
 
     Parameters
     ----------
@@ -231,7 +231,7 @@ def law(radius: float, hurst: float, rms: float, length: float, modulus: float) 
     Returns
     -------
     LoadingLaw
-        Up to the force at which the disc of contact is as wide as the roughness' square, k = E* L.
+        Valid up to the force at which the contact is as wide as the square of the roughness, k = E* L.
 
     Examples
     --------
@@ -242,7 +242,7 @@ def law(radius: float, hurst: float, rms: float, length: float, modulus: float) 
     """
     body = {"radius": radius, "hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
     highest = float(force(positive(modulus, "modulus [Pa]") * positive(length, "length [m]"), **body))
-    # Powers p of r, and the depths by each term alone: d = sum D a^p, F = sum 2 E* p/(p + 1) D a^(p + 1).
+    # Powers p of r, and the depths by each single term: d = sum D a^p, F = sum 2 E* p/(p + 1) D a^(p + 1).
     terms = ((2.0, 1 / radius), (hurst, float(coefficient(hurst, rms, length) * kappa(hurst))))
 
     return LoadingLaw(

@@ -18,8 +18,8 @@ __all__ = ["beat_wave"]
 
 # Terms of the series at the peak, whose ratio is at most NEAR/2.
 NEAR, TERMS = 1.0, 60
-# Largest argument of the Bessel functions in the Fourier sums of 2, 3, 4, ... waves: what comes after is below 2e-6
-# of the fraction and 2e-10 of the excess, which falls faster.
+# Largest argument of the Bessel functions in the Fourier sums of 2, 3, 4, ... waves: the remainder is below 2e-6 of
+# the fraction and 2e-10 of the excess, which falls faster.
 FAR = {2: 3e4, 3: 1e4, 4: 3e3}
 FAR_OF_MANY = 1e3
 
@@ -46,12 +46,13 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
 
     Notes
     -----
-    Phases of waves whose wavenumbers have no common measure are independent along a long line. Those of adjacent
-    harmonics of one period are not.
+    Phases of waves with incommensurable wavenumbers are independent along a long line; those of adjacent harmonics of
+    one period are not.
 
-    Near the peak from the power series of the N-fold convolution of 1/(pi sqrt(z(2 - z))); further down from the
-    Fourier series of the bounded heights, whose coefficients are J0^N. One wave is closed (thesis, eq. 4.33). The
-    error is below 2e-6 for up to eight waves; for more, the fraction is small where it is computed to 1e-15 of one.
+    Computed near the peak from the power series of the N-fold convolution of 1/(pi sqrt(z(2 - z))), and further down
+    from the Fourier series of the bounded heights, whose coefficients are J0^N. One wave has a closed form (thesis,
+    eq. 4.33). The relative error is below 2e-6 for up to eight waves; for more waves the absolute error is 1e-15,
+    where the fraction is small.
 
     Examples
     --------
@@ -73,7 +74,7 @@ def beat_wave(modes: int, amplitude: float) -> HeightDistribution:
 
 
 def _integral(amplitude: float, n: int, order: int, u: Array) -> Array:
-    """Return the density's integral of an order (1: fraction, 2: excess) at u."""
+    """Return the integral of the density of an order (1: fraction, 2: excess) at u."""
     depth = np.asarray(u / amplitude, dtype=np.float64)
     # The distribution is symmetric about n: fraction and excess below follow from those above.
     mirrored = np.minimum(depth, np.maximum(2 * n - depth, 0.0))
@@ -88,7 +89,7 @@ def _integral(amplitude: float, n: int, order: int, u: Array) -> Array:
 
 def _near_peak(u: Array, n: int, order: int) -> Array:
     # One wave: density z^(-1/2) sum_k b_k z^k, b_k = binom(2k, k)/8^k/(pi sqrt 2), whose Laplace transform has the
-    # coefficients b_k Gamma(k + 1/2): their N-th power belongs to the sum of N waves, Gamma takes it back.
+    # coefficients b_k Gamma(k + 1/2): their N-th power belongs to the sum of N waves, Gamma inverts the transform.
     k = np.arange(TERMS)
     one = binom(2 * k, k) / 8.0**k / (np.pi * np.sqrt(2)) * np.exp(gammaln(k + 0.5))
     c = one

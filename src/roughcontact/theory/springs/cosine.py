@@ -1,7 +1,7 @@
 """One cosine wave pressed on springs: the line z = h0 cos(q x) in the method of dimensionality reduction.
 
-Section 4.4.2 of the thesis, with its equations 4.33 and 4.34 corrected. Springs of stiffness E* per length take no
-note of each other, so only the distribution of heights matters, not the wavenumber.
+Section 4.4.2 of the thesis, with its equations 4.33 and 4.34 corrected. Springs of stiffness E* per length are
+independent, so only the distribution of heights matters, not the wavenumber.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def force(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: Ar
     amplitude : float or array
         h0 [m].
     length : float or array
-        Length L of the line, many waves or whole ones [m].
+        Length L of the line, with many waves or a whole number of waves [m].
     modulus : float or array
         Reduced modulus E* [Pa].
 
@@ -113,7 +113,7 @@ def depth(force: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: Ar
 def small_force(depth: ArrayLike, amplitude: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
     """Return the force at small depth, (8/(3 pi)) E* L h0 (d/(2 h0))^(3/2) [N] (thesis, eq. 4.34, corrected).
 
-    Below the exact force: by 1 % at d = 0.2 h0, by 6 % at d = h0.
+    It is below the exact force: by 1 % at d = 0.2 h0, by 6 % at d = h0.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def _given(
 
 
 def _angle(s: Array) -> Array:
-    """Return t = 2 asin(sqrt s): the phase of a wave that is in contact, pi where all is."""
+    """Return t = 2 asin(sqrt s): the phase of a wave that is in contact; pi for full contact."""
     return 2 * np.arcsin(np.sqrt(np.minimum(s, 1.0)))
 
 

@@ -1,12 +1,13 @@
 """White heights on springs: the stiffness of rough lines of low Hurst exponent in closed form.
 
-For H below about -1/4 the heights of a rough line are as good as independent and Gaussian. Pressed on the springs
+For H below about -1/4 the heights of a rough line are almost independent and Gaussian. Pressed on the springs
 of the method of dimensionality reduction down to t standard deviations above the mean, with the normal density phi and
 Q = erfc(t/sqrt 2)/2,
 
     F/(E* h L) = phi(t) - t Q(t),    k/(E* L) = Q(t).
 
-There is no highest peak, so no depth; and no number of grid points, which eq. 4.73 of the thesis has.
+There is no highest peak and therefore no depth; the number of grid points, as in eq. 4.73 of the thesis, does not
+matter.
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = ["exponent", "force", "law", "stiffness"]
 
-# Higher than the highest of any number of points.
+# Higher than the highest point of any grid.
 HIGHEST = 38.0
-BEYOND = 40.0  # where density and share of the heights above are 0 in floating-point numbers
+BEYOND = 40.0  # here density and share of higher points underflow
 
 
 @numeric
 def force(level: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike) -> Array:
-    """Return the force when the flat body stands at a level above the mean height [N].
+    """Return the force if the flat body is at a level above the mean height [N].
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ def force(level: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLik
     t = number(level, "level")
     require(
         t > -np.inf,
-        "level must be finite, or infinite above all heights, where nothing touches",
+        "level must be finite, or plus infinity, above all heights",
         value=t,
         place="level",
     )
@@ -160,7 +161,7 @@ def _level(force: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLi
     """Return the t at which the line carries a force."""
     scale = _scale(length, modulus) * positive(rms, "rms [m]")
     f = positive(force, "force [N]", zero=True) / scale
-    # phi - t Q falls with t and is nowhere below -t.
+    # phi - t Q decreases with t and is at least -t.
     return -bisect(lambda minus_t: _force(-minus_t) > f, np.asarray(-HIGHEST), f)
 
 

@@ -1,7 +1,7 @@
 """Force and stiffness of a line on springs, from the distribution of its heights (thesis, section 4.5.2).
 
-In the method of dimensionality reduction the springs under a rough line take no note of each other. So the force
-follows from the density Phi(z) of heights alone, z measured downwards from the highest peak (thesis, eq. 4.59):
+In the method of dimensionality reduction the springs under a rough line are independent. The force therefore follows
+from only the density Phi(z) of heights, with z measured downwards from the highest peak (thesis, eq. 4.59):
 
     F(u) = E* L int_0^u Phi(z) (u - z) dz,    k(u) = E* L int_0^u Phi(z) dz.
 """
@@ -33,9 +33,9 @@ __all__ = [
     "stiffness_exponent",
 ]
 
-# What an integral of a density may miss, relative to its value.
+# Relative error allowed for an integral of a density.
 PRECISION = 1e-8
-# A depth [m] beyond which no force is looked for.
+# Largest depth [m] in the search for a force.
 FARTHEST = 1e300
 
 
@@ -46,11 +46,11 @@ class HeightDistribution:
     Parameters
     ----------
     name : str
-        For legends.
+        Name for legends.
     fraction : callable
         int_0^u Phi(z) dz [-]: the part of the line above the depth u [m]; array in, array out.
     excess : callable
-        int_0^u Phi(z) (u - z) dz [m]: how far the line reaches above the depth u in the mean; array in, array out.
+        int_0^u Phi(z) (u - z) dz [m]: the mean excess of the line above the depth u; array in, array out.
     source : str
         Equation.
 
@@ -133,7 +133,7 @@ class HeightDistribution:
         """
         wanted = positive(force, "force [N]", zero=True) / _scale(length, modulus)
         loaded = wanted > 0
-        # No line carries more than its length times the depth.
+        # A line carries at most its length times the depth.
         low, high = np.where(loaded, wanted, 1.0), np.where(loaded, wanted, 1.0)
         while (short := loaded & (self.excess(high) < wanted)).any():
             low, high = np.where(short, high, low), np.where(short, 2 * high, high)
@@ -191,7 +191,7 @@ def from_density(
     Raises
     ------
     ValueError
-        When evaluated: if an integral cannot be had to a relative error of 1e-8, for want of `breaks`.
+        At evaluation: if an integral misses the relative error of 1e-8, because `breaks` are missing.
 
     Examples
     --------
@@ -214,7 +214,7 @@ def from_samples(depth: ArrayLike, density: ArrayLike, *, name: str = "Heights")
     depth : array
         Increasing depths z >= 0 below the highest peak [m], shape (n,).
     density : array
-        Phi(z) [1/m], shape (n,); taken as 0 before the first depth and after the last.
+        Phi(z) [1/m], shape (n,); assumed to be 0 before the first depth and after the last.
     name : str
         For legends.
 
@@ -253,7 +253,7 @@ def stiffness_exponent(density_exponent: ArrayLike) -> Array:
     Parameters
     ----------
     density_exponent : float or array
-        beta, above -1: below, the density has no integral.
+        beta, above -1: otherwise the density has no integral.
 
     Returns
     -------
@@ -283,7 +283,7 @@ def density_exponent(stiffness_exponent: ArrayLike) -> Array:
     Parameters
     ----------
     stiffness_exponent : float or array
-        alpha, between 0 and 1: at 1 the density is no power but an exponential, and there is no highest peak.
+        alpha, between 0 and 1: at 1 the density is exponential, and there is no highest peak.
 
     Returns
     -------
@@ -306,9 +306,9 @@ def density_exponent(stiffness_exponent: ArrayLike) -> Array:
 
 
 def legacy_density_exponent(modes: ArrayLike) -> Array:
-    """Return the thesis' beta = -1/2 + (1/2) log2 N, a heuristic (eq. 4.72), to redraw its figures.
+    """Return beta = -1/2 + (1/2) log2 N of the thesis, a heuristic (eq. 4.72), to reproduce its figures.
 
-    N waves of independent phases have beta = N/2 - 1 (`beat_wave`), which agrees at N = 1 and 2 only; adjacent
+    N waves of independent phases have beta = N/2 - 1 (`beat_wave`), which agrees only at N = 1 and 2; adjacent
     harmonics of one line have beta near 0 for every N above 1.
 
     Parameters
@@ -333,10 +333,10 @@ def legacy_density_exponent(modes: ArrayLike) -> Array:
 
 
 def legacy_stiffness_exponent(modes: ArrayLike) -> Array:
-    """Return the thesis' alpha = (1 + log2 N)/(3 + log2 N), a heuristic (eq. 4.73), to redraw its fig. 25.
+    """Return alpha = (1 + log2 N)/(3 + log2 N) of the thesis, a heuristic (eq. 4.73), to reproduce its fig. 25.
 
-    The curve k(F) of low Hurst exponents does not depend on the number of grid points (`gaussian_heights`); a
-    fitted exponent does, since the lower end of the window of the fit falls with 1/N.
+    The curve k(F) of low Hurst exponents does not depend on the number of grid points (`gaussian_heights`); a fitted
+    exponent does, because the lower end of the window of the fit falls with 1/N.
 
     Parameters
     ----------
@@ -386,7 +386,7 @@ def _integrals(
 
 
 def _integral(function: Callable[[float], float], low: float, high: float) -> float:
-    # With the full output, trouble is a number to judge and not a warning.
+    # With the full output, problems are returned as numbers, not as warnings.
     value, error, *_ = quad(function, low, high, epsabs=0.0, epsrel=PRECISION / 100, limit=200, full_output=1)
     require(
         error <= PRECISION * abs(value),

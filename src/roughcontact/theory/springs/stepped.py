@@ -1,7 +1,7 @@
 """The stepped indenter: discs r_n = r0 C^n whose steps h_n = h0 C^(Hn) follow the fractal law (thesis, section 4.4.1).
 
-Between two steps the contact is a disc and its stiffness constant, so force over depth is a chain of straight lines.
-A model of the scaling: the surface is taken to stay level around a disc until the step below it arrives.
+Between two steps the contact is a disc with constant stiffness, so force over depth is piecewise linear. It is a model
+of the scaling: the surface is assumed to stay level around a disc until the next step touches.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class SteppedIndenter:
     ratio : float
         C, above 1.
     hurst : float
-        H, not negative; the thesis takes it up to 1.
+        H, not negative; up to 1 in the thesis.
 
     Raises
     ------
@@ -38,9 +38,9 @@ class SteppedIndenter:
 
     Notes
     -----
-    A disc counts whole as soon as its rim touches. The next cylinder really touches with an annulus around a gap; of
-    the stiffness of the whole disc it has between all and `punch.annulus` of the radii r_(n-1) and r_n: more
-    than 94 % for C = 1.5, 98 % for C = 2.
+    A whole disc counts as soon as its rim touches. In reality the next cylinder touches with an annulus around a gap:
+    its stiffness lies between that of the whole disc and `punch.annulus` of the radii r_(n-1) and r_n, more than 94 %
+    of the disc for C = 1.5, 98 % for C = 2.
 
     Examples
     --------
@@ -111,7 +111,7 @@ class SteppedIndenter:
         """Return forces [N] and stiffnesses [N/m] just before disc n + 1 touches, for n below `count`.
 
         k_n = 2 E* r_n (thesis, eq. 4.22, which lacks the 2), and F_n = k_0 h_0 + ... + k_n h_n, of which eq. 4.23
-        keeps the last term. Far from the tip it is a constant share, and k_n ~ F_n^(1/(1+H)) (eq. 4.24).
+        keeps the last term. Far from the tip this term is a constant share, and k_n ~ F_n^(1/(1+H)) (eq. 4.24).
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class SteppedIndenter:
         force : float or array
             Normal force [N].
         count : int
-            Number of discs the indenter has; the last one has no end.
+            Number of discs of the indenter; the last one has no end.
         modulus : float
             Reduced modulus E* [Pa].
 

@@ -36,7 +36,7 @@ def force(
     long_wave : tuple of (float or array)
         Its amplitude h1 [m] and wavenumber q1 [rad/m].
     short_amplitude : float or array
-        h2 of the short wave [m]; its wavenumber does not matter, if only much larger than q1.
+        h2 of the short wave [m]; its wavenumber does not matter if it is much larger than q1.
     modulus : float or array
         Reduced modulus E* [Pa].
 
@@ -48,12 +48,12 @@ def force(
     Raises
     ------
     ValueError
-        If the depth exceeds 2 h2, where the short wave has been flattened, or h1/2, where the contact reaches
-        beyond ``q1 |x| = 1`` and the crest of the long wave is no parabola.
+        If the depth exceeds 2 h2, where the short wave has been flattened, or h1/2, where the contact extends beyond
+        ``q1 |x| = 1`` and the crest of the long wave is not a parabola.
 
     Notes
     -----
-    The integral over the crest is F = 2 E* h2^(3/2)/(q1 h1^(1/2)) s^2 2F1(1/2, 1/2; 3; s), s = d/(2 h2).
+    The integral over the crest is F = 2 E* h2^(3/2)/(q1 h1^(1/2)) s^2 2F1(1/2, 1/2; 3; s) with s = d/(2 h2).
 
     Examples
     --------
@@ -152,7 +152,7 @@ class Hierarchy:
     ------
     ValueError
         If C is not above 1; if H is 0 or less: shorter waves would be as high as longer ones (eq. 4.48); if H is
-        2 or more: they would be too flat to matter on the crest below them (eqs 4.50 and 4.51).
+        2 or more: they would be too flat to matter on the crest of the longer wave (eqs 4.50 and 4.51).
 
     Examples
     --------
@@ -258,13 +258,13 @@ def _given(
     h1, q1 = pair(long_wave, "amplitude [m] and wavenumber [rad/m] of the long_wave")
     require(
         d <= 2 * h2,
-        "depth must not exceed 2 h2: the short wave is flat at the crest and not a wave any more",
+        "depth must not exceed 2 h2: there the short wave is flat at the crest",
         value=d,
         place="depth",
     )
     require(
         2 * d <= h1,
-        "depth must not exceed h1/2: contact would reach q1 |x| = 1, where the long wave is no parabola",
+        "depth must not exceed h1/2: contact would reach q1 |x| = 1, where the long wave is not a parabola",
         value=d,
         place="depth",
     )

@@ -1,17 +1,16 @@
 """The finite-size crossover: a single cell of roughness at low loads, Persson's linear law above.
 
-HEURISTIC: an argument and a fitted prefactor, no theorem. A nominally flat surface consists of cells of the size of
-its longest waves. At the lowest loads only the highest cell carries, and it is a rough indenter of its own. As the
-load grows others join, each when the last one has all that it can bear, so that the stiffness grows with
-their number: linearly. Pastewka, Prodanov, Lorenz, Mueser, Robbins and Persson, Phys. Rev. E 87, 062809
-(2013), have found both in computed contacts; the pressure of the crossover falls with the nominal area.
+HEURISTIC: an argument and a fitted prefactor, not a theorem. A nominally flat surface consists of cells of the size of
+its longest waves. At the lowest loads only the highest cell carries the load, as a rough indenter. As the load grows,
+further cells come into contact, and the stiffness grows in proportion to their number. Pastewka, Prodanov, Lorenz,
+Mueser, Robbins and Persson, Phys. Rev. E 87, 062809 (2013), have found both in computed contacts; the pressure of the
+crossover falls with the nominal area.
 
-The prefactors here are not theirs: the power law of the thesis (eq. 4.74) and Persson's stiffness are taken as they
-are, and the stiffer one holds. Computed periodic surfaces (H = 0.8, 128 x 128 cells, roll-off at 1, 1/2, 1/4
-and 1/8 of the side L, shortest waves L/32, means of six samples) have 0.9 to 1.8 times that stiffness, from
-F/(E* h L) = 0.001 to 3.
+The prefactors here are not theirs: the larger of the power law of the thesis (eq. 4.74) and Persson's stiffness is
+used. Computed periodic surfaces (H = 0.8, 128 x 128 cells, roll-off at 1, 1/2, 1/4 and 1/8 of the side L, shortest
+waves L/32, means of six samples) have 0.9 to 1.8 times that stiffness, from F/(E* h L) = 0.001 to 3.
 
-Without a roll-off the surface is one cell, and both laws meet next to full contact: no load obeys a linear law.
+Without a roll-off the surface is one cell, and both laws meet near full contact: there is no linear regime.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ __all__ = ["Cell", "law"]
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell of roughness as an indenter of its own, ``k = zeta E* l (F/(E* h l))^(1/(H+1))`` (thesis, eq. 4.74).
+    """A cell of roughness as an indenter, ``k = zeta E* l (F/(E* h l))^(1/(H+1))`` (thesis, eq. 4.74).
 
     Parameters
     ----------
@@ -71,7 +70,7 @@ class Cell:
         require(
             0 < self.hurst <= pohrt_popov.SMOOTH,
             f"the power law of a cell is known for Hurst exponents above 0 and at most 2, not {self.hurst}: "
-            "below, no cell stands out; above, the exponent stays at 1/3",
+            "below, no cell is dominant; above, the exponent stays at 1/3",
             place="hurst",
         )
         positive(self.rms, "the rms height [m]")
@@ -136,7 +135,7 @@ def law(
     Parameters
     ----------
     cell : Cell
-        As high and as long as the longest waves of the surface.
+        With the rms height of the surface and the length of its longest waves.
     spectrum : Waves, measured or continuous spectrum
         Of the surface.
     modulus : float
@@ -173,7 +172,7 @@ def law(
     )
 
     stiffness = partial(_stiffness, cell, waves, modulus, nominal, gamma)
-    stiffness(np.array([0.0]))  # bad numbers show themselves here, not in the first prediction
+    stiffness(np.array([0.0]))  # invalid numbers raise here, not at the first prediction
     return LoadingLaw(
         "Finite size",
         "after Pastewka et al., Phys. Rev. E 87, 062809 (2013), heuristic",

@@ -1,7 +1,7 @@
 """The power law of Pohrt and Popov: the stiffness of a self-affine surface without cut-off (thesis, eq. 5.5).
 
-k/(E* L) = zeta (F/(E* h L))^alpha with alpha = 1/(H+1) and zeta = 1.7/(H+1). The exponent has a derivation, the
-prefactor is a fit to boundary-element results.
+k/(E* L) = zeta (F/(E* h L))^alpha with alpha = 1/(H+1) and zeta = 1.7/(H+1). The exponent is derived, the prefactor is
+a fit to boundary-element results.
 """
 
 from __future__ import annotations
@@ -52,8 +52,9 @@ def exponent(hurst: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If H is not above 0: the shortest waves then decide, and the exponent depends on the forces between which
-        it is fitted; see `height_distribution` and `gaussian_heights`. If H exceeds 3: nothing was compared.
+        If H is not above 0: then the shortest waves dominate, and the exponent depends on the range of forces of the
+        fit; see `height_distribution` and `gaussian_heights`. If H exceeds 3, where the law was not compared with
+        computations.
 
     Examples
     --------
@@ -67,8 +68,8 @@ def exponent(hurst: ArrayLike) -> Array:
 def prefactor(hurst: ArrayLike) -> Array:
     """Return zeta = 1.7/(H+1) for 0 < H <= 2 (thesis, eq. 4.74), 1.7/3 above [-].
 
-    Above 2 the printed formula goes to 0 and the stiffness does not. Held at H = 2, zeta is 6 % above that of a
-    single crest of two crossed waves, (6/(4 pi^2))^(1/3) = 0.5337, the exact limit for small forces and large H.
+    Above 2 the printed formula goes to 0, but the stiffness does not. With the value at H = 2, zeta is 6 % above that
+    of a single crest of two crossed waves, (6/(4 pi^2))^(1/3) = 0.5337, the exact limit for small forces and large H.
 
     Parameters
     ----------
@@ -122,7 +123,7 @@ def stiffness(
     Raises
     ------
     ValueError
-        If H is out of range, or the force so large that the law passes the full-contact stiffness 1.1523 E* L.
+        If H is out of range, or the force so large that the law exceeds the full-contact stiffness 1.1523 E* L.
 
     Examples
     --------
@@ -230,7 +231,7 @@ def force_at_depth(
 
 @numeric
 def theta(hurst: ArrayLike, rms: ArrayLike, length: ArrayLike) -> Array:
-    """Return Theta = h L^-H, which a self-affine surface keeps when it is cut to another size [m^(1-H)] (eq. 7.1).
+    """Return Theta = h L^-H, the same for each size to which a surface is cut [m^(1-H)] (thesis, eq. 7.1).
 
     Parameters
     ----------
@@ -309,7 +310,7 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     Returns
     -------
     LoadingLaw
-        Up to a force of 0.07 E* h L, where the thesis' fits end.
+        Valid up to a force of 0.07 E* h L, the limit of the fits in the thesis.
 
     Examples
     --------
@@ -342,7 +343,7 @@ def _hurst(hurst: ArrayLike) -> Array:
     h = number(hurst, "hurst")
     require(
         h > 0,
-        "hurst must exceed 0: at 0 and below the shortest waves decide, and no exponent is independent of the "
+        "hurst must exceed 0: at 0 and below the shortest waves dominate, and no exponent is independent of the "
         "resolution",
         "see height_distribution and gaussian_heights",
         value=h,
@@ -355,11 +356,11 @@ def _hurst(hurst: ArrayLike) -> Array:
 
 
 def _below_full_contact(dimensionless_stiffness: Array) -> Array:
-    """Return k/(E* L), unless it is more than the whole square has."""
+    """Return k/(E* L), unless it exceeds that of the whole square."""
     require(
         dimensionless_stiffness <= SQUARE.value,
         f"the stiffness passes the full-contact stiffness {SQUARE.value:.4f} E* L, which no contact inside the "
-        f"square exceeds; the law claims to hold up to a force of {FORCE_LIMIT} E* h L",
+        f"square exceeds; the law holds up to a force of {FORCE_LIMIT} E* h L",
     )
     return dimensionless_stiffness
 

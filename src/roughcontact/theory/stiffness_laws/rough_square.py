@@ -1,6 +1,6 @@
-"""The stiffness of rough squares as computed: exponent and prefactor of ensembles of surfaces, with errors.
+"""The computed stiffness of rough squares: exponent and prefactor of ensembles of surfaces, with errors.
 
-k/(E* L) = zeta (F/(E* h L))^alpha as the thesis has it (`pohrt_popov`), but alpha and zeta are those of the mean
+k/(E* L) = zeta (F/(E* h L))^alpha as in the thesis (`pohrt_popov`), but alpha and zeta are those of the mean
 stiffness of 800 free squares of 512 x 512 cells for each of twelve Hurst exponents (docs/evidence/law.md), and monotone
 interpolations between them. With kappa, k/(E* L) at F/(E* h L) = 0.02, zeta is kappa 0.02^-alpha.
 """
@@ -29,10 +29,10 @@ __all__ = [
     "stiffness",
 ]
 
-# k/(E* L) of 20 of 512 x 512 cells, below which single cells decide.
+# k/(E* L) of 20 of 512 x 512 cells, below which single cells dominate.
 LEAST_STIFFNESS = 0.035
-_REFERENCE = 0.02  # F/(E* h L) inside the window, where the errors of exponent and level hardly hang together
-_ROUND = 1e-9  # of a force at an end of the window
+_REFERENCE = 0.02  # F/(E* h L) at which the errors of exponent and level are almost uncorrelated
+_ROUND = 1e-9  # tolerance of a force at an end of the window
 # H; alpha and its standard error; kappa and its standard error over it; the correlation of both errors.
 # `python reproduction/benchmarks/law_formula.py` prints it.
 _TABLE = (
@@ -71,7 +71,7 @@ def exponent(hurst: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If H is out of range: nothing was computed there.
+        If H is out of range of the computed surfaces.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def prefactor(hurst: ArrayLike) -> Array:
     Returns
     -------
     float or array
-        zeta [-]: k/(E* L) at a force of E* h L, far outside of the window. Compare stiffnesses, not prefactors.
+        zeta [-]: k/(E* L) at a force of E* h L, far outside the window. Compare stiffnesses, not prefactors.
 
     Examples
     --------
@@ -180,15 +180,15 @@ def stiffness(
     Raises
     ------
     ValueError
-        If H is out of range, or the force outside of the window of the ensembles: from that at which k is 0.035 E* L,
-        20 of their cells, to 0.07 E* h L.
+        If H is out of range, or the force outside the window of the ensembles: from the force at which k is 0.035 E*
+        L, the stiffness of 20 of their cells, to 0.07 E* h L.
 
     Notes
     -----
-    The amplitudes of the waves are those of the spectrum, their phases random, and waves end at two cells. Single
-    surfaces scatter about the mean by up to a quarter. Curves of the mean stiffness are bent a little:
-    docs/evidence/law.md says how far they lie beside a power law. Each Hurst exponent left out, interpolation meets
-    its values within one standard error.
+    The amplitudes of the waves are those of the spectrum, their phases are random, and the shortest waves have two
+    cells. Single surfaces scatter about the mean by up to a quarter. Curves of the mean stiffness are slightly bent:
+    docs/evidence/law.md lists their deviations from a power law. If any Hurst exponent is left out, interpolation
+    reproduces its values within one standard error.
 
     Examples
     --------
@@ -208,7 +208,7 @@ def stiffness(
 def relative_error(
     force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
 ) -> Array:
-    """Return the standard error of the mean `stiffness`, over it [-].
+    """Return the relative standard error of the mean `stiffness` [-].
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def relative_error(
     Returns
     -------
     float or array
-        Relative standard error [-]: of the mean, not the scatter of single surfaces.
+        Relative standard error [-] of the mean, not the scatter of single surfaces.
 
     Examples
     --------
@@ -243,7 +243,7 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     Returns
     -------
     LoadingLaw
-        In the window of the ensembles. Of the depth it says nothing: that needs the forces below.
+        Valid in the window of the ensembles. It has no depth, which would need the forces below.
 
     Examples
     --------
@@ -272,8 +272,8 @@ def _given(
     require(
         (f >= _lowest(h) * (1 - _ROUND)) & (f <= FORCE_LIMIT * (1 + _ROUND)),
         f"F/(E* h L) must lie between that at which k is {LEAST_STIFFNESS} E* L, 0.0074 at H = 0.25 and 0.0003 at "
-        f"H = 2.95, and {FORCE_LIMIT}: nothing was computed outside",
-        "compute the surface, or take pohrt_popov",
+        f"H = 2.95, and {FORCE_LIMIT}: no surfaces were computed outside",
+        "compute the surface, or use pohrt_popov",
         value=f,
     )
     return f, h, scale
@@ -288,7 +288,7 @@ def _hurst(hurst: ArrayLike) -> Array:
     low, high = HURST_LIMITS
     require(
         (h >= low) & (h <= high),
-        f"hurst must lie from {low} to {high}: nothing was computed outside",
+        f"hurst must lie from {low} to {high}: no surfaces were computed outside",
         value=h,
         place="hurst",
     )
@@ -296,7 +296,7 @@ def _hurst(hurst: ArrayLike) -> Array:
 
 
 def _lowest(hurst: Array) -> Array:
-    """Return the force F/(E* h L) at which k is the least that is resolved."""
+    """Return the force F/(E* h L) at which k is the smallest resolved stiffness."""
     found: Array = _REFERENCE * (LEAST_STIFFNESS / _level(hurst)) ** (1 / _exponent(hurst))
     return found
 
@@ -307,7 +307,7 @@ def _exponent(hurst: Array) -> Array:
 
 
 def _level(hurst: Array) -> Array:
-    """Return kappa, k/(E* L) at the force of reference."""
+    """Return kappa, k/(E* L) at the reference force."""
     kappa: Array = _KAPPA(hurst)[()]
     return kappa
 

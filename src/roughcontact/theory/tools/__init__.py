@@ -1,1 +1,1 @@
-"""What several theories compute with: checked numbers, roots, quadrature, inverses."""
+"""Numerical tools for several theories: checked numbers, roots, quadrature, inverses."""

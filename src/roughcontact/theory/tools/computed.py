@@ -15,11 +15,11 @@ from roughcontact.validation import Array, number, shown
 
 __all__ = ["ComputedCurve", "LogCubic", "as_law"]
 
-ROUNDING = 1e-12  # the end points must not fall out of their range by the rounding of a difference of forces
+ROUNDING = 1e-12  # tolerance for end points that leave the range by rounding of a difference of forces
 
 
 class ComputedCurve(Protocol):
-    """A loading curve in points; `roughcontact.Curve` and the `IndentationCurve` of `roughcontact.mdr` are such."""
+    """A loading curve in points; `roughcontact.Curve` and the `IndentationCurve` of `roughcontact.mdr` implement it."""
 
     @property
     def force(self) -> Array:
@@ -35,21 +35,22 @@ class ComputedCurve(Protocol):
 
 
 def as_law(loading: LoadingLaw | ComputedCurve) -> LoadingLaw:
-    """Return a law as it is, and a computed curve as the law that goes through its points.
+    """Return a law unchanged, and a computed curve as a law that interpolates its points.
 
-    Depth and stiffness are monotone cubics in the logarithms, so that a power law stays one, between the lowest and the
-    highest point that are positive and finite. Without force the depth is 0. Elsewhere they are NaN: unknown.
+    Depth and stiffness are monotone cubics in the logarithms between the lowest and the highest point that are
+    positive and finite; a power law stays a power law. Without force the depth is 0. Elsewhere they are NaN, that is
+    unknown.
 
     Raises
     ------
     ValueError
-        If it is neither, or the curve has not at least two points of increasing force.
+        If it is neither, or the curve has fewer than two points of increasing force.
     """
     if isinstance(loading, LoadingLaw):
         return loading
     if missing := [name for name in ("force", "depth", "stiffness") if not hasattr(loading, name)]:
         raise InputError(
-            "a LoadingLaw, or a computed curve with force, depth and stiffness, is wanted, not "
+            "a LoadingLaw, or a computed curve with force, depth and stiffness, is needed, not "
             f"{shown(loading)} without {', '.join(missing)}",
             place="loading",
         )
@@ -78,7 +79,7 @@ class LogCubic:
         x, y = force[right], values[right]
         if len(x) < 2 or not (np.diff(x) > 0).all():
             raise InputError(
-                f"a computed curve wants at least two points of strictly increasing force, not {len(x)} "
+                f"a computed curve needs at least two points of strictly increasing force, not {len(x)} "
                 f"between {x.min(initial=np.inf):g} and {x.max(initial=0):g} N"
             )
         return cls(PchipInterpolator(np.log(x), np.log(y), extrapolate=False), (x[0], x[-1]))

@@ -1,4 +1,4 @@
-"""Quantities that are products of powers of a few base quantities: any independent set of them gives the rest."""
+"""Quantities that are products of powers of a few base quantities: any independent set determines the others."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Product:
     factor : float or array
         Pure number.
     unit : str
-        For messages.
+        Unit for messages.
     """
 
     exponents: tuple[float, ...]
@@ -48,7 +48,7 @@ def checked(
     values : sequence of (array_like or None)
         Their values, in the order of the products.
     body : collection of str
-        Quantities that describe the unloaded body. Where they are all given, the others may be 0.
+        Quantities that describe the unloaded body. If they are all given, the others may be 0.
 
     Raises
     ------
@@ -65,14 +65,14 @@ def checked(
 
 
 def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[str, Array]:
-    """Return all quantities from as many of them as there are base quantities.
+    """Return all quantities from n of them, with n the number of base quantities.
 
     Parameters
     ----------
     products : mapping of str to Product
         All quantities.
     known : mapping of str to array
-        Those given; they are returned as they are.
+        The given quantities; they are returned unchanged.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[s
         )
     if np.linalg.matrix_rank(exponents) < wanted:
         raise InputError(
-            f"{', '.join(names)} depend on each other and leave the rest open",
+            f"{', '.join(names)} depend on each other and do not determine the rest",
             f"replace one of them by another of {', '.join(products)}",
         )
     inverse = np.asarray(np.linalg.inv(exponents), dtype=np.float64)
@@ -99,7 +99,7 @@ def solve(products: Mapping[str, Product], known: Mapping[str, Array]) -> dict[s
 
 def _product(product: Product, inverse: Array, ratios: list[Array]) -> Array:
     powers = np.asarray(product.exponents) @ inverse
-    # A factor that does not matter must not: 0**1e-17 is 0, not 1.
+    # An exponent that is only rounding must be dropped: 0**1e-17 is 0, not 1.
     powers[np.abs(powers) < ROUNDING] = 0.0
     value: Array = product.factor * np.prod(np.broadcast_arrays(*map(np.power, ratios, powers)), axis=0)
     return value

@@ -20,8 +20,8 @@ STEP = 1 / 16
 def double_exponential() -> tuple[Array, Array]:
     """Return nodes and weights of the double exponential rule on (0, 1).
 
-    The nodes crowd at both ends, those near 0 with full relative precision, so that square roots and powers there cost
-    no accuracy (Takahasi & Mori, Publ. RIMS 9, 721 (1974)).
+    The nodes are dense at both ends, those near 0 with full relative precision: square roots and powers there cost no
+    accuracy (Takahasi & Mori, Publ. RIMS 9, 721 (1974)).
 
     Returns
     -------
@@ -44,13 +44,13 @@ def gauss(order: int) -> tuple[Array, Array]:
 
 
 def graded(first: float, last: float, ratio: float) -> Array:
-    """Return the edges 0, `first`, ..., `last` of panels that grow by `ratio` or a little less."""
+    """Return the edges 0, `first`, ..., `last` of panels that grow by at most `ratio`."""
     steps = max(1, math.ceil(math.log(last / first) / math.log(ratio)))
     return np.concatenate([[0.0], np.geomspace(first, last, steps + 1)])
 
 
 def running(nodes: Array) -> Array:
-    """Return the matrix that integrates what is known at the nodes on 0 to 1 from 0 to each of them."""
+    """Return the matrix that integrates a function, given at the nodes on 0 to 1, from 0 to each node."""
     t, n = 2 * nodes - 1, nodes.size
     integrals = legvander(t, n) @ legint(np.eye(n), lbnd=-1) / 2
     return np.asarray(integrals @ np.linalg.inv(legvander(t, n - 1)))

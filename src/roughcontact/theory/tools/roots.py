@@ -1,4 +1,4 @@
-"""Where functions of arrays take given values: bisection of monotone ones, Newton's method on concave ones."""
+"""Roots of functions of arrays: bisection for monotone functions, Newton's method for concave ones."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["bisect", "concave_root", "last_below"]
 
-DOUBLINGS = 1000  # as many as a double's range has
-HALVINGS = 64  # of a bracket: more than the digits of a double
+DOUBLINGS = 1000  # the range of a double
+HALVINGS = 64  # of a bracket: more than the bits of a double
 STEPS = 100
-CLOSE = 1e-8  # in scales; Newton doubles the digits: after a step of this size nothing but rounding is left
+CLOSE = 1e-8  # in scales; Newton's method doubles the digits: after a step of this size only rounding is left
 
 
 def bisect(beyond: Callable[[Array], Mask], low: Array, high: Array) -> Array:
-    """Return the place between `low` and `high` from which on `beyond` is true, to the last digit.
+    """Return the position between `low` and `high` from which on `beyond` is true, to the last digit.
 
-    Of a root far below the width of its bracket the error is ``2**-64`` of that width.
+    If a root is far below the width of its bracket, the error is ``2**-64`` of that width.
 
     Parameters
     ----------
     beyond : callable
-        Whether each of an array of places lies past the root: false up to it, true from there on.
+        Whether each position of an array lies beyond the root: false up to it, true from there on.
     low, high : float or array
         Ends of the brackets, broadcast against each other.
 
     Returns
     -------
     float or array
-        Of the shape of the brackets.
+        Roots, in the shape of the brackets.
     """
     low, high = (np.array(end, dtype=np.float64) for end in np.broadcast_arrays(low, high))
     for _ in range(HALVINGS):
@@ -69,14 +69,14 @@ def last_below(value: Callable[[Array], Array], target: Array, low: float, high:
                 break
             width[inside] *= 2
     at_the_end = value(low + width) <= target
-    # Halving first and bisecting then gives roots far below the range the same relative precision.
+    # Halving the upper end before bisection gives roots far below the range the same relative precision.
     for _ in range(DOUBLINGS):
         beyond = (value(low + width / 2) > target) & (width > np.finfo(float).tiny)
         if not beyond.any():
             break
         width[beyond] /= 2
     root = bisect(lambda x: value(x) > target, low + width / 2, low + width)
-    # A target met at `low` alone: halving went to nothing.
+    # A target met only at `low`: halving underflowed.
     root[width <= np.finfo(float).tiny] = low
     root[at_the_end] = high
     return root
@@ -90,18 +90,17 @@ def concave_root(
     Parameters
     ----------
     function : callable
-        Of an array x; it returns the function's values and derivatives. Monotone and concave, as is the logarithm
-        of the load on a rough surface over the height of the flat: integrals of log-concave densities are
-        log-concave.
+        Function of an array x that returns values and derivatives. It must be monotone and concave, like the logarithm
+        of the load on a rough surface over the height of the flat: integrals of log-concave densities are log-concave.
     value, start : array
-        What is to be met, and where to start.
+        Target values, and starting points.
     scale : float
-        How far x may go without much of a change of the slope; 0 if the function is a power of x, or near one.
+        Change of x over which the slope changes little; 0 if the function is about a power of x.
 
     Raises
     ------
     RuntimeError
-        If a hundred steps do not meet a value: the function is not what it should be.
+        If a value is not reached in a hundred steps: then the function is not concave and monotone.
 
     Notes
     -----
@@ -115,4 +114,4 @@ def concave_root(
         x = x + step
         if (np.abs(step) <= CLOSE * (scale + np.abs(x))).all():
             return x
-    raise RuntimeError(f"Newton's method met no root in {STEPS} steps: a value or start may not be a number")
+    raise RuntimeError(f"Newton's method found no root in {STEPS} steps: a value or start may be NaN")

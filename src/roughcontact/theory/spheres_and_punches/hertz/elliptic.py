@@ -13,8 +13,8 @@ from roughcontact.validation import Array, finite, number, numeric, pair
 
 __all__ = ["EllipticContact", "elliptic"]
 
-# ln(Rx/Ry) over ln(a/b) rises from 3/2 (a circle) to 2 (a line), so a step with the slope between takes six
-# sevenths of the error away.
+# ln(Rx/Ry) over ln(a/b) rises from 3/2 (a circle) to 2 (a line), so a step with the mean slope removes six sevenths of
+# the error.
 SLOPE, STEPS = 7 / 4, 22
 TINY = np.finfo(np.float64).tiny
 
@@ -167,7 +167,7 @@ def elliptic(
     1.0
     """
     rx, ry = pair(radii, "radii [m]")
-    # The squares of the semi-axes over their product, which is that of the third base quantity.
+    # The squares of the semi-axes over their product, which is the square of the third base quantity.
     aa = _aspect(rx / ry)
     bb = 1 / aa
     flat: Array = np.asarray(elliprf(0.0, aa, bb), dtype=np.float64)

@@ -44,7 +44,7 @@ class LineContact:
     max_pressure : float or array
         Pressure p0 in the middle [Pa]; the mean is pi/4 of it.
     reference_length : float or None
-        Distance L from a line load at which its displacement is zero [m]; None leaves depths open.
+        Distance L from a line load at which its displacement is zero [m]; None leaves depths undefined.
 
     Examples
     --------
@@ -143,9 +143,9 @@ def line(
     depth : float or array, optional
         Indentation depth against `reference_length` [m].
     reference_length : float, optional
-        Needed for depths, stiffness and displacements [m]. At least the size of the body; a displacement far
-        away that is not zero shifts the depth by 2 F' ln(L2/L1)/(pi E*). With 2 sqrt(R1 R2)/e the depth is the approach
-        of the axes of two cylinders of one material, see `roughcontact.line`.
+        Needed for depths, stiffness and displacements [m]. At least the size of the body; another length L2 instead of
+        L1 shifts the depth by 2 F' ln(L2/L1)/(pi E*). With 2 sqrt(R1 R2)/e the depth is the approach of the axes of
+        two cylinders of one material, see `roughcontact.line`.
 
     Returns
     -------
@@ -155,7 +155,7 @@ def line(
     ------
     ValueError
         If not three are given, if they depend on each other, if one is not positive, or if the reference length
-        is below a quarter of the width: more force would then mean less depth.
+        is below a quarter of the width: then a larger force would give a smaller depth.
 
     Examples
     --------
@@ -177,16 +177,16 @@ def line(
         require(
             2 * reference_length > contact.half_width,
             f"reference_length must exceed a quarter of the contact's width, not {reference_length} m: "
-            "below, more force would mean less depth",
+            "below, a larger force would give a smaller depth",
             place="reference_length",
         )
     return contact
 
 
 def _replaced(known: dict[str, Array], depth: Array, reference_length: float | None) -> dict[str, Array]:
-    """Return what stands for the depth: its scale F'/(pi E*), or the half width."""
+    """Return the quantity that replaces the depth: its scale F'/(pi E*), or the half width."""
     if reference_length is None:
-        raise about("the depth", "of a line contact means nothing without a reference_length [m]")
+        raise about("the depth", "of a line contact is undefined without a reference_length [m]")
     if known.keys() == {"force", "max_pressure"}:
         half_width = 2 * known["force"] / (np.pi * known["max_pressure"])
     elif "half_width" in known:
@@ -203,7 +203,7 @@ def _half_width(known: dict[str, Array], depth: Array, reference_length: float) 
     n = float(np.round(np.log2(twice / once)).flat[0])
     if n == 0:
         return wide * np.exp((1 - depth / once) / 2)
-    # With w = ln(x^n) - n/2 it reads w e^w = -(n/2) (depth/scale) e^(-n/2); the branch -1 has the smaller x.
+    # With w = ln(x^n) - n/2 it becomes w e^w = -(n/2) (depth/scale) e^(-n/2); the branch -1 has the smaller x.
     argument = -n / 2 * depth / once * math.exp(-n / 2)
     require(
         argument >= -1 / math.e,

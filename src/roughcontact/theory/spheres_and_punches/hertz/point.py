@@ -148,8 +148,8 @@ def point(
 
     Notes
     -----
-    Exact for a paraboloid on a half-space of small strains, which nothing here checks: for a sphere it wants
-    ``contact_radius`` much smaller than ``radius``, and a contact radius beyond R is a number without a body.
+    Exact for a paraboloid on a half-space under small strains, which is not checked: a sphere requires
+    ``contact_radius`` much smaller than ``radius``, and a contact radius above R has no meaning.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Flat punches: the contact stiffness of a region of given shape, and pressures where they are known."""
+"""Flat punches: the contact stiffness of a region of given shape, and pressures in closed form."""
 
 from types import ModuleType as _Module
 

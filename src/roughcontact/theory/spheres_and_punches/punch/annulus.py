@@ -70,15 +70,15 @@ def _quadrature(hole: float, width: float) -> float:
     """Solve pi E* = int S(r, s) p(s) s ds for a unit depth by Nystroem's method.
 
     S = 4/(r + s) K(k), k'^2 = ((r - s)/(r + s))^2, is the displacement by a ring (thesis, eq. A.20). With
-    s = (1 + b)/2 - (1 - b)/2 cos t, p has the inverse roots at both edges that ds takes away, so p s ds is a smooth
-    even function of t times dt; and K = -(1/pi) K(k') ln(k'^2/16) + a smooth rest, where ln k'^2 is a smooth
-    function plus twice ln|cos t - cos t'|, whose integral over cosines is known (Kress, Linear Integral Equations).
+    s = (1 + b)/2 - (1 - b)/2 cos t, the inverse square roots of p at both edges cancel in ds, so p s ds is a smooth
+    even function of t times dt; and K = -(1/pi) K(k') ln(k'^2/16) + a smooth rest, where ln k'^2 is a smooth function
+    plus twice ln|cos t - cos t'|, whose integral over cosines is known (Kress, Linear Integral Equations).
     """
     n = NODES
     t = (np.arange(n) + 0.5) * np.pi / n
     s = (1 + hole) / 2 - width / 2 * np.cos(t)
     total = s[:, None] + s
-    # cos t - cos t' as a product, so that a narrow ring loses no digits.
+    # cos t - cos t' as a product, which loses no digits for a narrow ring.
     m1 = (width * np.sin((t[:, None] + t) / 2) * np.sin((t[:, None] - t) / 2) / total) ** 2
     # ln|cos t - cos t'| = -ln 2 - 2 sum_j cos(j t) cos(j t')/j, as weights of an integral over t' from 0 to pi.
     j = np.arange(1, n)

@@ -149,7 +149,7 @@ def ellipse_pressure(
     semi_axes : tuple of (float or array)
         Semi-axes a along x and b along y [m].
     x, y : float or array
-        Where, from the centre [m].
+        Position from the centre [m].
 
     Returns
     -------
@@ -200,8 +200,8 @@ def strip(modulus: ArrayLike, half_width: ArrayLike, reference_length: ArrayLike
     a, length = positive(half_width, "half_width [m]"), positive(reference_length, "reference_length [m]")
     require(
         2 * length > a,
-        "reference_length must exceed a quarter of the strip's width: nearer, the displacement by a "
-        "line load is counted as zero inside the strip itself, and the stiffness is not positive",
+        "reference_length must exceed a quarter of the strip's width: below it, the displacement by a "
+        "line load would be zero inside the strip, and the stiffness is not positive",
         place="reference_length",
     )
     value: Array = np.pi * positive(modulus, "modulus [Pa]") / (2 * np.log(2 * length / a))

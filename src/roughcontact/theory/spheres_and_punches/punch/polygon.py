@@ -14,14 +14,14 @@ __all__ = ["SQUARE", "TRIANGLE", "Computed", "shape_factor", "square", "triangle
 
 @dataclass(frozen=True, slots=True)
 class Computed:
-    """A number that was computed, not derived.
+    """A computed number, without a closed form.
 
     Attributes
     ----------
     value : float
         The number.
     uncertainty : float
-        A bound on its error, judged by refinement.
+        A bound on its error, estimated by refinement.
     how : str
         How it was computed.
 

@@ -12,7 +12,7 @@ from roughcontact.validation import Array, numeric, positive, require
 
 __all__ = ["two_discs"]
 
-DEGREE = 12  # of the polynomials: from three radii on, more of them change the stiffness by less than 1e-13
+DEGREE = 12  # of the polynomials: a higher degree changes the stiffness by less than 1e-13
 
 
 @numeric
@@ -36,14 +36,14 @@ def two_discs(modulus: ArrayLike, radius: ArrayLike, spacing: ArrayLike) -> Arra
     Raises
     ------
     ValueError
-        If the discs are nearer than three radii: polynomials of the degree used are not good enough there.
+        If the discs are closer than three radii, where the degree of the polynomials is too low.
 
     Notes
     -----
-    The pressure of each disc is 1/sqrt(1 - r^2/a^2) times a polynomial. On its own disc each of an orthogonal family of
-    them causes a displacement in proportion to itself (W. D. Collins, Proc. Roy. Soc. A 274, 1963); on the other it
-    causes a smooth one, which Gauss' quadrature projects. The relative error is below 1e-12. Far apart the depth under
-    the force F is F/(4 E* a) (1 + (2/pi) a/s).
+    The pressure of each disc is 1/sqrt(1 - r^2/a^2) times a polynomial. Each polynomial of an orthogonal family causes
+    a displacement proportional to itself on the same disc (W. D. Collins, Proc. Roy. Soc. A 274, 1963); on the other
+    disc it causes a smooth displacement, which Gauss' quadrature projects. The relative error is below 1e-12. Far
+    apart the depth under the force F is F/(4 E* a) (1 + (2/pi) a/s).
 
     Examples
     --------
@@ -62,13 +62,13 @@ def two_discs(modulus: ArrayLike, radius: ArrayLike, spacing: ArrayLike) -> Arra
 
 
 def _force(spacing: float) -> float:
-    """Return the force on both discs over that on one alone, of radius 1."""
+    """Return the force on both discs over that on a single disc of radius 1."""
     x, y, weights, basis, own = _polynomials()
-    # The pressures are even in y; of the upper half of this disc the other, mirrored, sees both its halves.
+    # The pressures are even in y: the influence of both halves of one disc on the upper half of the other, mirrored.
     across = spacing - x[:, None] - x
     green = sum(1 / np.hypot(across, y[:, None] - side * y) for side in (1, -1)) / (2 * np.pi)
     weighted = basis * weights
-    flat = weighted.sum(axis=1)  # a unit displacement, in polynomials
+    flat = weighted.sum(axis=1)  # a unit displacement in the basis of polynomials
     coefficients = np.linalg.solve(np.diag(own) + weighted @ green @ weighted.T, flat)
     return float(flat @ coefficients)
 
