@@ -16,7 +16,7 @@ from joint import ALUMINIUM, CELL, CELLS, STEEL, joint
 import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.evaluation.perimeter import OVERHANG, corrected_area, edge_count
-from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.labels.engineering_units import scale
 from roughcontact.validation import Array
 
 MODULUS = rc.reduced_modulus(STEEL, ALUMINIUM)

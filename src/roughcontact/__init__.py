@@ -3,11 +3,11 @@
 Get a surface: `read`, `Surface`, `self_affine`, `specified`, `shapes`, `examples`; `read_line` for a profile. Its
 methods prepare it, such as ``surface.levelled("plane")``. Bodies: `handbook`, `Solid`, `reduced_modulus`.
 
-Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` where surfaces
-attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` read the answer;
+Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and down; `adhesive_curve` if surfaces
+attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` evaluate the result;
 `citations` lists the papers behind it.
 
-Rooms of their own: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`.
+Subpackages: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`.
 ``help(rc.press)`` shows one name; the command ``roughcontact doctor`` checks an installation.
 """
 
@@ -18,7 +18,7 @@ import sys
 if sys.orig_argv[1:3] == ["-m", "roughcontact"] or "".join(sys.orig_argv[1:2]).removesuffix(".exe").endswith(
     ("/roughcontact", "\\roughcontact")
 ):
-    # The program: the imports below take a tenth of a second.
+    # The command line: the imports below take a tenth of a second.
     from roughcontact.quiet_start import start_quietly
 
     start_quietly()
@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.late import late_names, open_name
 from roughcontact.version import __version__
 
-# Type checkers and bundlers of programs read the block below; at run time each name is imported when first asked for.
+# Type checkers and bundlers of programs read the block below; at run time each name is imported on first access.
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
     from roughcontact import (
@@ -200,7 +200,7 @@ if TYPE_CHECKING or _LATE is None:
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]
 
 
-if not TYPE_CHECKING:  # to which it would be a module that has any name
+if not TYPE_CHECKING:  # a type checker would accept every name of a module with __getattr__
 
     def __getattr__(name: str) -> Any:
         return open_name(globals(), _LATE, name)

@@ -4,7 +4,7 @@ __all__ = ["run"]
 
 
 def run() -> None:
-    """Run the program; until it can answer Ctrl-C, that ends it at once."""
+    """Run the program; Ctrl-C ends it at once until it handles Ctrl-C itself."""
     from roughcontact.quiet_start import start_quietly
 
     start_quietly()

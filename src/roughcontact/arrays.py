@@ -1,4 +1,4 @@
-"""Arrays of any library: where they live, what computes with them, and copies on their devices."""
+"""Arrays of any library: their devices, their functions, and copies on their devices."""
 
 from __future__ import annotations
 
@@ -46,18 +46,18 @@ def is_array(value: Any) -> bool:
 
 
 def is_numpy(array: Any) -> bool:
-    """Whether an array lives on the host, where SciPy can work on it."""
+    """Whether an array is on the host, where SciPy supports it."""
     return isinstance(array, np.ndarray)
 
 
 def require_numpy(field: object, method: str) -> None:
-    """Raise a TypeError for an array of another library, whose sum by `method` would come back as one of NumPy."""
+    """Raise a TypeError for an array of another library, for which `method` would return an array of NumPy."""
     if not isinstance(field, np.ndarray):
-        raise TypeError(f"{method} is for NumPy's arrays; 'fft' is for those of {type(field)} too")
+        raise TypeError(f"{method} supports only arrays of NumPy; use 'fft' for those of {type(field)}")
 
 
 def require_no_unit(field: Any) -> None:
-    """Raise a ValueError for an array of astropy, whose unit NumPy's functions would drop."""
+    """Raise a ValueError for an array of astropy, because NumPy's functions would drop its unit."""
     if type(field) is not np.ndarray and isinstance(field, np.ndarray) and hasattr(field, "unit"):
         raise InputError(
             f"a field is read as plain SI numbers, not in {field.unit}", "give its numbers", place="field"
@@ -65,7 +65,7 @@ def require_no_unit(field: Any) -> None:
 
 
 def require_floating(field: Any) -> None:
-    """Raise a ValueError for an array of another library than NumPy, which converts itself, of whole numbers."""
+    """Raise a ValueError for whole numbers in an array of a library other than NumPy, which converts them itself."""
     if is_numpy(field) or namespace(field).isdtype(field.dtype, ("real floating", "complex floating")):
         return
     raise InputError(
@@ -74,12 +74,12 @@ def require_floating(field: Any) -> None:
 
 
 def wants_gradient(array: Any) -> bool:
-    """Whether a library would record what is done to an array, to differentiate it."""
+    """Whether a library would record operations on an array, to differentiate them."""
     return bool(getattr(array, "requires_grad", False))
 
 
 def on_host(array: Any) -> Array:
-    """Return an array in NumPy's memory, as it is if there already: for files and pictures, at the rim."""
+    """Return an array in NumPy's memory, for files and pictures; the same array if it is there already."""
     if isinstance(array, np.ndarray):
         return array
     if array_api_compat.is_cupy_array(array):
@@ -88,7 +88,7 @@ def on_host(array: Any) -> Array:
     host = "cpu" if torch else namespace(array).__array_namespace_info__().default_device()
     here = array_api_compat.to_device(array, host)
     xp = namespace(here)
-    return np.asarray(xp.astype(here, xp.float64, copy=False))  # some precisions NumPy has no name for
+    return np.asarray(xp.astype(here, xp.float64, copy=False))  # NumPy lacks some precisions
 
 
 def as_like(values: Array, array: Any) -> Any:
@@ -121,7 +121,7 @@ def divide(values: Any, unit: float, precision: str) -> Any:
 
 
 def subtract(values: Any, number: Any) -> Any:
-    """Return an array less a number, in the precision of a floating array."""
+    """Return an array minus a number, in the precision of the array if it is floating."""
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
         return np.subtract(values, number, out=buffers.empty(values.shape, values.dtype), casting="same_kind")
     return values - number
@@ -136,7 +136,7 @@ def multiply(values: Any, unit: float) -> Any:
 
 
 class DeviceTable:
-    """A table that was made on the host, and its copies on the devices of the arrays that it is multiplied with."""
+    """A table on the host, and its copies on the devices of the arrays that it is multiplied with."""
 
     __slots__ = ("_copies", "host")
 
@@ -150,8 +150,8 @@ class DeviceTable:
         Raises
         ------
         ValueError
-            If the array of another library than NumPy, which brings whole numbers up to the table's precision
-            itself, holds no floating numbers.
+            If an array of a library other than NumPy does not hold floating numbers. NumPy converts whole numbers
+            itself.
         """
         if isinstance(array, np.ndarray) and (array.dtype == self.host.dtype or array.dtype.kind in "biu"):
             return self.host

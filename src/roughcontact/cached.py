@@ -1,4 +1,4 @@
-"""A property that is computed when it is first asked for, and kept."""
+"""A property that is computed on first access, and kept."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ T = TypeVar("T", covariant=True)
 class cached_property(Generic[T]):  # noqa: N801  # used as the one of the standard library
     """A method that becomes an attribute: computed once, on first access, then kept in the instance's dictionary.
 
-    It takes no lock, as `functools.cached_property` does before Python 3.12, one for all instances of a class: there a
-    thread waits for whatever another one computes for another instance, and in a process that was forked meanwhile it
-    waits for ever. Threads that ask at once all compute it, and all get the object that was ready first.
+    It takes no lock. Before Python 3.12, `functools.cached_property` has one lock for all instances of a class: a
+    thread waits while another computes the property of another instance, and a process that is forked meanwhile
+    deadlocks. Here concurrent threads all compute the property, and all get the object that was ready first.
 
-    The class needs a ``__dict__``; it may be a frozen dataclass, but has no slots. What is kept is copied and pickled
+    The class needs a ``__dict__``; it may be a frozen dataclass, but without slots. The value is copied and pickled
     with the instance.
     """
 
@@ -38,5 +38,5 @@ class cached_property(Generic[T]):  # noqa: N801  # used as the one of the stand
     def __get__(self, instance: object, owner: type[Any] | None = None) -> Any:
         if instance is None:
             return self
-        # Not asked for again: Python looks into the dictionary first. To set a default is one step for all threads.
+        # Called only once, because Python reads the dictionary first. Setting a default is atomic for threads.
         return vars(instance).setdefault(self._name, self._function(instance))

@@ -1,4 +1,4 @@
-"""Where the cells are: frozen values that also carry the boundary condition."""
+"""Grids of cells: frozen values that also carry the boundary condition."""
 
 from __future__ import annotations
 
@@ -30,17 +30,16 @@ class Grid:
     spacing : tuple of float
         Size of a cell along each axis, ``(dy, dx)`` [m]. One number serves every axis.
     periodic : bool or tuple of bool
-        Whether the body repeats itself along each axis. This is the only place where the boundary
-        condition is stated.
+        Whether the body is periodic along each axis. This is the only place of the boundary condition.
     size : float or tuple of float
-        In place of the spacing: the width Lx of square cells, or ``(Ly, Lx)`` [m], as `read` takes it. It is the length
-        of all cells, ``n * spacing``.
+        Instead of the spacing: the width Lx of the grid with square cells, or ``(Ly, Lx)`` [m], as in `read`. It is the
+        length of all cells, ``n * spacing``.
 
     Raises
     ------
     ValueError
-        If a number of cells is not a positive whole number, or a spacing is not positive and finite; if spacing and
-        size are both given, or neither.
+        If a number of cells is not a positive whole number, or a spacing is not positive and finite; if both or neither
+        of spacing and size are given.
 
     Notes
     -----
@@ -83,12 +82,12 @@ class Grid:
         if given == "size":
             cells = (sizes[-1],) * len(sizes) if np.ndim(lengths) == 0 else sizes
             steps = tuple(length / n for length, n in zip(steps, cells, strict=True))
-        # Of a line the spacing may be the area of cells of which it is a list.
+        # The spacing of a line may be the area of listed cells.
         area = math.prod(scalar(step, "spacing [m]") for step in steps)
         if not SMALLEST**2 <= area <= LARGEST**2:
             raise about(
                 "spacing",
-                f"must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, where products keep "
+                f"must give cells between {SMALLEST**2:g} and {LARGEST**2:g} in size, for which products keep "
                 f"their digits, not {steps}",
                 "give lengths in other units",
             )
@@ -116,12 +115,12 @@ class Grid:
 
     @property
     def cell_area(self) -> float:
-        """Area of a cell [m^2]; on a line its length [m]."""
+        """Area of a cell [m^2]; its length [m] on a line."""
         return math.prod(self.spacing)
 
     @property
     def area(self) -> float:
-        """Nominal area of all cells [m^2]; on a line its length [m]."""
+        """Nominal area of all cells [m^2]; their length [m] on a line."""
         return self.size * self.cell_area
 
     @property
@@ -132,7 +131,7 @@ class Grid:
 
     @property
     def ends(self) -> tuple[tuple[int, ...], ...]:
-        """Indices of the outermost cells along each axis, beyond which nothing is known."""
+        """Indices of the outermost cells along each free axis, at the edge of the map."""
         return tuple(() if periodic else (0, -1) for periodic in self.periodic)
 
     def window(self, slices: tuple[slice, ...]) -> Grid:
@@ -158,17 +157,17 @@ class Grid:
         return self._of_cells(shape, self.spacing)
 
     def listed(self, count: int) -> Grid:
-        """Return the line whose cells are some of these, each as long as a cell is large.
+        """Return a line of listed cells, whose length is the area of a cell of this grid.
 
         Parameters
         ----------
         count : int
-            How many, at least one.
+            Number of cells, at least one.
 
         Returns
         -------
         Grid
-            Of one axis; the spacing is the area of a cell [m^2].
+            A grid of one axis; its spacing is the area of a cell [m^2].
 
         Examples
         --------
@@ -180,7 +179,7 @@ class Grid:
 
     @classmethod
     def _of_cells(cls, shape: tuple[int, ...], spacing: tuple[float, ...]) -> Grid:
-        """Return a free grid of cells that have been checked: a solve makes some."""
+        """Return a free grid from checked values, for grids that a solve makes."""
         grid = object.__new__(cls)
         for name, value in (("shape", shape), ("spacing", spacing), ("periodic", (False,) * len(shape))):
             object.__setattr__(grid, name, value)
@@ -190,17 +189,17 @@ class Grid:
 @hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class RadialGrid:
-    """Rings about an axis, of any widths.
+    """Rings of any widths about an axis.
 
     Parameters
     ----------
     edges : array, shape (n + 1,)
-        Radii of the circles that bound the n rings, increasing [m]. From 0 on, the innermost ring is a disc.
+        Radii of the circles that bound the n rings, increasing [m]. If the first is 0, the innermost ring is a disc.
 
     Raises
     ------
     ValueError
-        If the radii do not increase from zero or above.
+        If the radii are negative or do not increase.
 
     Examples
     --------
@@ -228,7 +227,7 @@ class RadialGrid:
 
     @classmethod
     def uniform(cls, rings: int, radius: float) -> RadialGrid:
-        """Return rings of one width over a disc.
+        """Return rings of equal width over a disc.
 
         Parameters
         ----------
@@ -245,7 +244,7 @@ class RadialGrid:
         Raises
         ------
         ValueError
-            If the number of rings is not a positive whole one, or the radius not positive and finite.
+            If the number of rings is not a positive whole number, or the radius is not positive and finite.
 
         Examples
         --------
@@ -263,7 +262,7 @@ class RadialGrid:
         return cls(np.linspace(0.0, moderate(scalar(radius, "radius [m]"), "radius [m]"), int(rings) + 1))
 
     def __eq__(self, other: object) -> bool:
-        """Whether both have the same circles."""
+        """Whether both grids have the same circles."""
         return isinstance(other, RadialGrid) and np.array_equal(self.edges, other.edges)
 
     def __hash__(self) -> int:
@@ -286,7 +285,7 @@ class RadialGrid:
 
     @property
     def periodic(self) -> tuple[bool, ...]:
-        """Rings do not repeat themselves."""
+        """False: rings are not periodic."""
         return (False,)
 
     @property
@@ -322,7 +321,7 @@ class RadialGrid:
 
     @property
     def ends(self) -> tuple[tuple[int, ...], ...]:
-        """Indices of the rings beyond which nothing is known: the last, and the first if there is a hole."""
+        """Indices of the rings at the edge: the last, and the first if there is a hole."""
         return ((0, -1) if self.edges[0] > 0 else (-1,),)
 
     def window(self, slices: tuple[slice, ...]) -> RadialGrid:

@@ -1,8 +1,8 @@
-"""Names that a package, or a class as its methods, imports when they are first asked for.
+"""Names of a package, and methods of a class, that are imported on first access.
 
-They stand once, in the block ``if TYPE_CHECKING or LATE is None`` of the package's ``__init__.py``. Type checkers and
-bundlers of programs read that block as it is; at run time its text tells where each name comes from. A bundle holds no
-text: there the block itself is run, and all is imported at once.
+The names of a package stand in the block ``if TYPE_CHECKING or LATE is None`` of its ``__init__.py``. Type checkers and
+bundlers of programs read that block as it is; at run time its source text gives the module of each name. A bundle
+contains no source text: there the block is run, and all names are imported at once.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ R = TypeVar("R")
 
 
 def late_names(spec: ModuleSpec) -> dict[str, str] | None:
-    """Return the modules of the names that a package imports late; None where there is no text to read.
+    """Return the modules of the names that a package imports late; None if there is no source text.
 
     Parameters
     ----------
     spec : ModuleSpec
-        Of the package: its ``__spec__``.
+        The ``__spec__`` of the package.
     """
     source = getattr(spec.loader, "get_source", lambda name: None)(spec.name)
     if source is None:
@@ -57,7 +57,7 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
         known = package["__all__"]
         hint = did_you_mean(home, name, known) or f"; it has {', '.join(known)}"
         raise AttributeError(f"module {home!r} has no attribute {name!r}{hint}", name=name)
-    with no_fork:  # a process forked in the middle of an import could never import the same
+    with no_fork:  # a process forked during an import could never import the same module
         members = vars(import_module(names[name]))
         package[name] = members[name] if name in members else import_module(f"{names[name]}.{name}")
     return package[name]
@@ -65,17 +65,17 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
 
 @dataclass(frozen=True, slots=True)
 class LateMethod:
-    """A function of another module that is a method of a class; the module is imported when the method is looked up.
+    """A function of another module as a method of a class; its module is imported when the method is looked up.
 
-    A class then has what is below or above it as its method, and imports neither. What is looked up is the function
-    itself, with its signature and docstring, bound to the object where there is one.
+    This gives a class methods from modules that import the class. The lookup returns the function itself, with its
+    signature and docstring, bound to the object if there is one.
 
     Parameters
     ----------
     module, name : str
-        Where the function is, and what it is called there.
+        The module of the function, and its name there.
     is_static : bool
-        Whether it is bound to no object.
+        Whether the function is not bound to an object.
     """
 
     module: str
@@ -98,5 +98,5 @@ class LateMethod:
 
 
 def static(method: Callable[P, R]) -> staticmethod[P, R]:
-    """Return a late method as one that is bound to no object."""
+    """Return a late method as a static method."""
     return replace(method, is_static=True)  # type: ignore[type-var, return-value]

@@ -1,4 +1,4 @@
-"""Elastic solids, and the modulus that a pair of them presents to a contact."""
+"""Elastic solids, and the reduced modulus of a pair of them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Solid:
         if self.young_modulus < math.inf:
             moderate(self.young_modulus, "young_modulus [Pa]")
         if not -1 < self.poisson_ratio <= 0.5:
-            raise about("poisson_ratio", f"must lie above -1 and at most at 0.5, not {self.poisson_ratio}")
+            raise about("poisson_ratio", f"must be above -1 and at most 0.5, not {self.poisson_ratio}")
 
     @property
     def shear_modulus(self) -> float:
@@ -74,7 +74,7 @@ def pair_of(bodies: Bodies) -> tuple[Solid, Solid | None]:
 
 
 def require_solid(body: Any) -> Solid:
-    """Return a body, which must be a Solid.
+    """Return `body` if it is a Solid.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def inverse_sum(compliances: Iterable[float]) -> float:
     Raises
     ------
     ValueError
-        If none of them yields.
+        If all bodies are rigid.
     """
     compliance = sum(compliances)
     if compliance == 0:

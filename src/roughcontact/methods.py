@@ -1,8 +1,8 @@
-"""Methods that stand in files of their own: how surfaces and answers are prepared, drawn, tabulated and written.
+"""Methods in separate files, by which surfaces and solutions are prepared, drawn, tabulated and written.
 
-A class takes them from here, ``plot = methods.plot_curve``, and imports none of their files: these import the class.
+A class takes them from here, ``plot = methods.plot_curve``, without an import of their files, which import the class.
 Type checkers, editors and bundlers of programs read the imports below. At run time each name is a `LateMethod`, which
-imports its file when the method is looked up. Imports that would close a circle stand here and nowhere else.
+imports its file when the method is looked up. Only this file has imports that would close a circle.
 """
 
 from __future__ import annotations

@@ -6,6 +6,6 @@ __all__ = ["start_quietly"]
 
 
 def start_quietly() -> None:
-    """Let Ctrl-C end the process at once, without a traceback of imports, until the program handles it."""
+    """Make Ctrl-C end the process at once, without a traceback of imports, until the program handles it."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

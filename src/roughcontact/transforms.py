@@ -1,6 +1,6 @@
-"""Fast Fourier transforms of real fields, and convolutions with even kernels by them.
+"""Fast Fourier transforms of real fields, and their convolutions with even kernels.
 
-In machine code where there is some for a field, else by the transforms of the field's own library.
+They use machine code if there is some for a field, otherwise the transforms of the field's library.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ Pair = tuple[int, int]
 # Columns of the padded spectrum that are transformed, multiplied and transformed back in one go: few enough
 # to stay in a core's cache, which halves the time of a product (benchmarks/transforms.py).
 SLAB = 32
-ROWS = 2**18  # cells of the padded rows that are transformed in one go
-LARGE = 2**19  # cells of a transform from which on several threads are worth waking
-CELLS = 2**15  # of a slab: of few rows, as on a line, more columns go at once
-FEWEST_ROWS = 8  # that machine code takes at once
+ROWS = 2**18  # cells of the padded rows that are transformed together
+LARGE = 2**19  # cells of a transform from which several threads are faster
+CELLS = 2**15  # of a slab: if there are few rows, as on a line, more columns are transformed together
+FEWEST_ROWS = 8  # that machine code transforms together
 
 
 class Convolution:
@@ -44,9 +44,9 @@ class Convolution:
     ----------
     multiplier : array, shape (My//2 + 1, Mx//2 + 1), or function
         Real transform of the kernel, rows and columns from 0 up, as `even_multiplier` returns it. A function takes
-        columns, a slice, and returns these: of a plane in slabs no process makes more.
+        columns, a slice, and returns these columns: for a plane in slabs, each process makes only its part.
     lengths : tuple of int
-        ``(My, Mx)`` of the transforms, at least those of the fields.
+        Lengths ``(My, Mx)`` of the transforms, at least those of the fields.
     """
 
     __slots__ = ("_dealt", "_multiplier", "_ready", "_table", "lengths")
@@ -56,11 +56,11 @@ class Convolution:
         self._multiplier: Array | Callable[[slice], Array] | None = multiplier
         self._table: DeviceTable | None = None
         self._ready: dict[tuple[tuple[int, ...], np.dtype[Any]], Any] = {}
-        # Of planes in slabs, None where not all processes have machine code for them.
+        # For planes in slabs; None if not all processes have machine code for them.
         self._dealt: dict[tuple[Edges, int, np.dtype[Any]], SlabConvolution | None] = {}
 
     def apply(self, field: Array) -> Array:
-        """Return the convolution of a field, padded by zeros to `lengths`, cut back to its own shape."""
+        """Return the convolution of a field, padded by zeros to `lengths`, on the cells of the field."""
         ready = self._ready.get((field.shape, field.dtype)) if is_numpy(field) else None
         if ready is None:
             if is_in_slabs(field):
@@ -76,17 +76,17 @@ class Convolution:
         return answer
 
     def _prepare(self, shape: Pair, dtype: np.dtype[Any]) -> Any:
-        """Return the machine's kernel for fields of one shape and precision."""
+        """Return the machine code for fields of one shape and precision."""
         if shape[0] > self.lengths[0] or shape[1] > self.lengths[1]:
             raise InputError(f"a field of shape {shape} is larger than transforms of {self.lengths}")
         ready = CompiledConvolution.of(self._kernel(), shape, self.lengths, dtype.name)
         self._ready[shape, dtype] = ready
         if dtype == np.float64:
-            self._multiplier = None  # planes are large: none is kept twice
+            self._multiplier = None  # planes are large: keep only one copy
         return ready
 
     def _in_slabs(self, field: Any) -> Array:
-        buffers.release()  # planes in slabs are large, and memory is short while columns go round
+        buffers.release()  # planes in slabs are large, and the exchange of columns needs memory
         kind = field.edges, field.functions.rank, field.dtype
         if kind not in self._dealt:
             self._dealt[kind] = self._deal(field)
@@ -100,7 +100,7 @@ class Convolution:
         return filtered_in_slabs(field, multiply, self.lengths)  # type: ignore[return-value]
 
     def _deal(self, field: Any) -> SlabConvolution | None:
-        """Return the machine's kernel for planes dealt out like this one; None where a process has no code for it."""
+        """Return the machine code for planes in slabs like this one; None if a process has none."""
         require_floating(field)
         periodic, tall = field.shape == self.lengths, field.shape[0] >= FEWEST_ROWS
         here = periodic and tall and fits(self.lengths) and loader.takes(field.local)
@@ -116,7 +116,7 @@ class Convolution:
         return columns
 
     def _kernel(self) -> Array:
-        """Return the multiplier, from what was made of it in double precision if that is all there is."""
+        """Return the multiplier; from its copy in double precision if only that is left."""
         multiplier = self._multiplier  # another thread may drop it meanwhile
         if callable(multiplier):
             self._multiplier = multiplier = multiplier(slice(None))
@@ -129,9 +129,9 @@ class Convolution:
 
 
 def padded_length(cells: int) -> int:
-    """Return the length of a transform of so many cells that nothing comes round: at least ``2 cells - 2``.
+    """Return the length of a transform without wrap-around for `cells` cells: at least ``2 cells - 2``.
 
-    Offsets ``cells - 1`` and ``-(cells - 1)`` may share a place, since the kernel is even.
+    Offsets ``cells - 1`` and ``-(cells - 1)`` may share a place, because the kernel is even.
     """
     if cells < FEWEST_ROWS:
         return fast_even_length(2 * cells - 2)
@@ -164,7 +164,7 @@ def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
     Returns
     -------
     array, shape (My//2 + 1, Mx//2 + 1)
-        Real, since the kernel is even; rows beyond repeat in reverse.
+        Real, because the kernel is even; further rows repeat in reverse.
     """
     import scipy.fft
 
@@ -175,12 +175,12 @@ def even_multiplier(table: Array, padded: tuple[int, int]) -> Array:
 
 
 def convolve(field: Array, multiplier: DeviceTable | Array, padded: tuple[int, int]) -> Array:
-    """Return the convolution of `field`, padded by zeros to `padded`, cut back to its own shape.
+    """Return the convolution of `field`, padded by zeros to `padded`, on the cells of the field.
 
     Parameters
     ----------
     field : array, shape (ny, nx)
-        Of any library, on any device, in double or single precision: so is the answer.
+        Of any library, on any device, in double or single precision; the result is of the same kind.
     multiplier : array or DeviceTable, shape (My//2 + 1, Mx//2 + 1)
         Real transform of an even kernel, as `even_multiplier` returns it.
     padded : tuple of int
@@ -201,20 +201,20 @@ def _multiply_even(spectrum: Any, factors: Any) -> None:
 
 
 def workers_for(lengths: tuple[int, int]) -> int:
-    """Return how many threads a transform takes."""
+    """Return the number of threads of a transform."""
     return threads() if lengths[0] * lengths[1] >= LARGE else 1
 
 
 def filtered(field: Array, multiply: Callable[[Any, slice], None], padded: tuple[int, int]) -> Array:
-    """Return `field`, padded by zeros to `padded`, with its spectrum multiplied, cut back to its own shape.
+    """Return `field`, padded by zeros to `padded`, with its spectrum multiplied, on the cells of the field.
 
     Parameters
     ----------
     field : array, shape (..., ny, nx)
-        Of any library, or several of them.
+        One field or several, of any library.
     multiply : function
-        Takes columns of the spectrum, shape ``(..., My, n)``, and which ones of ``Mx//2 + 1`` they are, and multiplies
-        them in place.
+        It takes columns of the spectrum, shape ``(..., My, n)``, and their places among the ``Mx//2 + 1`` columns, and
+        multiplies them in place.
     padded : tuple of int
         Lengths ``(My, Mx)`` of the transforms, at least those of the field.
 
@@ -244,7 +244,7 @@ def _on_host(field: Array, multiply: Callable[[Any, slice], None], padded: tuple
         spectrum = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True, workers=workers)
         whole: Array = scipy.fft.irfft(spectrum, n=mx, axis=-1, overwrite_x=True, workers=workers)
         return whole if mx == nx else np.ascontiguousarray(whole[..., :nx])
-    # Rows and columns are padded a few at a time: the padded plane is never there as a whole.
+    # Rows and columns are padded a few at a time, so that the padded plane never exists as a whole.
     kind = np.complex64 if field.dtype == np.float32 else np.complex128
     spectrum = np.empty((*field.shape[:-1], mx // 2 + 1), kind)
     answer = np.empty(field.shape, spectrum.real.dtype)

@@ -1,4 +1,4 @@
-"""The version, where every file can read it."""
+"""The version, for imports by every file."""
 
 __all__ = ["__version__"]
 

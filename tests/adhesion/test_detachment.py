@@ -323,7 +323,7 @@ def test_what_cannot_be_detached_is_refused():
     line = rc.Grid(16, 1e-6)
     profile = rc.Surface(-(line.coordinates[0] ** 2), line)
     springs = rc.press(profile, 1e9, force=1e-3, operator=rc.foundation(line, 1e9))
-    with pytest.raises(ValueError, match="springs bear forces per length"):
+    with pytest.raises(ValueError, match="springs carry forces per length"):
         rc.detachment_path(springs, 1.0)
 
 

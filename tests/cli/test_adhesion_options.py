@@ -219,8 +219,8 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
     for command in (words, path):
         marked = invoke(*command, "--range", "20nm", "--allow-unresolved")
         assert marked.exit_code == 0
-        assert "the lattice traps every state" in marked.stderr
-        assert "the lattice traps" not in invoke(*command, "--range", longer).stderr
+        assert "the grid traps every state" in marked.stderr
+        assert "the grid traps" not in invoke(*command, "--range", longer).stderr
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,7 @@ def test_by_default_it_is_that_of_the_interface_per_area(invoke, curve):
     shown = invoke(*words).stdout
     assert shown.startswith("nominal pressure [")
     assert "thermal conductivities   16 and 160 W/(m K)" in shown
-    assert "conductance of           the interface alone" in shown
+    assert "conductance of           the interface only" in shown
     whole = invoke(*words, "--of", "total").stdout
     assert whole.startswith("force [")
     assert "spreading resistance included" in whole

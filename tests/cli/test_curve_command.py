@@ -93,7 +93,7 @@ def test_a_flat_surface_needs_its_loads_named(invoke, tmp_path):
     np.savez(tmp_path / "flat.npz", heights=np.zeros((8, 8)), spacing=1e-6, unit="m")
     answer = invoke("curve", tmp_path / "flat.npz", *MODULUS, "--out", tmp_path / "out")
     assert answer.exit_code == 2
-    assert "Error: a flat surface gives forces no scale" in answer.stderr
+    assert "Error: a flat surface has no scale of forces" in answer.stderr
     assert not (tmp_path / "out").exists()
 
 
@@ -335,7 +335,7 @@ def test_a_theory_that_does_not_apply_is_left_out_and_the_curve_is_kept(invoke, 
     assert answer.exit_code == 0
     notes = [line for line in answer.stderr.splitlines() if "is left out" in line]
     assert len(notes) == 2
-    assert notes[0].startswith("Note: theory cgp is left out: cgp is about a body that sinks in as a whole")
+    assert notes[0].startswith("Note: theory cgp is left out: cgp is for a body that is indented as a whole")
     assert "Persson" in answer.stdout
     record = json.loads((folder / "curve.json").read_text(encoding="utf-8"))
     assert set(record["theories"]) == {"persson"}

@@ -10,7 +10,7 @@ import roughcontact as rc
 
 LOADS = ["--level", "none", "--modulus", "1GPa", "--forces", "1mN:10mN:6"]
 GRID = rc.Grid((128, 128), 1e-6)
-SAME = "The contact does not change from 0.001 to 0.01 N: the same 4 spots"
+SAME = "The contact does not change from 1 mN to 10 mN: the same 4 spots"
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def test_doubts_stand_in_the_first_line_and_the_mask_that_is_named_removes_them(
     first = before.stdout.splitlines()[0]
     assert first.startswith(f"doubtful             {SAME}")
     assert "'surface prepare --despike' or 'surface prepare --mask'" in first
-    [mask] = re.findall(r"200 points stand .* take them out by --mask (above=\S+um)\.", before.stderr)
+    [mask] = re.findall(r"200 points stand .* remove them by --mask (above=\S+um)\.", before.stderr)
     after = invoke("curve", streaked, "--mask", mask, *LOADS)
     assert after.exit_code == 0, after.stderr
     assert after.stdout.startswith("surface ")

@@ -389,7 +389,7 @@ def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, r
     for force in ("10mN", "0.5N"):
         words = ("press", rough, "--force", force, *MODULUS, "--errors")
         answers[force] = invoke(*words, "--out", tmp_path / force), invoke(*words, "--json")
-    sentence = "3 spots: one map cannot say how much another map of this surface would differ"
+    sentence = "3 spots, too few to estimate from one map how much another map of this surface would differ"
     (told, record), (known, numbers) = (
         (answer.stdout.partition("errors at")[2], json.loads(json_answer.stdout)["errors"])
         for answer, json_answer in answers.values()

@@ -106,9 +106,7 @@ def test_a_pressure_beyond_the_hardness_on_unloading_is_said():
     for missed, beyond in ((MISSED, True), (None, False)):
         (_, state), _ = found(unloaded, missed=missed, hardness=HARDNESS)
         assert bool(state.pressure.max() > (1 + BEYOND) * HARDNESS) is beyond
-        notes = [
-            note for note in state.notes if "beyond it: on these cells unloading is not quite elastic" in note
-        ]
+        notes = [note for note in state.notes if "of it: unloading is not quite elastic" in note]
         assert len(notes) == beyond
         if beyond:
-            assert f"is {state.pressure.max() / HARDNESS - 1:.1e} of the hardness" in notes[0]
+            assert f"exceeds the hardness by {state.pressure.max() / HARDNESS - 1:.1e} of it" in notes[0]

@@ -73,7 +73,7 @@ def test_columns_say_what_they_are_of_and_take_the_place_of_others():
         total = with_conductance(interface, copper, of="total")
         assert "electrical_resistance_per_area" in interface
         assert "electrical_resistance_per_area" not in total
-        assert interface.electrical_resistance.long_name.endswith("of the interface alone")
+        assert interface.electrical_resistance.long_name.endswith("of the interface only")
         words[periodic] = total.electrical_resistance.long_name
         same = np.array_equal(interface.electrical_resistance, total.electrical_resistance)
         assert same is periodic
@@ -85,7 +85,7 @@ def test_springs_have_no_interface():
     grid = rc.Grid(8, 1e-6)
     line = rc.Surface(np.arange(8) * 1e-9, grid)
     springs = rc.press(line, MODULUS, force=1.0, operator=rc.foundation(grid, MODULUS))
-    with pytest.raises(ValueError, match="take of='total'"):
+    with pytest.raises(ValueError, match="use of='total'"):
         rc.conductance(springs, resistivities=(1e-8, 1e-8))
     assert rc.conductance(springs, resistivities=(1e-8, 1e-8), of="total")["electrical_resistance"] > 0
 

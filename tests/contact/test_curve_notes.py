@@ -37,9 +37,9 @@ def test_loads_on_the_same_streaks_are_named_first():
     assert np.ptp(curve.contact_area) == 0
     np.testing.assert_allclose(curve.stiffness, curve.stiffness[0], rtol=1e-6)
     note = curve.notes[0]
-    assert note.startswith("The contact does not change from 0.001 to 0.01 N: the same 4 spots carry all")
+    assert note.startswith("The contact does not change from 1 mN to 10 mN: the same 4 spots carry all")
     assert "despiked() or masked()" in note
-    assert repr(curve).endswith("; The contact does not change from 0.001 to 0.01 N)")
+    assert repr(curve).endswith("; The contact does not change from 1 mN to 10 mN)")
     assert "The contact does not change" in curve._repr_html_()
     assert clean.resolved.all()
     assert clean.notes == ()
@@ -49,7 +49,7 @@ def test_the_range_of_fixed_loads_is_named_where_others_reach_further():
     """The rest of the map is touched from a force of 0.03 N on."""
     curve = rc.loading_curve(streaked(6e-7), 1e9, forces=10 * FORCES)
     assert (curve.contact_area > 1.05 * curve.contact_area[0]).tolist() == [False] * 4 + [True] * 5
-    assert curve.notes[0].startswith("The contact does not change from 0.01 to 0.0237 N: the same 4 spots")
+    assert curve.notes[0].startswith("The contact does not change from 10 mN to 23.7 mN: the same 4 spots")
 
 
 def test_bodies_whose_contact_grows_are_not_doubtful(hertz):

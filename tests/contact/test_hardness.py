@@ -193,7 +193,7 @@ def test_a_periodic_body_that_gives_way_has_no_deepest_depth():
 
 @pytest.mark.parametrize(
     ("hardness", "message"),
-    [(0.0, "positive"), (-1.0, "positive"), (np.nan, "positive"), (1e-3, "not to be carried")],
+    [(0.0, "positive"), (-1.0, "positive"), (np.nan, "positive"), (1e-3, "all measured cells can carry")],
 )
 def test_nonsense_is_refused(rough, hardness, message):
     with pytest.raises(ValueError, match=message):

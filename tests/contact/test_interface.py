@@ -108,7 +108,7 @@ class TestTable:
     def test_what_has_no_law_is_refused(self, curve):
         line = rc.self_affine(rc.Grid(64, 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
         profile = rc.loading_curve(line, 1e11, forces=[1.0, 2.0], operator=rc.line(line.grid, 1e11))
-        with pytest.raises(ValueError, match="where a map of it was pressed, not a line: press a map"):
+        with pytest.raises(ValueError, match="needs the curve of a map, not of a line: press a map"):
             rc.interface_table(profile)
         with pytest.raises(
             ValueError, match=r"needs two resolved loads, and the curve has 0: take the forces"

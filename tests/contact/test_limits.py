@@ -244,7 +244,7 @@ def test_a_resolved_contact_has_nothing_to_say():
             rc.Surface(np.eye(1, 1024, 333).reshape(32, 32), rc.Grid((32, 32), 1.0)),
             1e-9,
             "1 point stands more than 8 rms heights above the mean of nearly all, and carries 100% of the force. If "
-            "they are faults of the measurement, take them out by masked(above=0.251)",
+            "they are faults of the measurement, remove them by masked(above=0.251)",
         ),
     ],
 )
@@ -325,7 +325,7 @@ def test_words_on_lines_and_springs():
     assert any("narrower than 20 cells" in note for note in line.notes)
     curve = rc.loading_curve(surface, 1.0, forces=[0.1, 0.2], operator=rc.line(grid, 1.0))
     assert repr(curve).endswith("force 0.1 to 0.2 N m-1)")
-    with pytest.raises(ValueError, match="a finer grid, or a window of forces"):
+    with pytest.raises(ValueError, match="a finer grid, or another window of forces"):
         curve.fit()
     springs = rc.press(surface, 1.0, depth=6.0, operator=rc.foundation(grid, 1.0))
     assert springs.pressure.max() > 1.0

@@ -171,7 +171,7 @@ def test_what_flows_goes_on_until_half_of_the_map_bears(hardness):
     ends = (
         "0.9 of the full-contact stiffness",
         "half of the area in contact",
-        "0.5 of the force that the hardness bears",
+        "0.5 of the force that the hardness can carry",
     )
     assert found.reasons[1] in ends
     heavy = rc.press(surface, 1e9, force=found.highest, hardness=hardness)

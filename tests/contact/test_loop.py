@@ -12,7 +12,7 @@ import roughcontact as rc
 from roughcontact.contact.loop_dataset import unloaded
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import FLOW
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.facts import loop_facts
 
 MODULUS, HARDNESS = 2.0, 0.1

@@ -129,7 +129,9 @@ def test_below_ten_spots_a_sentence_stands_in_place_of_a_number(count):
     assert solution.spots.count == count
     found = sampling_of(solution)
     assert np.isnan(found.parts).all() == (count < SPOTS)
-    words = f"{count} spot{'s' if count > 1 else ''}: one map cannot say how much another map of this surface"
+    words = (
+        f"{count} spot{'s' if count > 1 else ''}, too few to estimate from one map how much another map of"
+    )
     assert found.source.how.startswith(words) == (count < SPOTS)
     assert (found.source.kind == "unknown") == (not found.bias_of_size) == (count < SPOTS)
 
@@ -168,7 +170,7 @@ def test_the_budget_adds_it_to_the_error_and_keeps_the_bias_apart():
     few = rc.error_budget(pressed(rough((48, 48)), 1e4))
     assert math.isnan(few["mean_gap"].error)
     assert repr(few).splitlines()[-1] == f"sampling: {few.sources[-1].how}"
-    assert "1 spot: one map cannot say" in few.sampling
+    assert "1 spot, too few to estimate" in few.sampling
     assert few.to_record()["bias_of_size"] == {}
 
 
@@ -185,7 +187,7 @@ def test_forms_depths_and_patches_have_none():
     assert not any("ampling" in note for note in patches.notes)
     # What the notes advise gives the line.
     assert any("levelled('quadratic')" in note for note in form.notes)
-    assert any(note.endswith("Prescribe the force or the pressure.") for note in at_depth.notes)
+    assert any(note.endswith("Prescribe force or pressure.") for note in at_depth.notes)
     for budget in (rc.error_budget(pressed(each)) for each in (ball.levelled("quadratic"), flat)):
         assert budget.sources[-1].name == "sampling"
 
@@ -194,7 +196,7 @@ def test_a_note_names_it_where_it_is_nearly_all_of_an_error():
     sources = (ErrorSource("grid", "bias", ""), ErrorSource("sampling", "order of magnitude", ""))
     number = QuotedNumber("mean_gap", 1.0, "m", (0.01, 0.3))
     (note,) = notes_on_sources([number], sources)
-    assert note == f"Nearly all of the error of mean gap (30 %) is that of sampling. {REMEDIES['sampling']}"
+    assert note == f"Nearly all of the error of mean gap (30 %) comes from sampling. {REMEDIES['sampling']}"
     assert str(ErrorBudget((number,), sources, ())["mean_gap"].relative_error).startswith("0.300")
 
 

@@ -86,7 +86,7 @@ def test_missing_points_and_free_edges_are_no_obstacle(wide):
     [
         ("person", {}, "no law named"),
         ("hertz", {}, "radius missing"),
-        ("cgp", {}, "a periodic surface has none"),
+        ("cgp", {}, "unlike a periodic surface"),
         ("gw", {"colour": "red"}, "no law has the input colour"),
     ],
 )

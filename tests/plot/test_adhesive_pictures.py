@@ -8,8 +8,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.adhesive_facts import adhesive_curve_facts, jump_facts
-from roughcontact.plot.drawing.engineering_units import written
 from sticking import rough, sticky
 
 RINGS = rc.RadialGrid.uniform(30, radius=6e-7)

@@ -15,8 +15,8 @@ from matplotlib.text import Text
 
 import roughcontact as rc
 from roughcontact.files.aside import WriteError
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.canvas import areal_figure, curve_figure, save, solution_figure, surface_figure
-from roughcontact.plot.drawing.engineering_units import written
 
 MODULUS = 1e11
 
@@ -111,7 +111,7 @@ def test_errors_are_bars_and_what_other_maps_would_give_is_written_below(per_are
         assert (high - low) / (high + low) == pytest.approx(known.relative_error, rel=1e-9)
     first, last = figure.get_supxlabel().split("\n")
     assert first.startswith("at 48 ")
-    assert "one map cannot say" in first
+    assert "too few to estimate" in first
     assert "sampling, in order of magnitude: interfacial stiffness" in last
     assert plain.get_supxlabel() == ""
     assert set(overlaps(figure)) <= set(overlaps(plain))

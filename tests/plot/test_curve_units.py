@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.labels.engineering_units import Scale
 from roughcontact.plot.canvas import areal_figure, curve_figure
 from roughcontact.plot.curves import areal_curve, force_curve
-from roughcontact.plot.drawing.engineering_units import Scale
 from roughcontact.theory.law import LoadingLaw
 
 MODULUS = 1e11

@@ -9,9 +9,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.labels.engineering_units import Scale
 from roughcontact.plot.canvas import curve_figure
 from roughcontact.plot.curves import areal_curve, force_curve
-from roughcontact.plot.drawing.engineering_units import Scale
 from roughcontact.plot.drawing.ticks import readable_ticks
 from roughcontact.theory.law import LoadingLaw
 

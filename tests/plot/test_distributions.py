@@ -7,8 +7,8 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughcontact as rc
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.distributions import height_distribution, pressure_distribution
-from roughcontact.plot.drawing.engineering_units import written
 
 MODULUS = 2.0
 

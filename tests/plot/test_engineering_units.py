@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from roughcontact.labels.engineering_units import Scale, pretty, scale, written
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.drawing.engineering_units import Scale, pretty, scale, written
 
 
 @pytest.mark.parametrize(

@@ -122,5 +122,5 @@ class TestFittedValues:
         assert (axes.get_xlabel(), axes.get_ylabel()) == ("long cutoff [µm]", "exponent [N/m]")
 
     def test_more_dimensions_are_refused(self, axes):
-        with pytest.raises(ValueError, match="not along 'hurst' alone: select first"):
+        with pytest.raises(ValueError, match="not only along 'hurst': select first"):
             fitted_values(self.FITS.expand_dims(points=2), ax=axes, along="hurst")

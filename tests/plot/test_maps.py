@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.drawing.marks import contact_window, faint_spots
 from roughcontact.plot.drawing.raster import part, pooled
 from roughcontact.plot.maps import contact_map, height_map, pressure_map

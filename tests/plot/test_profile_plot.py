@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughcontact as rc
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 
 MODULUS = 1e11
 

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 import roughcontact as rc
 from roughcontact.evaluation.below import below, largest_von_mises
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.stress_map import von_mises_section
 
 

@@ -246,7 +246,7 @@ def test_what_cannot_be_drawn_is_refused(averaged):
         ValueError, match="no 'stifness' differs between samples: choose from dimensionless_stiff"
     ):
         study_figure(averaged, "stifness")
-    with pytest.raises(ValueError, match="'sample' is no number that varies: choose from hurst, points"):
+    with pytest.raises(ValueError, match="'sample' is not a number that varies: choose from hurst, points"):
         study_figure(averaged, "rms", "sample")
     with pytest.raises(ValueError, match="'pulled' lies along pull: choose one along the loads, or none"):
         study_figure(averaged, "pulled")

@@ -179,7 +179,7 @@ def test_a_curve_draws_the_quantity_that_is_named(curve, quantity):
 def test_a_curve_refuses_other_quantities_and_laws_of_them(curve):
     with pytest.raises(ValueError, match=r"one of stiffness, .*, mean_gap, not 'spots'"):
         curve.plot(quantity="spots")
-    with pytest.raises(ValueError, match="law is about the stiffness: leave it out with 'depth'"):
+    with pytest.raises(ValueError, match="law applies only to the stiffness: leave it out with 'depth'"):
         curve.plot(quantity="depth", law=fitted(curve))
     with pytest.raises(ValueError, match=r"quantity must be one of inter.*, not 'stiffness'"):
         rc.plot.areal_curve(curve, quantity="stiffness")

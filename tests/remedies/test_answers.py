@@ -246,7 +246,7 @@ FRICTION = [
 ANSWERS = [
     row(
         lambda: curve(forces=HIGH).fit(),
-        "take the forces that load_range finds for the surface, a finer grid, or a window of forces of your own",
+        "take the forces that load_range finds for the surface, a finer grid, or another window of forces",
         lambda: curve(forces=rc.load_range(FINE, MODULUS).forces).fit(),
         lambda: curve(forces=HIGH).fit((1.0, 10.0)),
     ),
@@ -262,7 +262,7 @@ ANSWERS = [
     ),
     row(
         lambda: curve(forces=RISING).compare("GW"),
-        "not 'GW': give rc.loading_laws(surface, modulus, 'GW')[0], or a LoadingLaw of your own",
+        "not 'GW': give rc.loading_laws(surface, modulus, 'GW')[0], or your own LoadingLaw",
         lambda: curve(forces=RISING).compare(rc.loading_laws(FINE, MODULUS, "GW")[0]),
         lambda: curve(forces=RISING).compare(
             LoadingLaw("own", "notes", {"depth": lambda force: force / 1e5})
@@ -295,17 +295,17 @@ ANSWERS = [
     ),
     row(
         lambda: rc.conductance(ROUGH, resistivities=(1e-8, 1e-8)),
-        "a Curve or a Solution conducts, not Surface: press the surface first",
+        "conductance takes a Curve, a Solution or a Dataset, not Surface: press the surface first",
         lambda: rc.conductance(rc.press(ROUGH, MODULUS, force=1e-4), resistivities=(1e-8, 1e-8)),
     ),
     row(
         lambda: rc.conductance(line(), resistivities=(1e-8, 1e-8)),
-        "how far away the bodies end; press a map of heights",
+        "depends on the size of the bodies: press a map of heights",
         lambda: rc.conductance(rc.press(ROUGH, MODULUS, force=1e-4), resistivities=(1e-8, 1e-8)),
     ),
     row(
         lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8)),
-        "a Winkler foundation has a total conductance only: take of='total'",
+        "a Winkler foundation has only a total conductance: use of='total'",
         lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8), of="total"),
     ),
     row(
@@ -315,7 +315,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.interface_table(curve(PROFILE, forces=[1.0, 2.0], operator=rc.line(LINE, MODULUS))),
-        "not a line: press a map of heights",
+        "not of a line: press a map of heights",
         lambda: rc.interface_table(curve(FINE)),
     ),
     row(
@@ -363,7 +363,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.citations(1e-4),
-        "there are no references for 'float', which is not of this package: give an answer",
+        "there are no references for 'float', which is not of this package: give a result",
         lambda: rc.citations(pressed()),
     ),
     row(

@@ -187,7 +187,7 @@ LOADS = [
     ),
     row(
         press("1N", hardness="1kPa"),
-        "gives 1.024e-06",
+        "exceeds 1.024e-06",
         press("1.02uN", hardness="1kPa"),
         press("1N", hardness="10GPa"),
     ),

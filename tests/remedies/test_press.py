@@ -69,7 +69,7 @@ LOADS = [
     ),
     row(
         lambda: press(hardness=1e3),
-        "is not to be carried: the hardness on all measured cells gives 2.56e-07; press by less, or give a greater",
+        "the most that all measured cells can carry at this hardness: press by less, or give a greater",
         lambda: press(hardness=1e3, force=2e-7),
         lambda: press(hardness=1e9),
     ),
@@ -133,7 +133,7 @@ BODIES = [
     row(lambda: rc.Solid(0, 0.3), "young_modulus must be positive [Pa], not 0", lambda: rc.Solid(1e9, 0.3)),
     row(
         lambda: rc.Solid(1e9, 0.7),
-        "must lie above -1 and at most at 0.5, not 0.7",
+        "must be above -1 and at most 0.5, not 0.7",
         lambda: rc.Solid(1e9, 0.5),
     ),
     row(
@@ -282,14 +282,14 @@ CURVES = [
     ),
     row(
         lambda: curve(FLAT),
-        "a flat surface gives forces no scale: name the forces, depths or pressures",
+        "a flat surface has no scale of forces: name the forces, depths or pressures",
         lambda: curve(FLAT, forces=RISING),
         lambda: curve(FLAT, depths=[1e-9, 2e-9]),
         lambda: curve(FLAT, pressures=[1.0, 2.0]),
     ),
     row(
         lambda: curve(depths=[1e-9], hardness=1e9, flow="raised"),
-        "cannot be named where the surface rises as it flows: give forces or pressures",
+        "cannot be prescribed if the surface rises as it flows: give forces or pressures",
         lambda: curve(forces=[1e-5], hardness=1e9, flow="raised"),
         lambda: curve(pressures=[1.0], hardness=1e9, flow="raised"),
     ),
@@ -326,12 +326,12 @@ CURVES = [
     ),
     row(
         lambda: rc.loading_laws(PROFILE, MODULUS, ["gw"]),
-        "these theories are about surfaces: give a grid of two axes",
+        "these theories are for surfaces: give a surface on a grid of two axes",
         lambda: rc.loading_laws(ROUGH, MODULUS, ["gw"]),
     ),
     row(
         lambda: rc.loading_laws(PERIODIC, MODULUS, ["cgp"]),
-        "a periodic surface has none, take gw",
+        "unlike a periodic surface: use gw",
         lambda: rc.loading_laws(PERIODIC, MODULUS, ["gw"]),
     ),
 ]

@@ -66,7 +66,7 @@ $ {PRESS} --force 1mN --tolerance 1
 > {PRESS} --force 1mN --tolerance 1e-3
 
 $ {PRESS} --force 1mN --hardness 1kPa
-! gives 1.536e-06; press by less, or give a greater hardness
+! all measured cells can carry at this hardness
 > {PRESS} --force 1.5uN --hardness 1kPa
 > {FLOWS}
 """
@@ -322,7 +322,7 @@ $ {FLOWS} --flow raised --errors
 > {FLOWS} --errors
 
 $ {PRESS} --flow raised --depth 10nm --hardness 1GPa
-! where the surface rises as it flows: give forces or pressures
+! if the surface rises as it flows: give forces or pressures
 > {FLOWS} --flow raised
 > {PRESS} --pressure 1MPa --hardness 1GPa --flow raised
 """

@@ -1,1 +1,1 @@
-"""Surfaces that attract each other: the law of attraction, equilibria, their stability, jumps, and loops."""
+"""Adhesion: the law of attraction, equilibria, their stability, jumps, loops, and detachment."""

@@ -45,16 +45,16 @@ _POINTS = (
 
 @dataclass(frozen=True, slots=True)
 class AdhesivePoint:
-    """One point of an adhesive curve: ``curve[i]``, and what a loop over the curve yields.
+    """One point of an adhesive curve: ``curve[i]``, or an element of a loop over the curve.
 
     Attributes
     ----------
     branch : {"approach", "retreat"}
-        Whether what is prescribed brought the bodies together.
+        Whether the prescribed depth or force was growing or falling.
     nominal_pressure : float
         [Pa]
     depth, force, contact_area, mean_gap : float
-        [m], [N], [m^2], [m]; tension is negative. As in `AdhesiveCurve`, on a line per unit length.
+        [m], [N], [m^2], [m]; tension is negative. As in `AdhesiveCurve`, per unit length on a line.
     contact_fraction : float
         Contact area over the nominal area.
     stiffness, contact_stiffness : float
@@ -62,7 +62,7 @@ class AdhesivePoint:
     elastic_energy, adhesive_energy, energy : float
         [J]; the last is their sum.
     lowest_force : float
-        Lowest force since the body is drawn back [N].
+        Lowest force since the begin of the retreat [N].
     residual : float
         The certificate of the state.
     status : Status
@@ -103,7 +103,7 @@ class AdhesiveCurve:
     Attributes
     ----------
     depth : array, shape (n,)
-        [m], in the order of the path; minus infinity where a force has pulled the bodies off.
+        [m], in the order of the path; minus infinity once a force has pulled the bodies off.
     force : array, shape (n,)
         [N], tension negative; on a line [N/m].
     contact_area : array, shape (n,)
@@ -113,37 +113,37 @@ class AdhesiveCurve:
     residual : array, shape (n,)
         The certificate of each state.
     approach : array of bool, shape (n,)
-        Whether what is prescribed brought the bodies together: the depth or the force was growing. The first point
-        is of an approach; of equal loads the later goes the way of the earlier.
+        Whether the prescribed depth or force was growing. The first point belongs to an approach; the later of two
+        equal loads has the direction of the earlier.
     jumps : tuple of Jump
         Every instability, in order.
     jumped : tuple of int
-        The point, counted from 0, that each jump came on the way to.
+        For each jump the point, counted from 0, that follows it.
     unresolved : bool
-        Whether the attraction varies from cell to cell, so that the lattice traps the states.
+        Whether the attraction varies from cell to cell, so that the grid traps the states.
     stiffness, contact_stiffness : array, shape (n,)
         Slope of the force with the depth along the branch, and at fixed contact and attraction [N/m].
     mean_gap, elastic_energy : array, shape (n,)
         [m], over the measured cells; [J].
     lowest_force : array, shape (n,)
-        Lowest force since the body is drawn back [N], between the points and in jumps; after an approach, that of the
-        point. See `AdhesiveState`.
+        Lowest force since the begin of the retreat [N], including values between the points and in jumps; on an
+        approach, the force of the point. See `AdhesiveState`.
     status : tuple of Status
     control : {"depth", "force"}
-        What was prescribed.
+        The prescribed quantity.
     adhesion : Adhesion
     modulus : float
         Reduced modulus E* [Pa].
     tolerance : float
-        Of each state.
+        Tolerance of each state.
     lengths, spacing, periodic : tuple
-        Sides of the grid and of a cell [m], y first; whether the surface repeats itself.
+        Sides of the grid and of a cell [m], y first; whether the surface is periodic along each axis.
     nominal_area, rms : float
         Area of all cells [m^2], and root mean square height of the surface [m].
     summit_radius : float
         Radius of the body at its highest summit [m], see `AdhesiveState`.
     geometry : Geometry
-        What the cells are.
+        Geometry of the cells.
 
     Examples
     --------
@@ -188,7 +188,7 @@ class AdhesiveCurve:
         return len(self.force)
 
     def __getitem__(self, place: int) -> AdhesivePoint:
-        """Return one point as a record, counted from 0, from the end if negative."""
+        """Return one point as a record; negative places count from the end."""
         return tuple(self)[index(place)]
 
     def __iter__(self) -> Iterator[AdhesivePoint]:
@@ -197,21 +197,21 @@ class AdhesiveCurve:
 
     @property
     def branch(self) -> npt.NDArray[np.str_]:
-        """Of each point ``"approach"`` or ``"retreat"``."""
+        """``"approach"`` or ``"retreat"`` for each point."""
         return np.where(self.approach, "approach", "retreat")
 
     @property
     def pull_off_force(self) -> float:
-        """Largest tension of the retreat [N], positive; 0 where nothing pulls back.
+        """Largest tension of the retreat [N], positive; 0 if there is no tension.
 
-        It is the extremum of the force along the path, whatever the points: under given depths it is found to 1e-6 of
-        itself, under given forces to the bracket of the jump that pulls the body off.
+        It is the extremum of the force along the path and does not depend on the points. Its relative precision is 1e-6
+        under prescribed depths; under prescribed forces it is that of the jump that pulls the body off.
         """
         return float(max(0.0, *-self.lowest_force[~self.approach], 0.0))
 
     @property
     def jump_in_force(self) -> float:
-        """Tension from which the body first jumped on the approach [N]; negative if it was pressed, NaN if none."""
+        """Tension at the first jump of the approach [N]; negative if the body was pressed, NaN without a jump."""
         return next((-jump.force_before for jump in self.jumps if jump.approach), math.nan)
 
     @property
@@ -246,7 +246,7 @@ class AdhesiveCurve:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        """Limits of these numbers, in sentences; notes on wrong numbers come first."""
         return in_order(self._notes())
 
     def _notes(self) -> Iterator[Note]:
@@ -270,12 +270,12 @@ class AdhesiveCurve:
         if self.ambiguous:
             yield Note(
                 Rank.DOUBTFUL,
-                "A jump is ambiguous: two integrations of the flow after it ended in different states, of which one is "
-                "given.",
+                "A jump is ambiguous: two integrations of the gradient flow after it ended in different states. One of "
+                "them is reported.",
             )
 
     def __repr__(self) -> str:
-        """Say what the path spans, not its numbers."""
+        """Return the range of the path, without its arrays."""
         unit = unit_of("force", self.geometry)
         return (
             f"AdhesiveCurve({len(self)} points, {len(self.jumps)} jumps, "
@@ -290,7 +290,7 @@ class AdhesiveCurve:
 
 
 CURVE_POINTS = stored_in(AdhesiveCurve, ADHESIVE_CURVE[("load",)])
-"""What a path keeps of each state; the other columns follow."""
+"""The columns that a path takes from each state; the other columns follow from them."""
 
 
 def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCurve:
@@ -336,7 +336,7 @@ def collect_states(states: Iterable[AdhesiveState], loads: Loads) -> AdhesiveCur
 
 
 def approaches(loads: Array) -> Mask:
-    """Return where loads grow: of equal ones the later goes the way of the earlier, and the first is an approach."""
+    """Return whether loads grow; the later of equal loads is like the earlier, and the first is an approach."""
     steps = np.sign(np.diff(loads, prepend=-np.inf))
     latest = np.maximum.accumulate(np.where(steps != 0, np.arange(steps.size), 0))
     return np.asarray(steps[latest] > 0)

@@ -25,7 +25,7 @@ def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
     Returns
     -------
     xarray.Dataset
-        ``branch`` says of each load whether it is of the approach or of the retreat.
+        ``branch`` is the approach or the retreat, for each load.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def adhesive_curve_dataset(loop: AdhesiveCurve) -> xarray.Dataset:
 
 
 def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
-    """Return a path as plain numbers, words and lists that JSON can hold.
+    """Return a path as plain numbers, words and lists, for JSON.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def adhesive_curve_record(loop: AdhesiveCurve) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        Numbers, texts and lists of them; values that are not finite become None.
 
     Examples
     --------

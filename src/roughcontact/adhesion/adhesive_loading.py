@@ -42,17 +42,17 @@ def adhesive_state(
     Parameters
     ----------
     surface : Surface or RadialProfile
-        Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
+        Heights [m], positive toward the flat. Its grid is free or periodic.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
     depth, force, pressure, mean_gap : float
-        Exactly one: indentation depth [m] of either sign, normal force [N] of at least 0 (on a line [N/m]), nominal
+        Exactly one: indentation depth [m] of either sign, normal force [N] of at least 0 ([N/m] on a line), nominal
         pressure [Pa] of at least 0 (force over the area of all cells), or mean gap [m] of a whole periodic surface,
-        above 0: the mean separation less the depth.
+        above 0: the mean separation minus the depth.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`; no foundation.
+        A body other than the half-space on the surface's grid, see `press`; not a foundation.
     tolerance : float
         Largest residual, see `AdhesiveState`.
 
@@ -101,35 +101,36 @@ def adhesive_path(
 ) -> Iterator[AdhesiveState]:
     """Yield the state of an adhesive contact at each load, in order, with the jumps on the way to it.
 
-    The bodies come from beyond the range of the attraction. They stay in one basin of their energy until it ends, and
-    then jump. States do not depend on the steps of the loads.
+    The bodies approach from beyond the range of the attraction. They stay in one basin of their energy until it ends,
+    and then jump. States do not depend on the steps of the loads.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
     depths, forces, pressures, mean_gaps : array, shape (n,)
-        Exactly one, up and down: depths [m], forces [N] (on a line [N/m]) or nominal pressures [Pa] of either sign, or
+        Exactly one, up and down: depths [m], forces [N] ([N/m] on a line) or nominal pressures [Pa] of either sign, or
         mean gaps [m] above 0 of a whole periodic surface, see `adhesive_state`. The first force or pressure must be at
-        least 0; one that pulls the bodies off ends the contact.
+        least 0; a force that pulls the bodies off ends the contact.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`; no foundation.
+        A body other than the half-space on the surface's grid, see `press`; not a foundation.
     tolerance : float
         Largest residual of each state, see `AdhesiveState`.
 
     Yields
     ------
     AdhesiveState
-        The `status` of a state that missed the tolerance says so.
+        Check its `status`: a state may miss the tolerance.
 
     Raises
     ------
     ValueError
-        If the input makes no sense or the cells do not resolve the attraction: at once and not at the first load.
+        If the input makes no sense or the cells do not resolve the attraction; raised by the call, before the first
+        load.
 
     Examples
     --------
@@ -160,20 +161,20 @@ def adhesive_curve(
 ) -> AdhesiveCurve:
     """Return force, contact area, energy and more of an adhesive contact at each load, and its jumps.
 
-    For an approach to a depth and the whole retreat, see `adhesive_loop`.
+    For an approach to a depth with the whole retreat, see `adhesive_loop`.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     adhesion : Adhesion
         Work, range and law of the attraction.
     depths, forces, pressures, mean_gaps : array, shape (n,)
         Exactly one, up and down, see `adhesive_path`.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`; no foundation.
+        A body other than the half-space on the surface's grid, see `press`; not a foundation.
     tolerance : float
         Largest residual of each state, see `AdhesiveState`.
 
@@ -203,7 +204,7 @@ def adhesive_curve(
 
 
 def followed(states: Iterator[AdhesiveState], loads: Loads) -> Iterator[AdhesiveState]:
-    """Yield the states under some loads, and report how many there are."""
+    """Yield the states at the loads, and report the progress."""
     return tracked(states, "Approach and retreat", "loads", len(loads.values))
 
 
@@ -221,7 +222,7 @@ def states_under(
     Raises
     ------
     ValueError
-        If the input makes no sense, at once and not at the first load.
+        If the input makes no sense; raised by the call, before the first load.
     """
     require_memory_for(surface, operator)
     value = as_modulus(modulus)

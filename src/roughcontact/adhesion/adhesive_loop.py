@@ -1,4 +1,4 @@
-"""Whole loops of approach and retreat of surfaces that stick."""
+"""Whole loops of approach and retreat of adhesive surfaces."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from roughcontact.validation import Array, numeric, require, whole
 
 __all__ = ["adhesive_loop", "loop_depths", "until_off"]
 
-BEGIN = 10.0  # ranges of the attraction, from which an approach is recorded
-MOST = 100  # as many points as on the approach, after which a retreat ends
+BEGIN = 10.0  # ranges of the attraction: gap at which the recorded approach begins
+MOST = 100  # times the points of the approach: a retreat ends after as many at the latest
 
 
 @numeric(modulus="Pa", depth="m")
@@ -35,30 +35,30 @@ def adhesive_loop(
     operator: Operator | None = None,
     tolerance: float = 1e-8,
 ) -> AdhesiveCurve:
-    """Return a whole loop: from beyond the attraction to a depth, and back until the body is off.
+    """Return a whole loop: from beyond the attraction to a depth, and back until the bodies are apart.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `adhesive_state`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     adhesion : Adhesion
         Work, range and law.
     depth : float
-        Where the body turns back [m].
+        Depth at which the retreat begins [m].
     points : int
-        Steps of the approach, from ten ranges of the attraction apart to the depth, which is a point of its own; the
-        retreat has the same steps.
+        Number of steps of the approach, from a gap of ten ranges of the attraction to the depth, which is an additional
+        point; the retreat has the same steps.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`; no foundation.
+        A body other than the half-space on the surface's grid, see `press`; not a foundation.
     tolerance : float
         Largest residual; see `AdhesiveState`.
 
     Returns
     -------
     AdhesiveCurve
-        Numbers of every state, and the jumps. States themselves are not kept, see `adhesive_path`.
+        The numbers of every state, and the jumps. Fields are not kept, see `adhesive_path`.
 
     Raises
     ------
@@ -82,14 +82,14 @@ def adhesive_loop(
 
 
 def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
-    """Return the depths of an approach and of a retreat by the same steps, further than any retreat goes [m].
+    """Return the depths of an approach and of a retreat by the same steps, farther than any retreat goes [m].
 
-    The first, where nothing attracts, is no point of the loop: from there on every jump is met.
+    The first depth is beyond the attraction, so that no jump is missed; it is not a point of the loop.
 
     Raises
     ------
     ValueError
-        If the approach has no point, or would begin beyond its end.
+        If the approach has no points, or would begin beyond its end.
     """
     count, begin = whole(int(points), "points"), -BEGIN * adhesion.range
     require(
@@ -104,7 +104,7 @@ def loop_depths(adhesion: Adhesion, depth: float, points: int) -> Array:
 
 
 def until_off(path: Iterable[AdhesiveState], points: int) -> Iterator[AdhesiveState]:
-    """Yield the states of a loop along `loop_depths` but the first, until its body is off on the retreat."""
+    """Yield the states of a loop along `loop_depths` except the first, until the retreat has separated the bodies."""
     with task("Approach and retreat", unit="states") as loop:
         for k, state in enumerate(islice(path, 1, None)):
             if loop is not None:

@@ -1,4 +1,4 @@
-"""A state of a contact that sticks, with its certificate, energies, stiffness and stability."""
+"""A state of an adhesive contact, with its certificate, energies, stiffness and stability."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["AdhesiveProblem", "AdhesiveState", "state_of"]
 
-WEAK = 1e-6  # of the largest traction: a reaction of the wall below it may be none
+WEAK = 1e-6  # of the largest traction: a smaller reaction of the wall may be rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AdhesiveProblem:
-    """An adhesive contact whose states are looked for: what the states of one path share.
+    """The problem of an adhesive contact, shared by the states of one path.
 
     Attributes
     ----------
@@ -44,15 +44,15 @@ class AdhesiveProblem:
     separation : array, shape of the grid
         Undeformed gap at first touch [m]; infinite where nothing was measured.
     adhesion : Adhesion
-        What holds the bodies together.
+        The attraction between the bodies.
     modulus : float
         Reduced modulus E* [Pa].
     surface : Surface or RadialProfile, optional
-        Where the separation comes from.
+        The surface that the separation comes from.
     form : ElasticForm
         Its elastic form.
     control : DepthControl or ForceControl
-        What is prescribed.
+        The prescribed quantity, as an energy.
     tolerance : float
         Largest residual.
     resolved : bool
@@ -73,7 +73,7 @@ class AdhesiveProblem:
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class AdhesiveState:
-    """An equilibrium of a contact that sticks; the rest is computed when asked for, once.
+    """An equilibrium of an adhesive contact; other quantities are computed once, on first access.
 
     Attributes
     ----------
@@ -82,24 +82,25 @@ class AdhesiveState:
     attraction : Attraction
         The law on the cells.
     depth : float
-        Approach of the bodies since first touch [m]; negative where the undeformed surfaces are apart, minus infinity
-        where a force has pulled them off, which carry none.
+        Approach of the bodies since first touch [m]; negative if the undeformed surfaces are apart, minus infinity once
+        a force has pulled the bodies off, which then carry no force.
     pressure : array, shape of the grid
-        Reaction of the wall less the attraction [Pa]: negative under tension.
+        Reaction of the wall minus the attraction [Pa]: negative under tension.
     contact : array of bool, shape of the grid
-        Cells that the wall holds.
+        Cells at the wall.
     residual : float
         Largest violation of the conditions of equilibrium as a traction, relative to the law's largest attraction or
-        the largest pressure if that is larger, on an exact product with the pressure. A gap in contact counts by the
-        pressure on its cell alone that would close it. Under a given force also the error of the force, relative to the
-        sum of all tractions without their signs.
+        the largest pressure if that is larger, from an exact product with the pressure. A gap in contact counts by the
+        pressure on only its cell that would close it. Under a prescribed force it includes the error of the force,
+        relative to the sum of the absolute tractions.
     jumps : tuple of Jump
-        Instabilities on the way from the state before.
+        Instabilities since the state before.
     products : int
         Products with the stiffness or the compliance of the body since the state before.
     lowest_force : float
-        Lowest force since the body is drawn back [N], on the way and in jumps: minus its largest tension, to 1e-6 of it
-        (under given forces to the bracket of the last jump). After an approach, the force of the state.
+        Lowest force since the begin of the retreat [N], including values between states and in jumps: minus the largest
+        tension, to 1e-6 of it (under prescribed forces, to the bracket of the last jump). After an approach, the force
+        of the state.
 
     Examples
     --------
@@ -134,7 +135,7 @@ class AdhesiveState:
 
     @property
     def unresolved(self) -> bool:
-        """Whether the attraction varies from cell to cell: the state is one of the lattice, not of the body."""
+        """Whether the attraction varies from cell to cell: the state then depends on the grid."""
         return not self.problem.resolved
 
     @cached_property
@@ -144,15 +145,16 @@ class AdhesiveState:
 
     @property
     def summit_radius(self) -> float:
-        """Radius of the body at its highest summit [m]: that of a paraboloid over the contact without load.
+        """Radius of the body at its highest summit [m]: that of a paraboloid fitted over the contact without load.
 
-        The contact is that of Johnson, Kendall and Roberts on this radius. Much smaller roughness does not count.
+        The contact is that of Johnson, Kendall and Roberts for this radius. Roughness that is much smaller has no
+        effect.
         """
         return self._summit.radius
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        """Limits of these numbers, in sentences; notes on wrong numbers come first."""
         of_status = notes_on_status([self.status], [self.residual])
         return in_order((*of_status, *notes_on_model(self._summit, self.unresolved)))
 
@@ -168,18 +170,18 @@ class AdhesiveState:
 
     @cached_property
     def reaction(self) -> Array:
-        """Pressure of the wall [Pa]: zero but in contact."""
+        """Pressure of the wall [Pa]: zero outside contact."""
         reaction = self.pressure + self.attraction.traction(np.maximum(self.gap, 0.0))
         return np.where(self.contact, reaction, 0.0)
 
     @property
     def attracted(self) -> Mask:
-        """Cells apart from the wall by no more than the range of the attraction."""
+        """Cells outside contact whose gap is at most the range of the attraction."""
         return np.asarray(~self.contact & (self.gap <= self.attraction.range))
 
     @property
     def geometry(self) -> Geometry:
-        """What the cells are: those of a surface, a line, or rings."""
+        """Geometry of the cells: those of a surface, a line, or rings."""
         return geometry_of(self.problem.operator)
 
     @property
@@ -211,12 +213,12 @@ class AdhesiveState:
 
     @property
     def force(self) -> float:
-        """Normal force [N], tension negative; on a line [N/m]."""
+        """Normal force [N], tension negative; [N/m] on a line."""
         return float(np.sum(self.pressure * self._weights))
 
     @property
     def contact_area(self) -> float:
-        """Area of the cells that the wall holds [m^2]; on a line [m]."""
+        """Area of the cells at the wall [m^2]; [m] on a line."""
         return float(np.sum(self.contact * self._weights))
 
     @property
@@ -242,7 +244,7 @@ class AdhesiveState:
 
     @cached_property
     def stiffness(self) -> float:
-        """Slope of the force with the depth along the branch [N/m], the attraction taking part."""
+        """Slope of the force with the depth along the branch [N/m], including the change of the attraction."""
         return self._slope(self._energy.attraction.curvature(self._point.gap))
 
     @cached_property
@@ -252,22 +254,22 @@ class AdhesiveState:
 
     @property
     def stability(self) -> float:
-        """Smallest eigenvalue found of the Hessian on the free cells, relative to the elastic one, as it is controlled.
+        """Smallest eigenvalue found of the Hessian on the free cells, relative to the elastic Hessian.
 
-        At given depth, or under a given force with the depth free: 1 without attraction, 0 where the branch ends. The
-        smallest eigenvalue is at most this; one that two searches from different starts missed is not excluded. Cells
-        whose reaction is as good as none count as free.
+        It holds at a prescribed depth, or under a prescribed force with the depth free. It is 1 without attraction, and
+        0 where the branch ends. The smallest eigenvalue is at most this value; two searches from different starts may
+        both miss a smaller one. Cells whose reaction is almost zero count as free.
         """
         return self._ritz[0]
 
     @property
     def stability_residual(self) -> float:
-        """Residual of the eigenvector of `stability`: some eigenvalue, not always the smallest, lies within it."""
+        """Residual of the eigenvector of `stability`: an eigenvalue, not always the smallest, lies within it."""
         return self._ritz[1]
 
     @cached_property
     def weakly_active(self) -> Mask:
-        """Cells in contact whose reaction is as good as none."""
+        """Cells in contact whose reaction is almost zero."""
         scale = self._energy.scale(self._point)
         return np.asarray(self.contact & (self.reaction <= WEAK * scale))
 
@@ -277,7 +279,7 @@ class AdhesiveState:
     _repr_html_ = methods.state_html
 
     def __repr__(self) -> str:
-        """Say what was found, not the field."""
+        """Return the main numbers, without the fields."""
         return (
             f"AdhesiveState({self.status.value}, force {self.force:.4g}, depth {self.depth:.4g} m, "
             f"{int(np.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
@@ -299,7 +301,7 @@ class AdhesiveState:
 
     @cached_property
     def _point(self) -> Point:
-        """The state on the cells of the computation; beyond the grid only that there is no wall matters."""
+        """The state on the cells of the computation; cells beyond the grid only need to have no wall."""
         gap = self.problem.form.extended(np.where(self.contact, 0.0, np.maximum(self.gap, 0.0)), np.inf)
         pressure = self.problem.form.extended(self.pressure, 0.0)
         return Point(gap, pressure, gap, pressure, 0.0)
@@ -320,7 +322,7 @@ class AdhesiveState:
 
 
 def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> AdhesiveState:
-    """Return the state at a point of a path, certified on an exact product."""
+    """Return the state at a point of a path, certified by an exact product."""
     control, point, value = problem.control, reached.point, reached.value
     energy = control.energy_at(value)
     inside = energy.form.inside
@@ -334,7 +336,7 @@ def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> Adh
     depth = control.depth(value, point)
     gap = point.gap[inside]
     contact = gap <= 0
-    # Apart from the wall the pressure is the attraction; the wall's is what the body says.
+    # Away from the wall the pressure is minus the attraction; at the wall it follows from the body.
     pressure = np.where(contact, point.pressure[inside], -law.traction(gap))
     for array in (pressure, contact):
         array.flags.writeable = False

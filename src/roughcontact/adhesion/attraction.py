@@ -21,39 +21,39 @@ if TYPE_CHECKING:
 
 __all__ = ["LAWS", "Adhesion", "Attraction", "Law", "require_areas"]
 
-REACH = 40.0  # ranges, beyond which an exponential attraction is below the rounding of its largest value
+REACH = 40.0  # ranges; at larger gaps an exponential attraction is below the rounding of its largest value
 
-# The laws by name. Whoever checks a name, offers a choice of names or computes with a law reads this table.
+# The laws by name. Checks of names, choices of names and computations all read this table.
 LAWS: dict[str, type[Attraction]] = {"exponential": ExponentialLaw, "dugdale": DugdaleLaw}
 
 if TYPE_CHECKING:
     Law = str
 else:
-    Law = Literal[tuple(LAWS)]  # the parameters of studies and commands are checked against it
+    Law = Literal[tuple(LAWS)]  # parameters of studies and commands are checked against it
 
 
 @hinted
 @dataclass(frozen=True, slots=True, eq=False)
 class Adhesion:
-    """Work of adhesion, and how the attraction falls with the gap.
+    """Work of adhesion, and the decrease of the attraction with the gap.
 
     Parameters
     ----------
     work : float or array, shape of the grid
-        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+        Work of adhesion w [J/m^2]: the work to separate a unit area.
     range : float
-        Length over which the attraction falls, or as far as which it reaches [m].
+        Length over which the attraction falls, or largest gap of the attraction [m].
     law : {"exponential", "dugdale"}
         Attraction ``(w/range) exp(-gap/range)``, or the constant w/range up to the gap `range`, with a hard wall at the
-        gap zero. For a range that no grid resolves see `detachment_path`.
+        gap zero. For a range that no grid resolves, see `detachment_path`.
     allow_unresolved : bool
         Whether to compute although the attraction varies from cell to cell beside a contact (`process_zone` below 1.5
-        cells), which is refused otherwise: every state is then one of the lattice, and is marked so.
+        cells), which raises an error otherwise. Every state then depends on the grid, and is marked as unresolved.
 
     Raises
     ------
     ValueError
-        If a number is not positive, or there is no such law.
+        If a number is not positive, or the law is unknown.
 
     Examples
     --------
@@ -77,12 +77,12 @@ class Adhesion:
             raise about("the work", "of adhesion is zero everywhere", "leave the adhesion out")
         object.__setattr__(self, "work", float(work) if np.ndim(work) == 0 else np.array(work))
         object.__setattr__(self, "range", positive_scalar(self.range, "range of the attraction [m]"))
-        if self.law not in tuple(LAWS):  # it may be anything, what has no hash too
+        if self.law not in tuple(LAWS):  # the value may be of any type, even without a hash
             names = ", ".join(map(repr, LAWS))
             raise about("the law", f"of adhesion must be one of {names}, not {shown(self.law)}")
 
     def __eq__(self, other: object) -> bool:
-        """Whether both state the same attraction, on every cell."""
+        """Whether both have the same attraction on every cell."""
         return isinstance(other, Adhesion) and self._parts() == other._parts()
 
     def __hash__(self) -> int:
@@ -99,7 +99,7 @@ class Adhesion:
 
     @numeric(modulus="Pa")
     def process_zone(self, modulus: float) -> float:
-        """Return Irwin's length ``E* w/(pi s^2)`` [m], on which the attraction varies beside a contact.
+        """Return Irwin's length ``E* w/(pi s^2)`` [m], over which the attraction varies beside a contact.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class Adhesion:
         Returns
         -------
         float
-            Large: Johnson, Kendall and Roberts; small: Derjaguin, Muller and Toporov.
+            Large values: Johnson, Kendall and Roberts; small values: Derjaguin, Muller and Toporov.
 
         Examples
         --------
@@ -170,7 +170,7 @@ class Attraction(Protocol):
 
     @property
     def start_gap(self) -> float:
-        """Gap [m] from which bodies under a given force draw near."""
+        """Gap [m] at which the approach under a prescribed force starts."""
 
     def on(self, cells: tuple[slice, ...]) -> Attraction:
         """Return the law on some of the cells."""
@@ -179,7 +179,7 @@ class Attraction(Protocol):
         """Return the attraction [Pa], positive, at a gap [m]."""
 
     def curvature(self, gap: Array) -> Array:
-        """Return by how much the attraction falls with the gap [Pa/m], positive."""
+        """Return the decrease of the attraction with the gap [Pa/m], positive."""
 
     def curvature_between(self, nearest: Array, farthest: Array) -> Array:
         """Return the largest curvature [Pa/m] of the gaps from `nearest` to `farthest`."""
@@ -192,15 +192,15 @@ class Attraction(Protocol):
 
 
 def require_areas(body: Operator) -> None:
-    """Refuse a foundation of springs, which has no areas.
+    """Raise an error for a foundation of springs, which has no areas.
 
     Raises
     ------
     ValueError
-        If the body is one.
+        If the body is a foundation.
     """
     if geometry_of(body) is Geometry.FOUNDATION:
         raise InputError(
-            "springs bear forces per length, and no work of adhesion per area",
+            "springs carry forces per length, so a work of adhesion per area does not apply",
             "press a half-space, a line or rings; for bodies of revolution see mdr.adhesion",
         )

@@ -1,9 +1,9 @@
-"""What is prescribed, as an energy: the depth, or the force with the depth left free.
+"""Prescribed depth, or prescribed force with the depth free, as an energy.
 
 Under a force F the displacement is counted from the flat, v = u - d on the cells of the grid, and the depth is
 eliminated: the elastic energy loses its part along a rigid shift, ``K' = K - (K 1)(K 1)^T/(1.K 1)``, and F enters as
-the traction ``F K 1/(1.K 1)``. On a periodic grid, where the mean displacement is zero whatever the pressure, K' is K
-and the traction is even.
+the traction ``F K 1/(1.K 1)``. On a periodic grid the mean displacement is always zero, so K' is K and the traction is
+uniform.
 """
 
 from __future__ import annotations
@@ -48,12 +48,12 @@ class DepthControl:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ForceControl:
-    """Prescribed forces on a body; made by `of`.
+    """Prescribed forces on a body; use `of` to make it.
 
     Parameters
     ----------
     form : ElasticForm
-        That of a body whose depth is free.
+        The form of a body whose depth is free.
     attraction : Attraction
         On the cells of the computation.
     separation : array, shape of the grid
@@ -61,7 +61,7 @@ class ForceControl:
     unit : array
         Traction of a unit force [1/m^2].
     rigid : float
-        Force per depth of the cells displaced as one [N/m]; zero where the mean displacement is zero.
+        Force per depth of the cells displaced as a whole [N/m]; zero if the mean displacement is always zero.
     """
 
     form: ElasticForm

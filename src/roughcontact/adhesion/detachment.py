@@ -1,17 +1,18 @@
-r"""Stuck contact that is drawn back: cells let go one by one, each when its tension is too large.
+r"""Detachment of stuck surfaces: cells let go one by one, each when its tension is too large.
 
-On a plane by Pohrt and Popov (Facta Universitatis, Mech. Eng. 13, 3 (2015)): a cell alone under the tension s releases
-``s^2 c/2`` per area as it relaxes, c being the mean displacement of the cell by a unit pressure on it, and lets go when
-that is w:
+On a plane the criterion is that of Pohrt and Popov (Facta Universitatis, Mech. Eng. 13, 3 (2015)): a single cell under
+the tension s releases ``s^2 c/2`` per area as it relaxes, where c is the mean displacement of the cell by a unit
+pressure on it. It lets go when this energy equals w:
 
     s_c = sqrt(2 w/c)      c = I/(pi E* a b)
     I = 2 (a^2 b arsinh(b/a) + a b^2 arsinh(a/b)) + 2/3 (a^3 + b^3 - (a^2 + b^2)^(3/2))
 
-for sides a and b; for a square c is 0.946402 a/E*. On rings and lines, where no such constant exists, c is that of the
-cell with all others held, the inverse of the diagonal of the inverse of the influence matrix of the contact:
-``s^2 c/2`` is then what is set free when the cell at the edge lets go.
+for sides a and b; for a square c is 0.946402 a/E*. Rings and lines have no such constant. There c is that of the cell
+with all others held, the inverse of the diagonal of the inverse of the influence matrix of the contact: ``s^2 c/2`` is
+then the energy released when the cell at the edge lets go.
 
-Between two events the pressure is linear in the depth, so that every event is found where it is, whatever the steps.
+Between two events the pressure is linear in the depth, so the depth of every event is exact and does not depend on
+steps.
 
 Labels E37 to E39 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
@@ -33,24 +34,24 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["Detachment", "StuckContact", "mean_compliance"]
 
-LARGEST = 6000  # cells, of which there is a matrix
+LARGEST = 6000  # cells of a matrix
 
 
 @dataclass(frozen=True, slots=True)
 class Detachment:
-    """Cells that let go at once: one whose tension was too large, and those that could not stay after it.
+    """Cells that let go together: one whose tension was too large, and the cells that could not hold after it.
 
     Attributes
     ----------
     depth, depth_after : float
-        [m]; NaN where a force pulled the body off.
+        [m]; NaN if a force pulled the body off.
     force_before, force_after : float
         [N]
     cells : int
-        How many let go.
+        Number of cells that let go.
     lost : float
-        Elastic energy that is set free less the work of adhesion [J]; infinite where a force pulled the body off. By
-        the criterion of a cell alone it may be negative: what the cells beside it hold back is not set free.
+        Released elastic energy minus the work of adhesion [J]; infinite if a force pulled the body off. With the
+        criterion of a single cell it may be negative, because the cells beside it hold back part of the energy.
 
     Examples
     --------
@@ -72,7 +73,7 @@ class Detachment:
 
 
 def mean_compliance(grid: AnyGrid, modulus: float) -> float | None:
-    """Return the mean displacement of a cell of a plane by a unit pressure on it [m/Pa]; none on rings and lines.
+    """Return the mean displacement of a cell of a plane by a unit pressure on it [m/Pa]; None on rings and lines.
 
     Parameters
     ----------
@@ -89,7 +90,7 @@ def mean_compliance(grid: AnyGrid, modulus: float) -> float | None:
 
 
 class StuckContact:
-    """Cells that are stuck, and what holds them; cells leave, and none joins.
+    """Stuck cells and their adhesion; cells can leave, and none joins.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ class StuckContact:
     separation : array, shape of the grid
         [m]
     contact : array of bool
-        The cells that are stuck.
+        The stuck cells.
     work : array
         Work of adhesion [J/m^2].
     compliance : float, optional
@@ -106,7 +107,7 @@ class StuckContact:
     Raises
     ------
     ValueError
-        If there are too many cells for their matrix.
+        If there are too many cells for a matrix.
     """
 
     def __init__(
@@ -129,7 +130,7 @@ class StuckContact:
 
     @property
     def area(self) -> float:
-        """Area of the cells that are left [m^2]."""
+        """Area of the remaining cells [m^2]."""
         return float(self.areas.sum())
 
     @property
@@ -155,13 +156,13 @@ class StuckContact:
         return pressure.reshape(self.shape), contact.reshape(self.shape)
 
     def snapshot(self) -> StuckContact:
-        """Return the contact as it is now, without the matrix by which further cells would let go."""
+        """Return the present contact, without the matrix that further events would need."""
         now = copy(self)  # no array is changed in place
         del now.inverse
         return now
 
     def drawn_back(self, here: float, target: float, by_force: bool) -> Iterator[Detachment]:
-        """Let cells go on the way from a depth (or force) down to another; yield the events, report the cells."""
+        """Let cells go from a depth (or force) down to another; yield the events, and report the cells as progress."""
         total = len(self.cells) if math.isinf(target) else None
         with task("Letting cells go", total, "cells") as letting:
             while len(self.cells):
@@ -196,15 +197,15 @@ class StuckContact:
         return np.asarray(np.sqrt(2 * self.work / compliance))
 
     def _next(self) -> tuple[int, float]:
-        """Return the cell that lets go next, and at which depth."""
-        # A cell whose pressure does not fall as the body is drawn back never lets go.
+        """Return the cell that lets go next, and the depth of this event."""
+        # A cell whose pressure does not fall on the retreat never lets go.
         depths = np.full(len(self.cells), -np.inf)
         np.divide(-self._tensions() - self.base, self.unit, out=depths, where=self.unit > 0)
         index = int(np.argmax(depths))  # E38
         return index, float(depths[index])
 
     def _let_go(self, index: int, depth: float, by_force: bool) -> float:
-        """Free a cell; return the energy that is lost."""
+        """Free a cell; return the lost energy."""
         area, tension = self.areas[index], self.base[index] + depth * self.unit[index]
         rigidity = self.rigidity[index]
         rest = rigidity - area * self.unit[index] ** 2 / self.stiffness if by_force else rigidity

@@ -1,4 +1,4 @@
-"""Force and contact of stuck surfaces that are drawn back, with the cells that let go on the way."""
+"""Force and contact of stuck surfaces on their retreat, with the cells that let go."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ _POINTS = (
 @hinted
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DetachmentCurve:
-    """Points of stuck surfaces that are drawn back, and the cells that let go; made by `detachment_curve`.
+    """Points of the retreat of stuck surfaces, and the cells that let go; made by `detachment_curve`.
 
     Attributes
     ----------
     depth : array, shape (n,)
-        [m], falling; minus infinity where a force has pulled the bodies off.
+        [m], falling; minus infinity once a force has pulled the bodies off.
     force : array, shape (n,)
         [N], tension negative; on a line [N/m].
     contact_area : array, shape (n,)
@@ -51,34 +51,34 @@ class DetachmentCurve:
     mean_gap : array, shape (n,)
         [m], over the measured cells.
     elastic_energy, adhesive_energy : array, shape (n,)
-        [J]; the latter minus the work of adhesion of the stuck cells.
+        [J]; the adhesive energy is minus the work of adhesion of the stuck cells.
     lowest_force : array, shape (n,)
-        Lowest force since the preload [N], between the points as well as at them.
+        Lowest force since the preload [N], at the points and between them.
     residual : array, shape (n,)
         The certificate of each state, see `DetachmentState`.
     status : tuple of Status
     detachments : tuple of Detachment
         Every event, in order.
     detached_at : tuple of int
-        The point, counted from 0, that each event came on the way to.
+        For each event the point, counted from 0, that follows it.
     preload_too_small : bool
         Whether the pull-off force may be larger after a larger preload, see `DetachmentState`.
     notes : tuple of str
-        What a reader of these numbers should know; what makes a number wrong comes first.
+        Limits of these numbers; notes on wrong numbers come first.
     control : {"depth", "force"}
-        What was prescribed.
+        The prescribed quantity.
     work : float or array, shape of the grid
         Work of adhesion [J/m^2].
     modulus : float
         Reduced modulus E* [Pa].
     tolerance : float
-        Of each state.
+        Tolerance of each state.
     lengths, spacing, periodic : tuple
-        Sides of the grid and of a cell [m], y first; whether the surface repeats itself.
+        Sides of the grid and of a cell [m], y first; whether the surface is periodic along each axis.
     nominal_area, rms : float
         Area of all cells [m^2], and root mean square height of the surface [m].
     geometry : Geometry
-        What the cells are.
+        Geometry of the cells.
 
     Examples
     --------
@@ -123,12 +123,12 @@ class DetachmentCurve:
 
     @property
     def pull_off_force(self) -> float:
-        """Largest tension [N], positive, between the points as well as at them; 0 where nothing pulls back."""
+        """Largest tension [N], positive, at the points and between them; 0 if there is no tension."""
         return max(0.0, -float(self.lowest_force[-1]))
 
     @property
     def lost(self) -> float:
-        """Energy lost in all detachments [J]; infinite where a force pulled the body off."""
+        """Energy lost in all detachments [J]; infinite if a force pulled the body off."""
         return math.fsum(event.lost for event in self.detachments)
 
     @property
@@ -152,7 +152,7 @@ class DetachmentCurve:
         return self.contact_area / self.nominal_area
 
     def __repr__(self) -> str:
-        """Say what the curve spans, not its numbers."""
+        """Return the range of the curve, without its arrays."""
         unit = unit_of("force", self.geometry)
         return (
             f"DetachmentCurve({len(self)} points, {len(self.detachments)} detachments, "
@@ -167,7 +167,7 @@ class DetachmentCurve:
 
 
 CURVE_POINTS = stored_in(DetachmentCurve, DETACHMENT_CURVE[("load",)])
-"""What a curve keeps of each state; the other columns follow."""
+"""The columns that a curve takes from each state; the other columns follow from them."""
 
 
 @numeric(work="J/m^2", depths="m", forces=force_unit_of, pressures="Pa")
@@ -179,17 +179,17 @@ def detachment_curve(
     forces: Sequence[float] | Array | None = None,
     pressures: Sequence[float] | Array | None = None,
 ) -> DetachmentCurve:
-    """Return force, contact and more of surfaces that stick where they were pressed, and are drawn back.
+    """Return force, contact and more of surfaces that stick where they were pressed, on their retreat.
 
     Parameters
     ----------
     solution : Solution
-        The preload: an elastic contact, pressed to more than the contact at the pull-off.
+        The preload: an elastic contact that is larger than the contact at the pull-off.
     work : float or array, shape of the grid
-        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+        Work of adhesion w [J/m^2]: the work to separate a unit area.
     depths, forces, pressures : array, shape (n,)
         At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
-        Without any, three points: the preload, the largest tension, and where the last cell has let go.
+        Without any, three points: the preload, the largest tension, and the point at which the last cell has let go.
 
     Returns
     -------
@@ -216,7 +216,7 @@ def detachment_curve(
 
 
 def collect_detachments(states: Iterable[DetachmentState], loads: Loads | None) -> DetachmentCurve:
-    """Drain a path along `loads`, of at least one state, into its points; fields are not kept."""
+    """Drain a path along `loads`, with at least one state, into its points; fields are not kept."""
     rows: list[tuple[float, ...]] = []
     events: list[Detachment] = []
     detached_at: list[int] = []

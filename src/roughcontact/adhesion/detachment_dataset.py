@@ -1,4 +1,4 @@
-"""Stuck surfaces that are drawn back as labelled data, and as plain records."""
+"""Detachment of stuck surfaces as labelled data, and as plain records."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 DETACHMENT_NAMES = {column: column.name.removeprefix("detachment_") for column in DETACHMENTS}
-"""What a `Detachment` calls the columns of detachments."""
+"""The attributes of a `Detachment`, by the columns of detachments."""
 _NAMES = {**STATE_NAMES, "lost_energy": "lost"}
 
 
@@ -57,7 +57,7 @@ def detachment_curve_dataset(curve: DetachmentCurve) -> xarray.Dataset:
 
 
 def detachment_curve_record(curve: DetachmentCurve) -> dict[str, Any]:
-    """Return a curve as plain numbers, words and lists that JSON can hold.
+    """Return a curve as plain numbers, words and lists, for JSON.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def detachment_curve_record(curve: DetachmentCurve) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        Numbers, texts and lists of them; values that are not finite become None.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def detachment_state_record(state: DetachmentState) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        Numbers, texts and lists of them; values that are not finite become None.
 
     Examples
     --------

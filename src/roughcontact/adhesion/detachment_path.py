@@ -1,4 +1,4 @@
-"""From a pressed contact and a work of adhesion to the states along falling depths or forces."""
+"""States of stuck surfaces along falling depths or forces, from a pressed contact and a work of adhesion."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["detachment_path", "force_unit_of", "states_drawn_back"]
 
 
 def force_unit_of(arguments: Mapping[str, Any]) -> str:
-    """Return the unit of forces on the body of a solution among the arguments."""
+    """Return the unit of forces for the solution among the arguments."""
     return unit_of("force", arguments["solution"].problem.geometry)
 
 
@@ -38,34 +38,34 @@ def detachment_path(
     forces: Sequence[float] | Array | None = None,
     pressures: Sequence[float] | Array | None = None,
 ) -> Iterator[DetachmentState]:
-    """Draw back surfaces that stick where they were pressed, and yield the state at each depth or force.
+    """Yield the state at each depth or force on the retreat of surfaces that stick where they were pressed.
 
-    This is the limit of Johnson, Kendall and Roberts: attraction of no range, for bodies whose Irwin length no grid
-    resolves. Cells in contact under the preload are stuck, one by one lets go when its tension is too large (Pohrt and
-    Popov 2015), and none comes back. The states do not depend on the steps. For an approach, or an attraction with a
-    range, see `Adhesion`.
+    This is the limit of Johnson, Kendall and Roberts: an attraction of zero range, for bodies whose Irwin length no
+    grid resolves. Cells in contact under the preload are stuck. They let go one by one, each when its tension is too
+    large (Pohrt and Popov 2015), and none comes back. The states do not depend on the steps. For an approach, or an
+    attraction with a range, see `Adhesion`.
 
     Parameters
     ----------
     solution : Solution
-        The preload: an elastic contact, pressed to more than the contact at the pull-off.
+        The preload: an elastic contact that is larger than the contact at the pull-off.
     work : float or array, shape of the grid
-        Work of adhesion w [J/m^2]: what it takes to part a unit area.
+        Work of adhesion w [J/m^2]: the work to separate a unit area.
     depths, forces, pressures : array, shape (n,)
         At most one: falling depths [m], forces [N] or nominal pressures [Pa], the first at most that of the solution.
-        Without any, three states: that of the preload, that under the largest tension, and that in which the last cell
-        has let go.
+        Without any, three states: the preload, the state under the largest tension, and the state in which the last
+        cell has let go.
 
     Yields
     ------
     DetachmentState
-        With the cells that let go on the way to it, and the largest tension so far.
+        With the cells that let go since the state before, and the largest tension so far.
 
     Raises
     ------
     ValueError
-        If nothing is in contact, or too many cells are, or some flow at a hardness; if the body is one of springs; or
-        if the loads do not fall, or a number makes no sense.
+        If nothing is in contact, if too many cells are, or if some flow at a hardness; if the body consists of springs;
+        or if the loads do not fall, or a number makes no sense.
 
     Examples
     --------
@@ -91,7 +91,7 @@ def states_drawn_back(
     Raises
     ------
     ValueError
-        If the input makes no sense, at once and not at the first load.
+        If the input makes no sense; raised by the call, before the first load.
     """
     preload = solution.on_host()
     problem = preload.problem
@@ -138,7 +138,7 @@ def _falling(loads: Loads, preload: Solution) -> Loads:
     """Return the loads, which must fall from that of the preload."""
     name, values = loads.kind, loads.values
     here = preload.force if name == "force" else preload.depth
-    # The force of a solution is good to its tolerance.
+    # The force of a solution is accurate to its tolerance.
     if values[0] > here + preload.problem.tolerance * abs(here) * (name == "force"):
         raise InputError(
             f"surfaces are drawn back from the {name} of the solution, {here:.6g}, and {values[0]:.6g} is above it",
@@ -217,7 +217,7 @@ def _state(
 def _residual(
     problem: ContactProblem, stuck: StuckContact, pressure: Array, depth: float, force: float | None
 ) -> float:
-    """Return how far stuck cells have a gap, others an overlap, and the force is not the one that is prescribed."""
+    """Return the residual: gaps of stuck cells, overlaps of others, and the error of a prescribed force."""
     if not len(stuck.cells):
         return 0.0
     body, held = exact_of(problem.operator), np.zeros(pressure.size, bool)

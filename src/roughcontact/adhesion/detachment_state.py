@@ -1,4 +1,4 @@
-"""A state of stuck surfaces that are drawn back: which cells still hold, and the force that they carry."""
+"""A state of stuck surfaces on their retreat: the cells that still hold, and their force."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import exact_of
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
@@ -24,15 +25,15 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["DetachmentState", "stuck_notes"]
 
-# Of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On spheres
-# this part is one where the preload was too small; where it was just large enough, some cells have let go by then.
+# Part of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On
+# spheres all cells still hold if the preload was too small; if it was just large enough, some have let go by then.
 HELD = 0.8
 
 
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class DetachmentState:
-    """Stuck surfaces at one depth or force, made by `detachment_path`; the rest is computed when asked for, once.
+    """Stuck surfaces at one depth or force, from `detachment_path`; other quantities are computed on first access.
 
     Attributes
     ----------
@@ -41,24 +42,24 @@ class DetachmentState:
     work : float or array, shape of the grid
         Work of adhesion [J/m^2].
     depth : float
-        Approach of the bodies since first touch [m]; minus infinity where a force has pulled them off.
+        Approach of the bodies since first touch [m]; minus infinity once a force has pulled them off.
     pressure : array, shape of the grid
-        Pressure of the cells that are stuck [Pa], tension negative.
+        Pressure of the stuck cells [Pa], tension negative.
     contact : array of bool, shape of the grid
-        Cells that are stuck.
+        Stuck cells.
     stiffness : float
         Slope of the force with the depth while no cell lets go [N/m].
     residual : float
-        Largest gap of a stuck cell, or overlap of another, as the pressure on the cell alone that would close it,
-        relative to the largest pressure, or to the tension under which a cell lets go if that is larger, on an exact
-        product. Under a given force also the error of the force, relative to the sum of all pressures without their
-        signs.
+        Largest gap of a stuck cell, or overlap of another, as the pressure on only this cell that would close it,
+        relative to the largest pressure, or to the tension at which a cell lets go if that is larger, from an exact
+        product. Under a prescribed force it includes the error of the force, relative to the sum of the absolute
+        pressures.
     detachments : tuple of Detachment
-        Cells that let go on the way from the state before.
+        Cells that let go since the state before.
     lowest_force : float
-        Lowest force since the preload [N], between the states as well as at them: minus the largest tension.
+        Lowest force since the preload [N], at the states and between them: minus the largest tension.
     lowest_force_area : float
-        Area that was in contact under it [m^2]; on a line [m].
+        Contact area under the lowest force [m^2]; [m] on a line.
 
     Examples
     --------
@@ -94,7 +95,7 @@ class DetachmentState:
 
     @property
     def geometry(self) -> Geometry:
-        """What the cells are: those of a surface, a line, or rings."""
+        """Geometry of the cells: those of a surface, a line, or rings."""
         return self.problem.geometry
 
     @property
@@ -106,16 +107,16 @@ class DetachmentState:
 
     @property
     def pull_off_force(self) -> float:
-        """Largest tension since the preload [N], positive; the pull-off force, once nothing is in contact."""
+        """Largest tension since the preload [N], positive; it is the pull-off force once nothing is in contact."""
         return max(0.0, -self.lowest_force)
 
     @property
     def preload_too_small(self) -> bool:
         """Whether the pull-off force may be larger after a larger preload.
 
-        So it is if Hertz's contact under the preload is smaller than the contact of Johnson, Kendall and Roberts at the
-        pull-off, see `least_preload`, or if more than four fifths of the preload's contact still held under the largest
-        tension; unless the preload held all measured cells. It is False as long as any cell is in contact.
+        It is True if Hertz's contact under the preload is smaller than the contact of Johnson, Kendall and Roberts at
+        the pull-off (see `least_preload`), or if more than four fifths of the preload's contact still held under the
+        largest tension, unless the preload held all measured cells. It is False as long as any cell is in contact.
         """
         if self.contact.any() or self.solution.contact.sum() == self.problem.measured.sum():
             return False
@@ -124,10 +125,10 @@ class DetachmentState:
 
     @property
     def least_preload(self) -> float:
-        """Smallest preload [N] under which a sphere's contact is not smaller than at its pull-off; on a line [N/m].
+        """Smallest preload [N] under which a sphere's contact is not smaller than at its pull-off; [N/m] on a line.
 
-        By Johnson, Kendall and Roberts it is as large as the pull-off force: 3/2 pi w R with the radius R of the
-        highest summit, or the largest tension so far if that is larger. On a line it is a third of the pull-off force.
+        By Johnson, Kendall and Roberts it equals the pull-off force: 3/2 pi w R with the radius R of the highest
+        summit, or the largest tension so far if that is larger. On a line it is a third of the pull-off force.
         """
         share = 1 / 3 if self._summit.line else 1.0
         single = self._summit.least_preload if math.isfinite(self._summit.radius) else 0.0
@@ -140,17 +141,17 @@ class DetachmentState:
 
     @property
     def directional(self) -> bool:
-        """Whether the criterion by which cells let go depends on the direction of the contact's edge to the rows."""
+        """Whether the criterion of detachment depends on the angle between the edge of the contact and the rows."""
         return self.contact.ndim == 2 and min(self.contact.shape) > 1
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        """Limits of these numbers, in sentences; notes on wrong numbers come first."""
         return in_order((*notes_on_status([self.status], [self.residual]), *stuck_notes(self)))
 
     @property
     def lost(self) -> float:
-        """Energy lost in the detachments since the state before [J]; infinite where a force pulled the body off."""
+        """Energy lost in the detachments since the state before [J]; infinite if a force pulled the body off."""
         return math.fsum(event.lost for event in self.detachments)
 
     @cached_property
@@ -170,12 +171,12 @@ class DetachmentState:
 
     @property
     def force(self) -> float:
-        """Normal force [N], tension negative; on a line [N/m]."""
+        """Normal force [N], tension negative; [N/m] on a line."""
         return float(np.sum(self.pressure * self.problem.operator.weights))
 
     @property
     def contact_area(self) -> float:
-        """Area of the stuck cells [m^2]; on a line [m]."""
+        """Area of the stuck cells [m^2]; [m] on a line."""
         return float(np.sum(self.contact * self.problem.operator.weights))
 
     @property
@@ -224,7 +225,7 @@ class DetachmentState:
     _repr_html_ = methods.state_html
 
     def __repr__(self) -> str:
-        """Say what was found, not the field."""
+        """Return the main numbers, without the fields."""
         return (
             f"DetachmentState({self.status.value}, force {self.force:.4g}, depth {self.depth:.4g} m, "
             f"{int(np.count_nonzero(self.contact))} cells in contact, residual {self.residual:.1e})"
@@ -245,8 +246,8 @@ def stuck_notes(state: DetachmentState) -> Iterator[Note]:
         body = "cylinder" if state._summit.line else "sphere"
         unit = unit_of("force", state.geometry)
         why = (
-            f"under {force:.3g} {unit} the contact is smaller than that of Johnson, Kendall and Roberts at the "
-            f"pull-off, for which a {body} needs {state.least_preload:.3g} {unit}"
+            f"under {written(force, unit)} the contact is smaller than that of Johnson, Kendall and Roberts at the "
+            f"pull-off, for which a {body} needs {written(state.least_preload, unit)}"
         )
     yield Note(
         Rank.DOUBTFUL,

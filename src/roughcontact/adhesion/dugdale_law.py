@@ -1,10 +1,10 @@
-"""Dugdale's law on the cells of a computation: a constant attraction that ends within a cell, not at its side.
+"""Dugdale's law on the cells of a computation: a constant attraction that may end within a cell.
 
-The gap of a cell is that of its middle; within the cell it varies. The attraction of a cell by which the edge of the
-zone passes is the part of the cell that lies within the range: it falls with the gap from s to zero over a `spread`,
-smoothly, and its integral is that of the law. As cells get smaller it becomes the law, with an error of second order.
-Its curvature being finite, equilibria, their stability and their jumps are those of a smooth law; an edge that passed
-from cell to cell would jump at each.
+The gap of a cell is that of its middle; within the cell it varies. The attraction of a cell at the edge of the zone is
+proportional to the part of the cell within the range: it falls smoothly with the gap from s to zero over a `spread`,
+and its integral is that of the law. With finer cells it converges to the law, with an error of second order. Because
+its curvature is finite, equilibria, their stability and their jumps are those of a smooth law; without the spread, the
+edge would jump from cell to cell.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
 __all__ = ["DugdaleLaw"]
 
 SHORT = 3e-3  # of the spread
-# The edge of the zone of attraction is spread over cells as it is by the slope of the undeformed gap on two of them,
-# and by that of the displacement on about four: beside the edge of a constant traction s it is 2 s/(pi E*) ln(r/x), the
-# integral of which over four cells is 12 s/E* cells for r of eighty. The energy is then smooth on the scale of the
-# cells, and no position of the edge is preferred to another.
+# The spread is the change of the gap near the edge of the zone of attraction: that of the undeformed gap over two
+# cells, and that of the displacement over about four. Beside the edge of a constant traction s the slope of the
+# displacement is 2 s/(pi E*) ln(r/x), whose integral over four cells is 12 s/E* cells for r of eighty. The energy is
+# then smooth on the scale of the cells, and no position of the edge is preferred.
 UNDEFORMED = 2.0
 DEFORMED = 12.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DugdaleLaw:
-    """Attraction w/range up to the gap `range`, where it falls as ``x - sin(2 pi x)/(2 pi)`` over the spread.
+    """Attraction w/range up to the gap `range`, around which it falls as ``x - sin(2 pi x)/(2 pi)`` over the spread.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class DugdaleLaw:
     range : float
         [m]
     spread : array
-        Gaps over which the attraction falls, half of them below the range [m]; at most twice the range.
+        Interval of gaps over which the attraction falls, half of it below the range [m]; at most twice the range.
     """
 
     work: float | Array
@@ -53,7 +53,7 @@ class DugdaleLaw:
     def on_cells(
         cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
     ) -> DugdaleLaw:
-        """Return the law on the cells of a computation, with the spread of the gaps within a few cells."""
+        """Return the law on the cells of a computation, with a spread from the change of the gap over a few cells."""
         grid = form.grid
         widths = np.diff(grid.edges) if isinstance(grid, RadialGrid) else max(grid.spacing)
         spread = UNDEFORMED * _across(grid, separation) + DEFORMED * strength / modulus * widths
@@ -72,7 +72,7 @@ class DugdaleLaw:
 
     @property
     def start_gap(self) -> float:
-        """Gap [m] from which bodies under a given force draw near."""
+        """Gap [m] at which the approach under a prescribed force starts."""
         return 0.5 * self.range
 
     def on(self, cells: tuple[slice, ...]) -> DugdaleLaw:
@@ -84,7 +84,7 @@ class DugdaleLaw:
         return np.asarray(self.work / self.range * self._part(gap))
 
     def curvature(self, gap: Array) -> Array:
-        """Return by how much the attraction falls with the gap [Pa/m], positive."""
+        """Return the decrease of the attraction with the gap [Pa/m], positive."""
         fall = 1 - np.cos(2 * np.pi * self._place(gap))
         return np.asarray(self.work / self.range / self.spread * fall)
 
@@ -103,14 +103,14 @@ class DugdaleLaw:
         begin = self.range - 0.5 * self.spread
         flat = np.maximum(0.0, np.minimum(last, begin) - first)
         long = flat + self.spread * (self._ramp(first) - self._ramp(last))
-        # The mean of a short step by Simpson's rule, good to 1e-10 of it: a difference would lose digits.
+        # The mean over a short step by Simpson's rule, accurate to 1e-10 of it; a difference would lose digits.
         middle = np.where(np.isfinite(first), 0.5 * (first + last), first)
         short = (self._part(first) + 4 * self._part(middle) + self._part(last)) / 6 * np.abs(step)
         change = np.where(np.abs(step) < SHORT * self.spread, short, long)
         return np.asarray(self.work / self.range * np.sign(step) * change)
 
     def _place(self, gap: Array) -> Array:
-        """Return where a gap lies between the end of the fall and its begin."""
+        """Return the position of a gap between the end of the fall and its begin."""
         return np.clip(0.5 + (self.range - gap) / self.spread, 0.0, 1.0)
 
     def _part(self, gap: Array) -> Array:
@@ -125,7 +125,7 @@ class DugdaleLaw:
 
 
 def _across(grid: AnyGrid, separation: Array) -> Array:
-    """Return by how much the undeformed gap varies across each cell [m]; zero beside what was not measured."""
+    """Return the variation of the undeformed gap across each cell [m]; zero beside cells that were not measured."""
     if isinstance(grid, RadialGrid):
         changes = [np.gradient(separation, grid.radii) * np.diff(grid.edges)] if grid.size > 1 else []
     else:

@@ -1,8 +1,8 @@
-"""The elastic body in terms of displacements: pressure from displacement, on cells where both are known.
+"""The elastic body in terms of displacements: pressure from displacement on the cells of a computation.
 
-On a periodic grid each wave of displacement has its pressure. On a free one the influence function, even and given as
-far as half a period, is a circulant matrix on twice the cells along each axis. Its symbol is positive, so that it can
-be inverted wave by wave; cells beyond the grid are free of traction and of any bound. To minimise over them is to take
+On a periodic grid each wave of displacement has its pressure. On a free grid the influence function, even and given up
+to half a period, is a circulant matrix on twice the cells along each axis. Its symbol is positive, so that it can be
+inverted wave by wave; cells beyond the grid are free of traction and of any bound. Minimisation over them amounts to
 the Schur complement, which on the cells of the grid is the exact inverse of the influence matrix
 (docs/concepts/method-adhesion.md, section 2).
 """
@@ -26,7 +26,7 @@ from roughcontact.validation import Array
 
 __all__ = ["ElasticForm", "elastic_form"]
 
-LARGEST_MATRIX = 6000  # cells of a body that has nothing but a matrix
+LARGEST_MATRIX = 6000  # cells of a body that has only a matrix
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,11 +42,11 @@ class ElasticForm:
     stiffness : function
         Pressure K u [Pa] from displacement [m], on `shape`.
     compliance : function
-        Displacement from pressure, symmetric and definite: the inverse of K where it has one.
+        Displacement from pressure, symmetric and definite: the inverse of K if it exists.
     weights : float or array
         Area of the cells [m^2].
     mean_free : bool
-        Whether the mean displacement is zero, whatever the pressure.
+        Whether the mean displacement is zero under any pressure.
     reference : float
         Displacement of a cell per unit pressure on itself [m/Pa].
     """
@@ -61,11 +61,11 @@ class ElasticForm:
 
     @property
     def inside(self) -> tuple[slice, ...]:
-        """Where the grid lies in the computation."""
+        """The position of the grid in the computation."""
         return tuple(slice(0, n) for n in self.grid.shape)
 
     def extended(self, field: Array, beyond: float) -> Array:
-        """Return a field on the grid as one on all cells."""
+        """Return a field on the grid extended to all cells."""
         whole = np.full(self.shape, beyond)
         whole[self.inside] = field
         return whole
@@ -83,7 +83,7 @@ def elastic_form(operator: Operator) -> ElasticForm:
     Raises
     ------
     ValueError
-        If the operator is another body, or has too many cells for its matrix.
+        If the operator is that of another body, or has too many cells for its matrix.
     """
     body = exact_of(operator)
     plane = body.plane if isinstance(body, LineOperator) else body
@@ -116,13 +116,13 @@ def _periodic(body: Operator, plane: InfluenceOperator) -> ElasticForm:
 def _free(plane: InfluenceOperator) -> ElasticForm:
     grid: Grid = plane.grid
     lengths = (max(2, padded_length(grid.shape[0])), max(2, padded_length(grid.shape[1])))
-    # One influence as far as half the period: cut off at the grid's end, its symbol would not be positive.
+    # The influence function up to half the period: if it ended at the grid, its symbol would not be positive.
     table = plane.influence.influence.table((lengths[0] // 2 + 1, lengths[1] // 2 + 1))
     symbol = even_multiplier(table, lengths)
     if not symbol.min() > 0:
         raise InputError(
-            f"the influence function on cells of {grid.spacing} m has no inverse by waves",
-            "take cells whose sides are less unlike",
+            f"the influence function on cells of {grid.spacing} m cannot be inverted by waves",
+            "use cells whose sides differ less",
         )
     forward, back = Convolution(1 / symbol, lengths), Convolution(symbol, lengths)
     return ElasticForm(
@@ -135,7 +135,7 @@ def _dense(body: Operator) -> ElasticForm:
     if grid.size > LARGEST_MATRIX:
         raise InputError(
             f"adhesion on this body needs its matrix, and {grid.size} cells are too many (at most {LARGEST_MATRIX})",
-            "take a half-space on a plane, periodic or free, or fewer cells",
+            "use a half-space on a plane, periodic or free, or fewer cells",
         )
     matrix = body.as_matrix()
     weights = np.broadcast_to(np.asarray(body.weights, float), grid.shape)
@@ -145,7 +145,7 @@ def _dense(body: Operator) -> ElasticForm:
         factor = scipy.linalg.cho_factor((symmetric + symmetric.T) / 2)
     except np.linalg.LinAlgError as error:
         raise InputError(
-            "adhesion needs a body whose influence matrix is positive definite, which this one's is not",
+            "adhesion needs a positive definite influence matrix, and that of this body is not",
             "on a free line give a longer reference_length",
         ) from error
     inverse = scipy.linalg.cho_solve(factor, np.diag(weights.ravel()))

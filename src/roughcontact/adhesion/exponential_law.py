@@ -17,7 +17,7 @@ __all__ = ["ExponentialLaw"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ExponentialLaw:
-    """Attraction ``(w/range) exp(-gap/range)``; where no wall is, the gap is infinite and it is zero.
+    """Attraction ``(w/range) exp(-gap/range)``; without a wall the gap is infinite and the attraction zero.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class ExponentialLaw:
     def on_cells(
         cls, work: Array, length: float, strength: float, form: ElasticForm, separation: Array, modulus: float
     ) -> ExponentialLaw:
-        """Return the law on the cells of a computation: it is evaluated at the gap of each cell."""
+        """Return the law on the cells of a computation, evaluated at the gap of each cell."""
         return cls(work, length)
 
     @property
@@ -49,7 +49,7 @@ class ExponentialLaw:
 
     @property
     def start_gap(self) -> float:
-        """Gap [m] from which bodies under a given force draw near."""
+        """Gap [m] at which the approach under a prescribed force starts."""
         return 10.0 * self.range
 
     def on(self, cells: tuple[slice, ...]) -> ExponentialLaw:
@@ -61,7 +61,7 @@ class ExponentialLaw:
         return np.asarray(self.work / self.range * np.exp(-gap / self.range))
 
     def curvature(self, gap: Array) -> Array:
-        """Return by how much the attraction falls with the gap [Pa/m], positive."""
+        """Return the decrease of the attraction with the gap [Pa/m], positive."""
         return np.asarray(self.work / self.range**2 * np.exp(-gap / self.range))
 
     def curvature_between(self, nearest: Array, farthest: Array) -> Array:
@@ -74,6 +74,6 @@ class ExponentialLaw:
 
     def energy_change(self, gap: Array, step: Array) -> Array:
         """Return the change of the energy per area [J/m^2] when the gap grows by `step`, without cancellation."""
-        # Of the two gaps the smaller: the other's exponential may be nothing, and its ratio to this one infinite.
+        # Use the smaller gap: the exponential of the larger may underflow, and the ratio would be infinite.
         nearer = np.exp(-np.minimum(gap, gap + step) / self.range)
         return np.asarray(self.work * nearer * np.sign(step) * -np.expm1(-np.abs(step) / self.range))

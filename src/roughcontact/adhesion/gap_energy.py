@@ -25,11 +25,11 @@ class Point:
     displacement, pressure : array
         [m] and [Pa], on all cells of the computation.
     gap : array
-        [m]; infinite where no wall is.
+        [m]; infinite without a wall.
     reaction : array
         Pressure and attraction: the gradient of the energy per area [Pa]. In equilibrium the reaction of the wall.
     mean_pressure : float
-        Multiplier of a prescribed mean displacement [Pa], part of pressure and reaction; 0 where none is prescribed.
+        Multiplier of a prescribed mean displacement [Pa], part of pressure and reaction; 0 if it is not prescribed.
     """
 
     displacement: Array
@@ -40,7 +40,7 @@ class Point:
 
     @property
     def free(self) -> Mask:
-        """Cells that the wall does not hold: apart, or pulled away from it."""
+        """Cells that are free to move: away from the wall, or pulled away from it."""
         return np.asarray((self.gap > 0) | (self.reaction <= 0))
 
 
@@ -54,9 +54,9 @@ class GapEnergy:
     attraction : Attraction
         On the cells of the computation.
     obstacle : array, shape ``form.shape``
-        Displacement at which a cell touches the wall [m]: depth less separation; minus infinity where no wall is.
+        Displacement at which a cell touches the wall [m]: depth minus separation; minus infinity without a wall.
     load : float or array
-        Traction of a prescribed force [Pa], whose energy counts; part of the pressure.
+        Traction of a prescribed force [Pa], part of the pressure; the energy includes its work.
     """
 
     form: ElasticForm
@@ -71,14 +71,14 @@ class GapEnergy:
         reaction = elastic + self.attraction.traction(gap)
         mean = 0.0
         if self.form.mean_free:
-            # The multiplier: the reaction of the free cells is to vanish. Which cells are free depends on it.
+            # The multiplier: the reaction of the free cells must vanish, and the set of free cells depends on it.
             mean = _balance(reaction, gap > 0)
             elastic = elastic + mean
             reaction += mean
         return Point(displacement, elastic, gap, reaction, mean)
 
     def feasible(self, trial: Array) -> Array:
-        """Return the nearest displacement above the obstacle, of zero mean where it has none."""
+        """Return the nearest displacement above the obstacle, of zero mean if the form requires that."""
         projected = np.maximum(trial, self.obstacle)
         if not self.form.mean_free:
             return projected
@@ -94,7 +94,7 @@ class GapEnergy:
         return projected
 
     def at_depth(self, point: Point) -> Point:
-        """Return a point of another depth moved to this one: cells stay at the wall, or keep their displacement."""
+        """Return a point of another depth moved to this depth: cells stay at the wall, or keep their displacement."""
         touching = point.gap <= 0
         moved = np.where(touching, self.obstacle, point.displacement)
         if self.form.mean_free and not touching.all():
@@ -102,7 +102,7 @@ class GapEnergy:
         return self.at(self.feasible(moved))
 
     def change(self, old: Point, new: Point) -> float:
-        """Return the change of the energy [J] from one point to another, free of cancellation."""
+        """Return the change of the energy [J] from one point to another, without cancellation."""
         step = new.displacement - old.displacement
         bounded = np.isfinite(old.gap)
         adhesive = self.attraction.energy_change(old.gap, np.where(bounded, step, 0.0))
@@ -122,19 +122,19 @@ class GapEnergy:
         return float(np.abs(violation).max())
 
     def scale(self, point: Point) -> float:
-        """Return the traction that residuals are measured by [Pa]."""
+        """Return the traction to which residuals are relative [Pa]."""
         return max(self.attraction.strength, float(np.abs(point.pressure).max()))
 
 
 def _balance(reaction: Array, apart: Mask) -> float:
-    """Return the constant whose sum with the reaction vanishes in the mean over the cells that it leaves free."""
+    """Return the constant whose sum with the reaction has zero mean over the cells that are then free."""
     touching = reaction[~apart]
     count = int(np.count_nonzero(apart))
     total = float(reaction[apart].sum())
     if count == 0:
         return -float(touching.min()) if touching.size else 0.0
     mean = -total / count
-    for _ in range(60):  # cells at the wall that would be pulled off are free, too
+    for _ in range(60):  # cells at the wall that would be pulled off are free as well
         pulled = touching[touching + mean < 0]
         new = -(total + float(pulled.sum())) / (count + pulled.size)
         if abs(new - mean) <= 1e-15 * abs(mean):

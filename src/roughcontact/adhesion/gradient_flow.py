@@ -1,14 +1,15 @@
-"""Where a body jumps to: down the gradient of the energy to an equilibrium.
+"""The end of a jump: the gradient flow of the energy down to an equilibrium.
 
 Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998)): damped Newton steps, which are
-those of a linearly implicit Euler method. The damping of a cell is a multiple of the curvature of its own attraction,
-or for all cells that of the largest; from a multiple of one on, the damped Hessian is positive definite. It softens
-as long as no step meets an indefinite Hessian or goes too far, and the flow ends in an equilibrium when the energy is
-convex between the last step and it. Where no damping of this kind makes the Hessian definite, since a body under a
-tension is held by cells of constant attraction alone, all cells are damped alike.
+those of a linearly implicit Euler method. The damping of a cell is a multiple of the curvature of its attraction, or,
+for all cells alike, of the largest curvature. From a multiple of one on, the damped Hessian is positive definite. The
+damping decreases as long as no step meets an indefinite Hessian or goes too far. The flow ends in an equilibrium if the
+energy is convex between it and the last step. If no damping by cell makes the Hessian definite, because a body under
+tension is held only by cells of constant attraction, all cells get the same damping.
 
-Where the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length from above all
-equilibria stay above them: the attraction grows ever faster as the gap closes, and what a step leaves out pulls on.
+If the inverse of the damped Hessian has no negative entry, as on a free plane, steps of any length that start above all
+equilibria stay above them: the attraction grows ever faster as the gap closes, and the part that a step neglects pulls
+further.
 
 Labels E17 to E23 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
@@ -38,16 +39,16 @@ __all__ = ["FlowResult", "detached", "flow"]
 
 STEPS = 400
 FIRST = 2.0  # damping, relative to the curvature of the attraction
-FULL = 1.0  # no more is needed where the step went too far
-LEAST = 0.02  # damping where the residual is large
-SOFTEST = 1e-5  # damping
-MOST = 100.0  # at which a step that lowers no energy tells of rounding
-UNDER = 0.05  # damping where the Hessian without any is indefinite
-CLOSE = 1e-2  # residual from which an equilibrium is looked for
-COARSE = 1e-5  # residual of an equilibrium that may be the end
-TRIALS = 15  # Newton steps toward it
+FULL = 1.0  # the largest damping that is needed after a step that went too far
+LEAST = 0.02  # smallest damping while the residual is large
+SOFTEST = 1e-5  # smallest damping
+MOST = 100.0  # damping at which a step that does not lower the energy is due to rounding
+UNDER = 0.05  # damping if the undamped Hessian is indefinite
+CLOSE = 1e-2  # residual below which an equilibrium is searched
+COARSE = 1e-5  # residual of a coarse equilibrium near the end
+TRIALS = 15  # Newton steps toward an equilibrium
 WAIT = 3  # steps between two such trials
-NOTHING = math.exp(-REACH)  # of the largest attraction: less does not count beside it
+NOTHING = math.exp(-REACH)  # of the largest attraction: smaller values are negligible
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,7 +59,7 @@ class FlowResult:
     ----------
     equilibrium : Equilibrium
     lost : float
-        By how much the energy fell in all [J].
+        Total decrease of the energy [J].
     """
 
     equilibrium: Equilibrium
@@ -83,7 +84,7 @@ def flow(
     counter : Counter
         Counts products.
     uniform : bool
-        Whether all cells have the same damping: the flow is then down the gradient in the gap.
+        Whether all cells have the same damping: this is then the gradient flow in the gap.
     """
     counter.products += 1
     # E17
@@ -130,7 +131,7 @@ def flow(
 
 
 def _end(energy: GapEnergy, point: Point, convex: Convex, counter: Counter) -> Equilibrium | None:
-    """Return the equilibrium near a point, if the energy is convex in between."""
+    """Return the equilibrium near a point if the energy is convex between them."""
     coarse = minimise(
         energy, point.displacement, counter, tolerance=COARSE, iterations=TRIALS, convex_only=True
     )
@@ -141,13 +142,13 @@ def _end(energy: GapEnergy, point: Point, convex: Convex, counter: Counter) -> E
 
 
 def _pushed_back(old: Point, new: Point) -> float:
-    """Return the largest traction [Pa] against the way that a cell has moved: none has gone too far where it is 0."""
+    """Return the largest traction [Pa] against the motion of a cell; it is 0 if no cell has gone too far."""
     moved = new.displacement - old.displacement
     return float(np.max(new.reaction * np.sign(np.where(new.free, moved, 0.0))))
 
 
 def detached(energy: GapEnergy, point: Point) -> bool:
-    """Whether a prescribed tension has pulled the body out of reach of the attraction: nothing stops it."""
+    """Whether a prescribed tension has pulled the body beyond the attraction, so that nothing stops it."""
     pulled = float(np.sum(energy.load * np.ones(energy.form.shape))) < 0
     if not (pulled and point.gap.min() > 0):
         return False

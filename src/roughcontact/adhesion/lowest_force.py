@@ -1,12 +1,12 @@
-"""The lowest force along a retreat: the largest tension of a body that is drawn back.
+"""The lowest force along a retreat: the largest tension.
 
-It lies where the slope of the force with the depth changes its sign: where it vanishes, or where a cell leaves the
-wall; or where a branch ends. On rough surfaces the sign may change at many cells, so the slopes at two states do not
-bound the force between them. But the slope is the least value of a quadratic form, ``(y + 1).K (y + 1) - y.D y`` over
-all changes y of the gap that vanish at the wall. It falls as the curvature D of the attraction grows, and as cells
-leave the wall. Both are bounded between two states whose gaps enclose all gaps on the way from one to the other, and
-with them the slope. So the force is not below the point where the steepest lines from both ends meet; states between
-them are computed until this point is no lower than the lowest force that was found.
+It lies where the slope of the force with the depth changes its sign (where it vanishes, or where a cell leaves the
+wall), or where a branch ends. On rough surfaces the sign may change at many cells, so the slopes at two states do not
+bound the force between them. But the slope is the minimum of a quadratic form, ``(y + 1).K (y + 1) - y.D y`` over all
+changes y of the gap that vanish at the wall. It falls as the curvature D of the attraction grows, and as cells leave
+the wall. Between two states whose gaps enclose all gaps in between, both are bounded, and so is the slope. The force is
+therefore not below the point where the steepest lines from both ends meet; states in between are computed until this
+point is not below the lowest force that was found.
 
 Labels E35 and E36 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
@@ -28,8 +28,8 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["FORCE_TOLERANCE", "LowestForce"]
 
-FORCE_TOLERANCE = 1e-6  # of the lowest force, within which it is found
-CLOSEST = 0.05  # of the way between two states, that a state between them keeps from each
+FORCE_TOLERANCE = 1e-6  # relative precision of the lowest force
+CLOSEST = 0.05  # of the distance of two states: smallest distance of a state in between from each
 
 
 @dataclass(slots=True)
@@ -56,7 +56,7 @@ class LowestForce:
         self.extend(value, point)
 
     def extend(self, value: float, point: Point) -> None:
-        """Go on to the next state of a branch; the energy is strictly convex between it and the last."""
+        """Continue to the next state of a branch; the energy is strictly convex between it and the last state."""
         if isinstance(self.control, ForceControl):
             self.force = min(self.force, value)
             return
@@ -90,7 +90,7 @@ class LowestForce:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _BranchPoint:
-    """A state under a given depth [m]: its force [N], and displacement and gap [m] on the cells of the computation."""
+    """A state at a prescribed depth [m]: its force [N], displacement and gap [m] on the cells of the computation."""
 
     depth: float
     force: float
@@ -100,7 +100,7 @@ class _BranchPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Interval:
-    """Two states of a branch; the force between them is not below `bound` [N], which it may be `part` of the way up."""
+    """Two states of a branch; the force between them is at least `bound` [N], perhaps reached at `part` of the way."""
 
     upper: _BranchPoint
     lower: _BranchPoint
@@ -116,7 +116,7 @@ class _Interval:
         threshold: float,
         counter: Counter,
     ) -> _Interval:
-        """Bound the force between two states, so far as it may be below `threshold` [N] and below zero."""
+        """Bound the force between two states, only as closely as `threshold` [N] and zero require."""
         if min(upper.force, lower.force) >= 0:
             return cls(upper, lower, 0.0, 0.0)
         law = control.attraction
@@ -129,7 +129,7 @@ class _Interval:
         width = upper.depth - lower.depth
         if least >= 0 or lower.force + least * width >= threshold:
             return cls(upper, lower, lower.force + min(0.0, least) * width, 0.0)
-        # The curvature has one peak at most, so that the smallest is at an end.
+        # The curvature has at most one peak, so its minimum is at an end.
         most = slope(nearest > 0, np.minimum(law.curvature(nearest), law.curvature(farthest)))
         if most <= 0:
             return cls(upper, lower, upper.force, 1.0)
@@ -138,7 +138,7 @@ class _Interval:
         return cls(upper, lower, lower.force + least * rise, rise / width)
 
     def state_between(self, control: DepthControl, counter: Counter) -> _BranchPoint | None:
-        """Return the state where the force may be lowest; None where rounding leaves none in between."""
+        """Return the state at which the force may be lowest; None if rounding leaves no value in between."""
         upper, lower = self.upper, self.lower
         part = min(max(self.part, CLOSEST), 1 - CLOSEST)
         depth = lower.depth + part * (upper.depth - lower.depth)

@@ -27,21 +27,25 @@ from roughcontact.validation import Array
 
 __all__ = ["is_resolved", "states_along"]
 
-# Of the way from beyond the attraction to the largest depth (or of the largest force): how closely the end of a branch
-# is found. A hundredth of what is promised, since next to its end a branch moves by the root of what is left.
+# Precision of the end of a branch, as a part of the way from beyond the attraction to the largest depth (or of the
+# largest force). It is a hundredth of the documented one, because next to its end a branch moves by the square root of
+# the remaining distance.
 BRACKET = 1e-8
-HARD = 1e-3  # residual of the contact without attraction, from which the attraction draws
-POLISHED, STEPS = 1e-13, 4  # residual of a state under a given force, and steps toward it at most
-CELLS = 1.5  # that Irwin's length must span
+HARD = 1e-3  # residual of the contact without attraction, from which the flow starts
+POLISHED, STEPS = (
+    1e-13,
+    4,
+)  # residual of a state under a prescribed force, and largest number of steps toward it
+CELLS = 1.5  # smallest length of Irwin
 
 
 def is_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> bool:
-    """Whether Irwin's length spans 1.5 cells: else the attraction varies from cell to cell."""
+    """Whether Irwin's length spans 1.5 cells; otherwise the attraction varies from cell to cell."""
     return adhesion.process_zone(modulus) >= CELLS * max(operator.grid.spacing)
 
 
 def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> None:
-    """Refuse an attraction that varies from cell to cell, so that the lattice would trap every state.
+    """Raise an error for an attraction that varies from cell to cell, so that the grid would trap every state.
 
     Raises
     ------
@@ -50,12 +54,12 @@ def require_resolved(adhesion: Adhesion, operator: Operator, modulus: float) -> 
     """
     if not is_resolved(adhesion, operator, modulus):
         zone, cell = adhesion.process_zone(modulus), max(operator.grid.spacing)
-        # Rounded to where it is allowed: who takes the number as it stands is not refused again.
+        # Rounded so that the printed value is accepted.
         finest = _three_digits(zone / CELLS, math.floor)
         longest = _three_digits(adhesion.range * math.sqrt(CELLS * cell / zone), math.ceil)
         raise InputError(
             f"the attraction varies over {_three_digits(zone / cell, math.floor):g} cells beside a contact (Irwin's "
-            f"length E* w/(pi s^2)), and below {CELLS:g} the lattice would trap every state",
+            f"length E* w/(pi s^2)), and below {CELLS:g} the grid would trap every state",
             f"take cells of at most "
             f"{finest:g} m or a range of at least {longest:g} m, use detachment_path, which needs no range, or give "
             "the adhesion allow_unresolved=True",
@@ -78,7 +82,7 @@ def states_along(
     surface: Surface | RadialProfile | None = None,
     tolerance: float = 1e-8,
 ) -> Iterator[AdhesiveState]:
-    """Yield the state at each depth, force or mean gap, in order, of a body that comes from afar.
+    """Yield the state at each depth, force or mean gap, in order, of a body that approaches from afar.
 
     Parameters
     ----------
@@ -87,20 +91,20 @@ def states_along(
         Undeformed gap at first touch [m]; infinite where nothing was measured.
     adhesion : Adhesion
     loads : Loads
-        Depths or forces of either sign, up and down, the first force at least 0; or mean gaps of a whole periodic
-        surface, above 0.
+        Depths or forces of either sign, up and down, where the first force is at least 0; or mean gaps of a whole
+        periodic surface, above 0.
     modulus : float
         Reduced modulus E* [Pa].
     surface : Surface or RadialProfile, optional
-        Where the separation comes from, for the record.
+        The surface that the separation comes from, for the record.
     tolerance : float
         Largest residual.
 
     Raises
     ------
     ValueError
-        If the lattice would trap every state, the work has another shape than the grid, or a depth, a force or a mean
-        gap cannot be reached.
+        If the grid would trap every state, if the work does not have the shape of the grid, or if a depth, a force or a
+        mean gap cannot be reached.
     """
     if not adhesion.allow_unresolved:
         require_resolved(adhesion, operator, modulus)
@@ -128,7 +132,7 @@ def states_along(
 
 
 def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[float]:
-    """Return depths, or those at which a periodic surface, whose mean displacement is zero, has mean gaps."""
+    """Return the depths; mean gaps become depths of a periodic surface, whose mean displacement is zero."""
     whole, values = form.mean_free and np.isfinite(separation).all(), loads.values
     full = float(separation.mean()) if whole else math.inf
     if loads.kind == "mean gap":
@@ -156,7 +160,7 @@ def _checked_depths(loads: Loads, form: ElasticForm, separation: Array) -> list[
 def _checked_forces(forces: Array) -> list[float]:
     if forces[0] < 0:
         raise InputError(
-            "a path under given forces begins with the bodies drawing near, and cannot begin under the tension "
+            "a path under prescribed forces begins with an approach, and cannot begin under the tension "
             f"{forces[0]:g}",
             "begin with 0 or more, and let the tension follow (adhesive_path, adhesive_loop)",
         )
@@ -164,7 +168,7 @@ def _checked_forces(forces: Array) -> list[float]:
 
 
 def _initial_displacement(control: DepthControl | ForceControl, value: float, counter: Counter) -> Array:
-    """Return the displacement at which bodies from afar would rest if there were no attraction."""
+    """Return the displacement of equilibrium without attraction, from which the approach starts."""
     form, law = control.form, control.attraction
     hard = replace(control, attraction=ExponentialLaw(0.0, law.range)).energy_at(value)
     if isinstance(control, ForceControl) and value <= 0:
@@ -175,7 +179,7 @@ def _initial_displacement(control: DepthControl | ForceControl, value: float, co
 
 
 def _polished(path: QuasiStatic, reached: PathPoint) -> PathPoint:
-    """Return a state with as little residual as rounding allows: over all cells its sum is an error of the force."""
+    """Return a state with a residual close to rounding, because its sum over all cells is an error of the force."""
     energy = path.control.energy_at(reached.value)
     if not reached.converged or detached(energy, reached.point):
         return reached
@@ -193,7 +197,7 @@ def _states(problem: AdhesiveProblem, goals: list[float], bracket: float) -> Ite
             if reached is None or (
                 detached(problem.control.energy_at(reached.value), reached.point) and goal >= 0
             ):
-                # From afar. Where nothing pulls any more, the bodies draw near again.
+                # From afar: if the tension has ended, the bodies approach again.
                 reached = path.start(goal, _initial_displacement(problem.control, goal, path.counter))
             else:
                 with task("Following the branch", 100, "%") as path.task:
@@ -212,7 +216,7 @@ def _law_on(adhesion: Adhesion, form: ElasticForm, separation: Array, modulus: f
     adhesion : Adhesion
     form : ElasticForm
     separation : array, shape of the grid
-        Undeformed gap [m]; infinite where nothing was measured, and nothing attracts.
+        Undeformed gap [m]; infinite where nothing was measured, without attraction.
     modulus : float
         Reduced modulus E* [Pa].
     """

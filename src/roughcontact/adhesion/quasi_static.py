@@ -1,8 +1,9 @@
-"""A quasi-static path: from one prescribed depth or force to the next without leaving the basin of the energy.
+"""A quasi-static path: from one prescribed depth or force to the next within one basin of the energy.
 
-A step is taken if the energy at the new value is strictly convex on the box that holds the old state and the new: no
-other equilibrium lies in it, and the gradient flow from the old state ends in the new one. Else the step is halved,
-down to a bracket; what is left then is a limit point of the branch, and the body jumps.
+A step is accepted if the energy at the new value is strictly convex on the box that contains the old and the new state:
+it contains no other equilibrium, and the gradient flow from the old state ends in the new one. Otherwise the step is
+halved, down to a bracket. A step as short as the bracket that is not accepted contains a limit point of the branch, and
+the body jumps.
 
 Labels E24 to E30 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
@@ -25,33 +26,32 @@ from roughcontact.validation import Array
 
 __all__ = ["Jump", "PathPoint", "QuasiStatic"]
 
-MOVED = 1e-2  # of the range of the attraction: below, a body has not jumped
-ON_THE_WAY = 1e-8  # residual of states between those that were asked for
+MOVED = 1e-2  # of the range of the attraction: a smaller change is not a jump
+ON_THE_WAY = 1e-8  # residual of states between the prescribed values
 COARSE = 1e-4  # residual of a first, coarse solution of a step
 SAME = 1e-5  # of the range of the attraction: difference of gaps below which two states are the same
 
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """An instability: where a branch of equilibria ends, the body jumps to another.
+    """An instability: the end of a branch of equilibria, from which the body jumps to another branch.
 
     Attributes
     ----------
     depth : float
         The last depth at which the branch was found [m].
     depth_after : float
-        [m]; NaN where a force pulled the body off.
+        [m]; NaN if a force pulled the body off.
     force_before, force_after : float
         [N]
     bracket : float
-        Distance from the last depth (or force) of the branch to the first at which it was not found [m] (or [N]).
+        Distance from the last depth (or force) of the branch to the first one at which it was not found [m] (or [N]).
     lost : float
-        Energy that is lost [J]: infinite where a force pulled the body off, which nothing stops.
+        Lost energy [J]; infinite if a force pulled the body off.
     approach : bool
         Whether the depth (or force) was growing.
     ambiguous : bool
-        Whether two integrations of the gradient flow ended in different states, of which one may be that of a body
-        that is pulled off.
+        Whether two integrations of the gradient flow ended in different states; in one of them the bodies may be apart.
 
     Examples
     --------
@@ -76,9 +76,9 @@ class Jump:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PathPoint:
-    """A state on a path: what is prescribed, the jumps on the way to it, and the lowest force of the retreat so far.
+    """A state on a path: the prescribed value, the jumps before it, and the lowest force of the retreat so far.
 
-    The lowest force is infinite where the path has begun, or the body has approached.
+    The lowest force is infinite at the begin of the path, and after an approach.
     """
 
     value: float
@@ -91,7 +91,7 @@ class PathPoint:
 
 @dataclass(slots=True)
 class _StepControl:
-    """Step length: doubled after each accepted step; by bisection toward the value of a rejected one.
+    """Step length: doubled after each accepted step; bisected toward the value of a rejected step.
 
     After a rejection the end of the branch may be at any distance. Each further rejection squares the fraction of the
     step that is tried. After an acceptance the next step is at least the geometric mean of the accepted step and the
@@ -130,24 +130,24 @@ class QuasiStatic:
     Parameters
     ----------
     control : DepthControl or ForceControl
-        What is prescribed.
+        The prescribed quantity, as an energy.
     bracket : float
-        Smallest step of it.
+        Smallest step of the prescribed value.
     """
 
     control: DepthControl | ForceControl
     bracket: float
     counter: Counter = field(default_factory=Counter)
-    task: RunningTask | None = None  # where the part of the way to the next value is reported [%]
+    task: RunningTask | None = None  # reports the part of the way to the next value [%]
     _vectors: tuple[Array, ...] = ()
 
     def start(self, value: float, displacement: Array) -> PathPoint:
-        """Return where the gradient flow from a displacement ends."""
+        """Return the end of the gradient flow from a displacement."""
         end = flow(self.control.energy_at(value), displacement, self._convex, self.counter).equilibrium
         return PathPoint(value, end.point, end.residual, end.converged)
 
     def continue_to(self, start: PathPoint, target: float) -> PathPoint:
-        """Continue the branch from a point to another value of what is prescribed, by jumps where it ends."""
+        """Continue the branch from a point to another prescribed value, with jumps where a branch ends."""
         jumps: list[Jump] = []
         if detached(self.control.energy_at(target), start.point):
             return replace(start, value=target, converged=True, jumps=())
@@ -155,8 +155,8 @@ class QuasiStatic:
         if retreats := target < start.value:
             lowest.start_branch(start.value, start.point)
         here, steps = start, _StepControl(self.bracket, abs(target - start.value))  # E24
-        # Slope of the secant predictor: of the displacement with what is prescribed, in the last step, beyond the
-        # displacement of the cells at the wall.
+        # Slope of the secant predictor: the change of the displacement with the prescribed value in the last step,
+        # without the displacement of the cells at the wall.
         slope: Array | float = 0.0
         while here.value != target:
             left = target - here.value
@@ -164,10 +164,10 @@ class QuasiStatic:
             value = target if length == abs(left) else here.value + float(np.copysign(length, left))
             energy = self.control.energy_at(value)
             moved = energy.at_depth(here.point)  # E25
-            # On the way the residual may be larger, in proportion to the step: a step as short as the bracket has that
-            # of a state that was asked for.
+            # Between prescribed values the residual may be larger, in proportion to the step: a step as short as the
+            # bracket has the residual of a state at a prescribed value.
             tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
-            # After a rejection more follow, and a coarse solution shows most of them.
+            # After a rejection more follow, and a coarse solution detects most of them.
             coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
             predicted = moved.displacement + length * slope
             end = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))  # E26, E27
@@ -196,7 +196,7 @@ class QuasiStatic:
     def _end(
         self, energy: GapEnergy, before: Point, moved: Point, guess: Array, tolerances: tuple[float, ...]
     ) -> Equilibrium | None:
-        """Return the state at the end of a step, if the energy is strictly convex between both ends of the step."""
+        """Return the state at the end of a step if the energy is strictly convex between both ends of the step."""
         end: Equilibrium | None = None
         for tolerance in tolerances:
             end = minimise(energy, guess, self.counter, tolerance=tolerance, convex_only=True)
@@ -215,7 +215,7 @@ class QuasiStatic:
         reached = PathPoint(value, end.point, end.residual, end.converged)
         change = float(np.abs(end.point.displacement - start).max())
         if change < MOVED * scale and end.converged:  # E30
-            return reached, None  # the branch goes on, too flat for the test of convexity
+            return reached, None  # the branch continues, too flat for the test of convexity
         off = detached(energy, end.point)
         other = flow(energy, start, self._convex, self.counter, uniform=True).equilibrium
         differ = float(np.abs(end.point.displacement - other.point.displacement).max()) > SAME * scale
@@ -234,7 +234,7 @@ class QuasiStatic:
     def _convex(self, energy: GapEnergy, one: Point, other: Point, before: Point | None = None) -> bool:
         """Whether the energy is strictly convex on the box between two points, as far as the search finds.
 
-        The first may come from a point `before`, under another depth: states under depths in between have gaps between
+        The first may come from a point `before`, at another depth: the gaps of states at depths in between lie between
         its gaps and those of the other.
         """
         earlier = before or one

@@ -1,10 +1,10 @@
-"""The smallest eigenvalue of the Hessian on the free cells, relative to the elastic one, with a bound.
+"""The smallest eigenvalue of the Hessian on the free cells, relative to the elastic Hessian, with a bound.
 
-``(K - D) x = lambda K x`` on the free cells F, with D the curvature of the attraction: one without attraction, zero
-where an equilibrium ends. By the locally optimal block method (Knyazev, SIAM J. Sci. Comput. 23, 517 (2001)), the
-compliance being the preconditioner. A residual r of a vector of unit elastic norm means that an eigenvalue lies within
-``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, C being the inverse of K: the inverse of
-a part is at most the part of the inverse.
+``(K - D) x = lambda K x`` on the free cells F, with D the curvature of the attraction: lambda is one without
+attraction, and zero where a branch ends. It is found by the locally optimal block method (Knyazev, SIAM J. Sci. Comput.
+23, 517 (2001)), with the compliance as preconditioner. A residual r of a vector of unit elastic norm means that an
+eigenvalue lies within ``sqrt(r.(K_FF)^-1 r)`` of the Ritz value; that is at most ``sqrt(r.C_FF r)``, where C is the
+inverse of K, because the inverse of a part is at most the part of the inverse.
 
 Labels E31 to E34 are the lines of the algorithm in docs/concepts/method-adhesion.md.
 """
@@ -24,22 +24,22 @@ __all__ = ["Ritz", "smallest_ratio", "solved_bound"]
 
 STEPS = 120
 BLOCK = 2
-RELIABLE = 0.02  # bound below which a sign is believed
-DEPENDENT = 1e-12  # of the largest: directions of the basis that are left out
+RELIABLE = 0.02  # bound below which a sign is accepted
+DEPENDENT = 1e-12  # of the largest: smaller directions of the basis are left out
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ritz:
-    """A Ritz value and how far an eigenvalue may be from it.
+    """A Ritz value with the bound of its distance from an eigenvalue.
 
     Attributes
     ----------
     value, bound : float
         An eigenvalue lies within `bound` of `value`; no eigenvalue is above one. The smallest is at most `value`.
     vectors : tuple of arrays
-        To start the next search from.
+        Start vectors of the next search.
     residual : array
-        Of the first vector, whose elastic norm is one.
+        Residual of the first vector, whose elastic norm is one.
     """
 
     value: float
@@ -82,7 +82,7 @@ def smallest_ratio(
     sign_only : bool
         Whether to stop as soon as the sign is known.
     seed : int
-        Of the vectors to start from besides.
+        Seed of additional start vectors.
     """
     if not np.any(free & (curvature > 0)):
         return Ritz(1.0, 0.0, (), np.zeros(free.shape))
@@ -115,7 +115,7 @@ def smallest_ratio(
         chosen = [coefficients[:, k] for k in range(count)]
         x = [_combined(c, basis) for c in chosen]
         kx = [_combined(c, images) for c in chosen]
-        # What the newer parts contribute is the direction of the next step.
+        # The contribution of the newer parts is the direction of the next step.
         old = [(_combined(c[block:], basis[block:]), _combined(c[block:], images[block:])) for c in chosen]
         residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
         preconditioned = [precondition(r) for r in residuals]
@@ -133,9 +133,9 @@ def smallest_ratio(
 
 
 def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
-    """Return the bound of a Ritz value where the compliance is not the inverse of the stiffness, by solving for it.
+    """Return the bound of a Ritz value by a solve, for a compliance that is not the inverse of the stiffness.
 
-    Under a prescribed force the stiffness is that of a body whose depth is free, and the compliance bounds nothing.
+    Under a prescribed force the stiffness is that of a body whose depth is free, and the compliance gives no bound.
     """
     none = np.zeros(form.shape)
     solved, _ = conjugate_gradients(form, free, none, ritz.residual, 1e-6, Counter())
@@ -143,7 +143,7 @@ def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
 
 
 def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Array) -> tuple[Array, Array]:
-    """Return the Ritz vectors' coefficients and values, from the smallest up."""
+    """Return the coefficients of the Ritz vectors and their values, from the smallest up."""
     size = len(basis)
     elastic, adhesive = np.empty((size, size)), np.empty((size, size))
     for i in range(size):

@@ -1,4 +1,4 @@
-"""A state of a contact that sticks as labelled data, and as a plain record; jumps and laws as they stand in both."""
+"""A state of an adhesive contact as labelled data and as a plain record, with its jumps and its law."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def state_record(state: AdhesiveState) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them: what is not finite becomes None.
+        Numbers, texts and lists of them; values that are not finite become None.
 
     Examples
     --------
@@ -125,19 +125,22 @@ def work_variables(work: float | Array, geometry: Geometry) -> Variables:
 
 
 def jump_columns(control: str) -> dict[Column, str]:
-    """Return the columns of jumps under given depths or forces, and what a `Jump` calls them."""
+    """Return the columns of jumps under prescribed depths or forces, with the attributes of a `Jump`."""
     names = {column: column.name.removeprefix("jump_") for column in JUMPS}
     return names | {BRACKETS[control]: "bracket"}
 
 
 def jump_variables(jumps: Sequence[Jump], control: str, geometry: Geometry) -> Variables:
-    """Return jumps under given depths or forces as variables along ``jump``."""
+    """Return jumps under prescribed depths or forces as variables along ``jump``."""
     return events("jump", jumps, jump_columns(control), geometry)
 
 
 def events(along: str, each: Sequence[Any], columns: dict[Column, str], geometry: Geometry) -> Variables:
-    """Return what happened on the way, one event after the other, as variables along a dimension."""
-    kinds = {"": bool, "1": np.int64}  # of truths and counts; of none of them NumPy could not tell
+    """Return the events of a path as variables along a dimension."""
+    kinds = {
+        "": bool,
+        "1": np.int64,
+    }  # types of truths and counts, which NumPy cannot infer from an empty list
     return {
         column.name: (
             (along,),

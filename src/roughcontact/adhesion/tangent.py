@@ -10,24 +10,24 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["force_slope"]
 
-ACCURACY = 1e-5  # of the conjugate gradients, in the energy norm: a least value errs by the square
+ACCURACY = 1e-5  # of the conjugate gradients, in the energy norm: the error of the minimum is its square
 
 
 def force_slope(form: ElasticForm, free: Mask, curvature: Array, counter: Counter) -> float:
     """Return dF/dd [N/m] with the free cells in equilibrium.
 
-    With the wall one unit deeper, the gap changes by y: zero on the cells that the wall holds, and such that no
-    traction is left on the free ones, ``K (y + 1) - D y = 0``, the one standing for the cells of the grid. Where the
-    mean displacement is zero, that of y + 1 is, and a constant pressure takes part. The slope is the least value of
-    ``(y + 1).K (y + 1) - y.D y``.
+    If the wall moves by one unit, the gap changes by y. It is zero on the cells at the wall, and leaves no traction on
+    the free cells: ``K (y + 1) - D y = 0``, where the 1 stands for the cells of the grid. If the mean displacement must
+    be zero, that of y + 1 is zero, and a constant pressure is added. The slope is the minimum of ``(y + 1).K (y + 1) -
+    y.D y``.
 
     Parameters
     ----------
     form : ElasticForm
     free : array of bool
-        Cells that the wall does not hold; those beyond the grid are.
+        Cells that are not at the wall, including those beyond the grid.
     curvature : array
-        D [Pa/m], by which the attraction falls with the gap.
+        D [Pa/m], the decrease of the attraction with the gap.
     counter : Counter
         Counts products.
     """

@@ -1,9 +1,9 @@
 """Bounded truncated Newton: from a displacement to an equilibrium of lower energy.
 
 Projected steps on the free cells (Bertsekas, SIAM J. Control Optim. 20, 221 (1982)), whose linear systems are solved by
-conjugate gradients (Steihaug, SIAM J. Numer. Anal. 20, 626 (1983)) that the compliance preconditions. Where they find
-the Hessian not positive definite, it is shifted by a multiple of the identity: the step is then one of the implicit
-gradient flow in the gap.
+conjugate gradients (Steihaug, SIAM J. Numer. Anal. 20, 626 (1983)), preconditioned by the compliance. If the Hessian is
+not positive definite, it is shifted by a multiple of the identity: the step is then one of the implicit gradient flow
+in the gap.
 
 Labels E1 to E16 are the lines of the algorithms in docs/concepts/method-adhesion.md.
 """
@@ -22,27 +22,27 @@ from roughcontact.validation import Array, Mask
 
 __all__ = ["Counter", "Equilibrium", "conjugate_gradients", "line_search", "minimise"]
 
-TOLERANCE = 1e-10  # of the residual: a hundredth of what is promised, for the product that certifies
+TOLERANCE = 1e-10  # of the residual: a hundredth of the default tolerance, for errors of the exact product
 ITERATIONS = 400
 INNER = 300
 HALVINGS = 12
 ARMIJO = 1e-4
-SHIFT = 0.05  # the first shift of an indefinite Hessian, of the largest curvature of the attraction
-STIFFEST = 100.0  # shift, of the same, beyond which a step that lowers no energy ends the minimisation
+SHIFT = 0.05  # first shift of an indefinite Hessian, relative to the largest curvature of the attraction
+STIFFEST = 100.0  # relative shift beyond which a step that does not lower the energy ends the minimisation
 FORCING = 0.1
-ENOUGH = 0.1  # of the tolerance, to which the last linear system is solved
+ENOUGH = 0.1  # of the tolerance: precision of the last linear system
 
 
 @dataclass(slots=True)
 class Counter:
-    """Products with the stiffness or the compliance so far."""
+    """The number of products with the stiffness or the compliance so far."""
 
     products: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equilibrium:
-    """Where a minimisation ended.
+    """The end of a minimisation.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Equilibrium:
         Relative to the scale of tractions.
     converged : bool
     lost : float
-        By how much the energy fell [J].
+        Decrease of the energy [J].
     """
 
     point: Point
@@ -81,9 +81,9 @@ def minimise(
     tolerance : float
         Relative residual.
     iterations : int
-        At most.
+        Largest number of iterations.
     convex_only : bool
-        Whether to give up where the Hessian is not positive definite.
+        Whether to stop if the Hessian is not positive definite.
     """
     counter.products += 1
     point = energy.at(energy.feasible(start))  # E1, E2
@@ -111,7 +111,7 @@ def minimise(
                 continue
             found = line_search(energy, point, step, counter)  # E8
             if found is None:
-                # Not even a step that the shift makes short lowers the energy: rounding.
+                # Rounding: even a step that the shift makes short does not lower the energy.
                 if shift > STIFFEST * most:
                     break
                 shift = max(4 * shift, SHIFT * most)
@@ -123,12 +123,12 @@ def minimise(
 
 
 def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) -> tuple[Point, float] | None:
-    """Return the first point along the projected step whose energy is lower, and by how much it changed [J] (E8)."""
+    """Return the first point along the projected step whose energy is lower, and the change of the energy [J] (E8)."""
     length = 1.0
     for _ in range(HALVINGS):
         trial = energy.feasible(point.displacement + length * step)
         counter.products += 1
-        new = energy.at(trial)  # E2, of the trial: the next iteration has it at hand
+        new = energy.at(trial)  # E2, of the trial, for the next iteration
         change = energy.change(point, new)
         slope = energy.form.dot(point.reaction, trial - point.displacement)
         if slope < 0 and change <= ARMIJO * slope:
@@ -140,9 +140,9 @@ def line_search(energy: GapEnergy, point: Point, step: Array, counter: Counter) 
 def conjugate_gradients(
     form: ElasticForm, free: Mask, diagonal: Array, load: Array, forcing: float, counter: Counter
 ) -> tuple[Array, bool]:
-    """Solve ``(K - diagonal) x = load`` on the free cells; say whether a direction of negative curvature was met.
+    """Solve ``(K - diagonal) x = load`` on the free cells; return whether a direction of negative curvature was met.
 
-    The diagonal is D - sigma, or D - theta W in the flow. Where the mean of a displacement is prescribed, that of x is
+    The diagonal is D - sigma, or D - theta W in the flow. If the mean displacement is prescribed, the mean of x is
     zero.
     """
     mask = free.astype(np.float64)
@@ -156,7 +156,7 @@ def conjugate_gradients(
             z -= along * (z.sum() / total)
             z -= mask * (
                 z.sum() / number
-            )  # rounding must not feed the mean, along which no Hessian is positive
+            )  # rounding must not change the mean, along which the Hessian is not positive
         return z
 
     along, total = load, 1.0

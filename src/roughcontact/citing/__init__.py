@@ -1,1 +1,1 @@
-"""Which papers an answer rests on: the references of the program, and those of one answer."""
+"""The papers behind a result: the references of the program, and those of one result."""

@@ -1,4 +1,4 @@
-"""The references of the program: entries of BibTeX, and each as a line of text."""
+"""The references of the program, as entries of BibTeX and as lines of text."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Reference:
     key, kind : str
         ``"Love1929"``, ``"article"``.
     fields : mapping of str to str
-        As BibTeX has them.
+        The fields of BibTeX.
     keywords : frozenset of str
-        What it is cited for.
+        The methods or results that it is cited for.
     """
 
     key: str
@@ -63,7 +63,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Citations:
-    """The references behind an answer, as text and as BibTeX.
+    """The references behind a result, as text and as BibTeX.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Citations:
 
 @cache
 def references() -> tuple[Reference, ...]:
-    """Return all references of the program, which comes first."""
+    """Return all references of the program; the first is the program itself."""
     text = resources.files("roughcontact.citing").joinpath("references.bib").read_text(encoding="utf-8")
     found = []
     for kind, key, body in _ENTRY.findall(text):

@@ -1,4 +1,4 @@
-"""What an answer or a job uses, by the names of rooms and files, and the references that are cited for it."""
+"""The parts of the program that a result or a job uses, and the references that are cited for them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from roughcontact.errors import InputError
 
 __all__ = ["citations"]
 
-# Words in the history of a surface, and what they are cited as: generator, preparation, reader.
+# Words in the history of a surface (generator, preparation, reader), and the keywords of their references.
 _HISTORY = {
     "inverse FFT": "fourier",
     "midpoint": "midpoint",
@@ -24,16 +24,16 @@ _UNKNOWN = "free or periodic"  # a job whose file states which
 
 
 def citations(*answers: object) -> Citations:
-    """Return the references behind answers: method, bodies, hardness, adhesion, theories, surface, errors.
+    """Return the references behind results: method, bodies, hardness, adhesion, theories, surface, errors.
 
     The program itself always comes first. A curve does not contain its surface or its solver: pass these too, or pass
     the job. If a job does not state whether its surface is periodic, the influence functions of the free and of the
-    periodic half-space are cited, unless an answer passed with the job decides it.
+    periodic half-space are cited, unless a result passed with the job decides it.
 
     Parameters
     ----------
     *answers : Solution, Curve, Loop, AdhesiveState, TangentialSolution, LoadingLaw, Surface, path, ...
-        Anything that the package returns, or the path of a job (.toml) or of a result that contains its recipe (.json,
+        Objects that the package returns, or the path of a job (.toml) or of a result that contains its recipe (.json,
         .nc).
 
     Returns
@@ -44,7 +44,7 @@ def citations(*answers: object) -> Citations:
     Raises
     ------
     ValueError
-        If one of them is not an object of this package, or a file contains no recipe.
+        If an object is not of this package, or a file contains no recipe.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def citations(*answers: object) -> Citations:
         if not _is_ours(answer):
             raise InputError(
                 f"there are no references for {type(answer).__name__!r}, which is not of this package",
-                "give an answer, a surface, a law, a job, or the path of a job or result",
+                "give a result, a surface, a law, a job, or the path of a job or result",
                 "answers",
             )
         names |= set(_of_job(answer) if hasattr(answer, "NAME") else _of_answer(answer))
@@ -75,7 +75,7 @@ def citations(*answers: object) -> Citations:
 
 
 def _of_answer(answer: Any) -> Iterator[str]:
-    """Yield what an answer uses: where its class and those of its parts stand, and what their values say."""
+    """Yield the keywords of a result: the files of its class and of the classes of its parts, and their values."""
     yield from type(answer).__module__.split(".")
     kind = type(answer).__name__
     for line in getattr(answer, "provenance", ()):
@@ -101,7 +101,7 @@ def _of_answer(answer: Any) -> Iterator[str]:
 
 
 def _of_job(job: Any) -> Iterator[str]:
-    """Yield what a job uses: where the functions that it calls stand, and what its fields say."""
+    """Yield the keywords of a job: the files of the functions that it calls, and the values of its fields."""
     from roughcontact.recipe.jobs import calls_of, known_names  # late, with NumPy
 
     package = known_names()["rc"]
@@ -123,7 +123,7 @@ def _of_job(job: Any) -> Iterator[str]:
 
 
 def _body(geometry: str, periodic: tuple[bool, ...]) -> Iterator[str]:
-    """Yield what the body of a geometry is called."""
+    """Yield the keywords of the body of a geometry."""
     if geometry == "surface":
         yield "periodic" if all(periodic) else "free"
     elif geometry != "ring":

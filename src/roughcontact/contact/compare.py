@@ -27,9 +27,9 @@ __all__ = ["Comparison", "Law", "compare", "with_theories"]
 
 
 class Law(Protocol):
-    """What a theory offers: quantities of a loading curve as functions of the normal force.
+    """A theory of contact: quantities of a loading curve as functions of the normal force.
 
-    `roughcontact.theory.law.LoadingLaw` is one; the theories make theirs by a function ``law``.
+    `roughcontact.theory.law.LoadingLaw` is one; each theory has a function ``law`` that returns one.
     """
 
     @property
@@ -39,12 +39,12 @@ class Law(Protocol):
 
     @property
     def source(self) -> str:
-        """Where it comes from."""
+        """The publication that it comes from."""
         ...
 
     @property
     def quantities(self) -> Mapping[str, Callable[[Array], Array]]:
-        """By the names of a curve's quantities."""
+        """The functions, by the names of a curve's quantities."""
         ...
 
     def predict(self, quantity: str, force: Array) -> Array:
@@ -63,7 +63,7 @@ class Comparison:
     force : array, shape (n,)
         Loads [N].
     resolved : bool array, shape (n,)
-        Where the computed curve is to be relied upon.
+        Loads at which the computed curve is reliable.
     computed, predicted : mapping of str to array, shape (n,)
         By quantity, in the units of the curve. Predictions are NaN where the theory does not hold.
 
@@ -167,12 +167,12 @@ class Comparison:
         ]
 
     def words(self) -> str:
-        """Return the deviations as a text.
+        """Return the deviations as text.
 
         Returns
         -------
         str
-            The deviation of every quantity, and on how many of the resolved loads it rests where not on all.
+            The deviation of every quantity, with the number of loads that were compared if not all resolved loads were.
         """
         resolved, parts = int(self.resolved.sum()), []
         for name in self.predicted:
@@ -183,7 +183,7 @@ class Comparison:
         return ", ".join(parts) or "nothing in common"
 
     def to_record(self) -> dict[str, Any]:
-        """Return the comparison as plain values, for JSON; None where there is no number.
+        """Return the comparison as plain values, for JSON; NaN becomes None.
 
         Returns
         -------
@@ -199,7 +199,7 @@ class Comparison:
         }
 
     def __repr__(self) -> str:
-        """Say how far apart the two are, and on how many loads that rests."""
+        """Return the deviations, and the number of loads that were compared."""
         return f"Comparison({self.name}: rms ln ratio {self.words()})"
 
 
@@ -214,10 +214,10 @@ def compare(
     theory : Law
         For example ``rc.theory.persson.law(...)``, or one of `loading_laws`.
     quantities : sequence of str, optional
-        Names of quantities of the curve; by default all that the theory predicts, but of a theory of spots that
-        flow no stiffness under a hardness, where that of the curve leaves out plastic cells.
+        Names of quantities of the curve; by default all that the theory predicts. For a theory of spots that flow, the
+        stiffness is left out under a hardness, because the stiffness of the curve leaves out plastic cells.
     other_surface : bool
-        Whether a law that was made for another contact will do.
+        Whether to accept a law that was made for another contact.
 
     Returns
     -------
@@ -227,8 +227,8 @@ def compare(
     Raises
     ------
     ValueError
-        If `theory` is not one, or does not predict a quantity that is named, if the curve has no such quantity or
-        is that of a line contact, or if the theory was made for another modulus, area or rms height.
+        If `theory` is not a theory or does not predict one of `quantities`, if the curve has no such quantity or is
+        that of a line contact, or if the theory was made for another modulus, area or rms height.
 
     Examples
     --------
@@ -241,13 +241,13 @@ def compare(
     if not hasattr(theory, "quantities"):
         name = theory if isinstance(theory, str) else "gw"
         raise InputError(
-            f"a theory is wanted, made for the surface that was pressed, not {shown(theory)}",
-            f"give rc.loading_laws(surface, modulus, {name!r})[0], or a LoadingLaw of your own",
+            f"compare takes a theory that was made for the surface, not {shown(theory)}",
+            f"give rc.loading_laws(surface, modulus, {name!r})[0], or your own LoadingLaw",
             "theory",
         )
     if curve.geometry is Geometry.LINE:
-        raise InputError("a line contact has forces per unit length; the laws of theory are about forces")
-    scope = getattr(theory, "made_for", None)  # laws of the user's own need not say
+        raise InputError("a line contact has forces per unit length, and the laws of theory have forces")
+    scope = getattr(theory, "made_for", None)  # the user's laws need not have it
     if scope is not None and not other_surface:
         _require_alike(curve, theory.name, scope)
     names = list(theory.quantities if quantities is None else quantities)
@@ -267,10 +267,10 @@ def compare(
 
 
 def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]) -> xarray.Dataset:
-    """Return the dataset of a curve with what theories say as further columns along ``load``.
+    """Return the dataset of a curve with the predictions of theories as further columns along ``load``.
 
-    A column is named by the key of its comparison and the quantity: ``persson_contact_area``. Where a theory does not
-    hold it is NaN.
+    A column is named by the key of its comparison and the quantity: ``persson_contact_area``. It is NaN where the
+    theory does not hold.
     """
     columns = {}
     for key, comparison in comparisons.items():
@@ -283,7 +283,7 @@ def with_theories(dataset: xarray.Dataset, comparisons: Mapping[str, Comparison]
 
 
 def _require_alike(curve: Curve, name: str, scope: Scope) -> None:
-    """Refuse a law that was made for another contact than that of the curve."""
+    """Raise an error if a law was made for a contact other than that of the curve."""
     pairs = {
         "reduced modulus": (scope.modulus, curve.modulus, "Pa"),
         "nominal area": (scope.area, curve.nominal_area, "m^2"),

@@ -1,4 +1,4 @@
-"""Continuation in load: each load is solved from what the tangent of the one before predicts."""
+"""Continuation in load: each solve starts from the prediction of the tangent at the load before."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def follow(
     start: Solution | None = None,
     subdomains: SubdomainSolver | None = None,
 ) -> Iterator[Solution]:
-    """Yield the solution of the same bodies under one control after the other.
+    """Yield the solutions of the same bodies under a sequence of controls.
 
-    Nothing is predicted from a load that missed its tolerance: the load after it starts as a load of its own does.
+    Nothing is predicted from a load that missed its tolerance: the load after it starts as a single load does.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def follow(
         Rising, or falling.
     solver : Solver
     start : Solution, optional
-        Of the same bodies, to predict the first load from, if it met its tolerance.
+        A state of the same bodies, from which the first load is predicted if it met its tolerance.
     subdomains : SubdomainSolver, optional
         Of the operator; it keeps restricted operators.
     """
@@ -72,11 +72,11 @@ def follow(
                 guess = None
             elif not advance:
                 guess = Start(pressure, state.depth)
-            else:  # on the window alone: the plane is large
+            else:  # only on the window: the plane is large
                 moved = state.pressure + advance * frozen.tangent
                 guess = Start(prolong(moved, subdomain, shape), state.depth + advance)
                 del moved
-        del state, frozen, pressure, solution  # what nobody else has kept goes before the next load
+        del state, frozen, pressure, solution  # releases the memory before the next load
 
 
 def _predicted(start: Solution, control: Control) -> Start | None:
@@ -89,13 +89,13 @@ def _predicted(start: Solution, control: Control) -> Start | None:
 
 
 def _tangent(solution: Solution) -> Tangent | None:
-    """Return from where to seek the tangent of the next region; None of a missed load or a whole period (infinite)."""
+    """Return the start of the search for the next tangent; None after a missed load or in full contact."""
     known = solution.status.converged and solution.stiffness < math.inf
     return Tangent(solution.frozen.tangent, math.inf) if known else None
 
 
 def _advance(solution: Solution, following: Control) -> float | None:
-    """Return by how much the depth grows to the next load if the contact region stays as it is [m].
+    """Return the growth of the depth [m] to the next load if the contact region stays as it is.
 
     None without contact, or after a load that missed its tolerance.
 

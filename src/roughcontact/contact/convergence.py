@@ -1,4 +1,4 @@
-"""A solve that missed its tolerance, as an error that carries the best answer."""
+"""The error of a solve that missed its tolerance; it carries the best solution."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["ConvergenceError"]
 
 
 class Certified(Protocol):
-    """An answer with a certificate, to a problem with a tolerance."""
+    """A solution with a certificate, of a problem with a tolerance."""
 
     @property
     def status(self) -> Status: ...
@@ -26,7 +26,7 @@ class Certified(Protocol):
 
 
 class ConvergenceError(RuntimeError):
-    """A solve that missed its tolerance; `solution` is the best answer that was reached.
+    """A solve that missed its tolerance; `solution` is the best solution that was reached.
 
     Examples
     --------
@@ -41,11 +41,11 @@ class ConvergenceError(RuntimeError):
 
     def __init__(self, solution: Certified) -> None:
         super().__init__(solution)  # in `args`, so that the error can be pickled
-        self.solution: Any = solution  # the caller has asked for its type
+        self.solution: Any = solution  # the caller chose its type
 
     @property
     def message(self) -> str:
-        """What is wrong, as errors about input have it."""
+        """What is wrong, as in errors about input."""
         solution, tolerance = self.solution, self.solution.problem.tolerance
         return f"residual {solution.residual:.1e}, tolerance {tolerance:.1e}: {solution.status.outcome}"
 
@@ -57,7 +57,7 @@ class ConvergenceError(RuntimeError):
 
     @property
     def place(self) -> None:
-        """No argument is wrong."""
+        """None: no argument is wrong."""
 
     def __str__(self) -> str:
         return joined(self.message, self.remedy)

@@ -34,9 +34,7 @@ from roughcontact.validation import Array, number, numeric
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
-REMEDY = (
-    "take the forces that load_range finds for the surface, a finer grid, or a window of forces of your own"
-)
+REMEDY = "take the forces that load_range finds for the surface, a finer grid, or another window of forces"
 
 
 @hinted
@@ -68,11 +66,11 @@ class Curve:
     nominal_area : float
         Area of all cells [m^2], of rings about a hole without it; length of a line [m].
     geometry : Geometry
-        What the cells are. On a line forces, stiffness, areas and energy are per unit length.
+        Geometry of the cells. On a line, forces, stiffness, areas and energy are per unit length.
     hardness : float
-        Pressure that no cell exceeds [Pa]; cells that reach it have no part in the stiffness.
+        Pressure that no cell exceeds [Pa]; cells that reach it do not contribute to the stiffness.
     flow : FlowCurve, optional
-        What flows along the curve, and the stiffness of unloading; where there is a hardness.
+        Plastic flow along the curve, and the stiffness of unloading; None without a hardness.
 
     Examples
     --------
@@ -116,7 +114,7 @@ class Curve:
         return len(self.force)
 
     def __getitem__(self, place: int) -> CurvePoint:
-        """Return one load as a record, counted from 0, from the end if negative."""
+        """Return one load as a record; negative places count from the end."""
         return tuple(self)[index(place)]
 
     def __iter__(self) -> Iterator[CurvePoint]:
@@ -136,18 +134,18 @@ class Curve:
     def length(self) -> float:
         """The length L of the dimensionless numbers [m].
 
-        The square root of the map's area, and of the disc's within the outermost ring; that of a line.
+        The square root of the area of the map, or of the disc within the outermost ring; the length of a line.
         """
         return length_scale(self.geometry, self.lengths)
 
     @property
     def force_scale(self) -> float:
-        """E* h L [N] (thesis, eq. 4.13); of a line contact E* h [N/m]."""
+        """E* h L [N] (thesis, eq. 4.13); for a line contact, E* h [N/m]."""
         return self.rms * self.stiffness_scale
 
     @property
     def stiffness_scale(self) -> float:
-        """E* L [N/m] (thesis, eq. 4.8); of a line contact E* [N/m^2]."""
+        """E* L [N/m] (thesis, eq. 4.8); for a line contact, E* [N/m^2]."""
         return self.modulus * (1.0 if self.geometry is Geometry.LINE else self.length)
 
     @property
@@ -162,7 +160,7 @@ class Curve:
 
     @property
     def nominal_pressure(self) -> Array:
-        """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
+        """Force over the nominal area [Pa]; for a foundation of springs, over its length [N/m]."""
         return self.force / self.nominal_area
 
     @property
@@ -177,10 +175,10 @@ class Curve:
 
     @property
     def interfacial_stiffness_per_area(self) -> Array:
-        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; of a foundation over its length [N/m^2].
+        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; for a foundation, over its length [N/m^2].
 
-        What a joint has whatever its size. There is no such number of `stiffness`: on a free grid that contains the
-        compliance of the body under the map, whose part grows with the map.
+        It does not depend on the size of a joint. `stiffness` has no such value: on a free grid it contains the
+        compliance of the body under the map, and this part grows with the map.
         """
         return self.interfacial_stiffness / self.nominal_area
 
@@ -201,8 +199,8 @@ class Curve:
         Parameters
         ----------
         window : tuple of float, optional
-            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07 or, where
-            these span less than a decade and on lines, all resolved points.
+            Lowest and highest force [N]. By default the resolved points up to a dimensionless force of 0.07; all
+            resolved points if these span less than a decade, and on lines.
 
         Returns
         -------
@@ -212,8 +210,8 @@ class Curve:
         Raises
         ------
         ValueError
-            If the window is not a force and a larger one, fewer than three points lie in it, or the resolved points
-            span less than a decade of force.
+            If the window is not a force and a larger one, if fewer than three points lie in it, or if the resolved
+            points span less than a decade of force.
 
         Examples
         --------
@@ -255,7 +253,7 @@ class Curve:
         Parameters
         ----------
         quantity : str
-            Of this curve, such as ``"stiffness"``, ``"interfacial_stiffness"`` or ``"contact_area"``.
+            A quantity of this curve, such as ``"stiffness"``, ``"interfacial_stiffness"`` or ``"contact_area"``.
 
         Returns
         -------
@@ -276,11 +274,11 @@ class Curve:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What makes the curve doubtful as a whole, in sentences."""
+        """Reasons to doubt the curve as a whole, in sentences."""
         return methods.curve_notes(self)
 
     def __repr__(self) -> str:
-        """Say what the curve spans, not its numbers."""
+        """Return the range of the curve, without its arrays."""
         resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
         unit = unit_of("force", self.geometry)
         doubt = "".join(f"; {note.partition(':')[0]}" for note in self.notes[:1])
@@ -296,7 +294,7 @@ class Curve:
 
 
 CURVE_POINTS = stored_in(Curve, POINTS)
-"""What a curve takes over from each state; the other columns follow."""
+"""The columns that a curve takes from each state; the other columns follow from them."""
 
 
 @one_blas_thread()
@@ -330,7 +328,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         rms=float(np.std(on_host(problem.separation[problem.measured]))) if surface is None else surface.rms,
         periodic=problem.grid.periodic,
         cell_stiffness=cell_stiffness(problem.operator),
-        # A thousandth in the displacement is enough for a limit of nine tenths.
+        # An error of a thousandth in the displacement is small enough for a limit of nine tenths.
         full_contact_stiffness=full_contact_stiffness(problem),
         nominal_area=problem.grid.area,
         geometry=problem.geometry,

@@ -1,4 +1,4 @@
-"""What makes a curve doubtful as a whole: a contact that does not change, loads that follow no power law."""
+"""Reasons to doubt a curve as a whole: a contact that does not change, or loads that follow no power law."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.variables import unit_of
 
 if TYPE_CHECKING:
@@ -14,28 +15,28 @@ if TYPE_CHECKING:
 
 __all__ = ["curve_notes"]
 
-# Area grows as F^(2/(m + 1)) on a body z ~ r^m: with 1 on rough surfaces, 2/3 under a sphere, 0 under a flat punch. A
-# body of m = 39 is a punch.
+# The area grows as F^(2/(m + 1)) under a body z ~ r^m: the exponent is 1 for rough surfaces, 2/3 for a sphere and 0 for
+# a flat punch. A body of m = 39 is almost a punch.
 _FIXED = 0.05
 _SPAN = 2.0  # of force: a sphere of twenty cells gains twelve of them over it
-_MOST = 0.5  # of the nominal area: where more is in contact, little is left that could come into contact
+_MOST = 0.5  # of the nominal area in contact: beyond, little of the map is left to come into contact
 _SCATTER = 0.1  # of ln k about the power law
 
 
 def curve_notes(curve: Curve) -> tuple[str, ...]:
-    """Return what makes the numbers of a curve doubtful as a whole, the worst first.
+    """Return the reasons to doubt a curve as a whole, the worst first.
 
-    The same spots carry loads that differ by a factor of two or more, as a spike or a streak does; or the power law
-    scatters by more than a tenth.
+    The reasons are: the same spots carry loads that differ by a factor of two or more, as under a spike or a streak;
+    the power law scatters by more than a tenth.
     """
     notes = []
     if (ends := _fixed(curve)) is not None:
         unit = unit_of("force", curve.geometry)
-        low, high = (f"{float(curve.force[k]):.3g}" for k in ends)
+        low, high = (written(float(curve.force[k]), unit) for k in ends)
         spots = "1 spot carries" if curve.spots[ends[1]] == 1 else f"{curve.spots[ends[1]]} spots carry"
         notes.append(
-            f"The contact does not change from {low} to {high} {unit}: the same {spots} all of these loads, as under "
-            "a spike, a streak or a flat punch. Take faulty heights out by despiked() or masked()."
+            f"The contact does not change from {low} to {high}: the same {spots} all of these loads, as under "
+            "a spike, a streak or a flat punch. Remove faulty heights by despiked() or masked()."
         )
     try:
         law = curve.fit()
@@ -50,7 +51,7 @@ def curve_notes(curve: Curve) -> tuple[str, ...]:
 
 
 def _fixed(curve: Curve) -> tuple[int, int] | None:
-    """Return the resolved loads between which the contact does not grow, the widest range of such; None if none."""
+    """Return the ends of the widest range of resolved loads over which the contact does not grow, or None."""
     known = np.flatnonzero(curve.resolved & (curve.contact_fraction < _MOST) & (curve.force > 0))
     known = known[np.argsort(curve.force[known], kind="stable")]
     force, area = np.log(curve.force[known]), np.log(curve.contact_area[known])

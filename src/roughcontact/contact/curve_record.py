@@ -11,14 +11,14 @@ __all__ = ["CurvePoint"]
 
 @dataclass(frozen=True, slots=True)
 class CurvePoint:
-    """One load of a loading curve: ``curve[i]``, and what a loop over the curve yields.
+    """One load of a loading curve: ``curve[i]``, or an element of a loop over the curve.
 
     Attributes
     ----------
     force, depth, stiffness, interfacial_stiffness, contact_area, mean_gap, elastic_energy : float
-        [N], [m], [N/m], [N/m], [m^2], [m], [J]; as in `Curve`, on a line per unit length.
+        [N], [m], [N/m], [N/m], [m^2], [m], [J]; as in `Curve`, per unit length on a line.
     nominal_pressure, max_pressure, mean_pressure : float
-        Over all cells, of one cell, and over the contact area [Pa].
+        Mean over all cells, largest of a cell, and mean over the contact area [Pa].
     contact_fraction : float
         Relative real contact area A/A0.
     interfacial_stiffness_per_area : float
@@ -30,7 +30,7 @@ class CurvePoint:
     residual, stiffness_residual : float
         Certificates of the pressure and of the stiffness.
     resolved : bool
-        Whether the contact is larger than the one-cell artefact and below full contact, and is solved.
+        Whether the contact is larger than the one-cell artefact, below full contact, and solved to its tolerance.
     status : Status
         How the solve ended.
     plastic_area, flow_volume, flow_energy, unloading_stiffness, unloading_interfacial_stiffness : float or None

@@ -1,4 +1,4 @@
-"""Answers as labelled data: an `xarray.Dataset` for files and notebooks, a plain record for scripts."""
+"""Solutions and curves as labelled data: an `xarray.Dataset` for files and notebooks, a record for scripts."""
 
 from __future__ import annotations
 
@@ -50,9 +50,9 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     Returns
     -------
     xarray.Dataset
-        Every array of the curve is a variable along ``load``; the secant stiffness, which belongs to
-        pairs of neighbours, lies along ``interval``; the scales are variables without a dimension, or
-        along ``axis`` (y, then x). Each carries ``units`` and ``long_name``. On a line the units are per length.
+        Every array of the curve is a variable along ``load``; the secant stiffness, which belongs to pairs of
+        neighbours, lies along ``interval``; the scales are variables without a dimension, or along ``axis`` (y, then
+        x). Each variable carries ``units`` and ``long_name``. On a line the units are per length.
 
     Examples
     --------
@@ -76,8 +76,8 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them: it knows neither NaN nor infinity, and both become None.
-        Units stand once, under ``"units"``.
+        Numbers, texts and lists of them. JSON has neither NaN nor infinity, so both become None. Units stand once,
+        under ``"units"``.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def _of_curve(curve: Curve) -> Variables:
 
 
 def curve_dataframe(curve: Curve) -> pandas.DataFrame:
-    """Return a loading curve as a table of pandas: one row a load, in SI units.
+    """Return a loading curve as a table of pandas: one row for each load, in SI units.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ def curve_dataframe(curve: Curve) -> pandas.DataFrame:
     Returns
     -------
     DataFrame
-        Columns by the names of the quantities, with ``resolved`` and ``status``; units by column stand in
-        ``attrs["units"]``.
+        Columns have the names of the quantities, and there are ``resolved`` and ``status``; ``attrs["units"]`` holds
+        the unit of each column.
 
     Examples
     --------
@@ -156,7 +156,7 @@ def solution_dataset(solution: Solution) -> xarray.Dataset:
 
 
 def solution_maps(solution: Solution) -> dict[str, Any]:
-    """Return the fields of one loaded state, wherever they are, by their names in a dataset."""
+    """Return the fields of one loaded state, on their devices, by their names in a dataset."""
     surface = solution.problem.surface
     maps = {name: getattr(solution, name) for name in names_of(MAPS)}
     if solution.flow is not None:
@@ -167,7 +167,7 @@ def solution_maps(solution: Solution) -> dict[str, Any]:
 
 
 def numbers_dataset(solution: Solution, maps: Mapping[str, Any] = MappingProxyType({})) -> xarray.Dataset:
-    """Return one loaded state as a dataset of such variables for its fields: without, of its numbers alone."""
+    """Return one loaded state as a dataset of its numbers, with `maps` as the variables of its fields."""
     grid, kind, spots = solution.problem.grid, solution.problem.geometry, solution.spots
     data = variables_of(spots, SPOTS, kind, {"spot_area": "areas", "spot_load": "loads"})
     spot = (("spot",), np.arange(1, spots.count + 1), {"long_name": "number of the spot"})
@@ -178,9 +178,9 @@ def numbers_dataset(solution: Solution, maps: Mapping[str, Any] = MappingProxyTy
 
 
 def solution_record(solution: Solution) -> dict[str, Any]:
-    """Return the scalars of one loaded state as plain numbers and words that JSON can hold.
+    """Return the scalars of one loaded state as plain numbers and words, for JSON.
 
-    Units stand once, under ``"units"``. JSON knows neither NaN nor infinity: both become None.
+    Units stand once, under ``"units"``. JSON has neither NaN nor infinity: both become None.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them.
+        Numbers, texts and lists of them.
 
     Examples
     --------

@@ -1,10 +1,9 @@
-"""What has flowed: the plastic part of a contact, kept for every load below the largest.
+"""Plastic flow: the permanent part of a contact, kept for every load below the largest.
 
-Where the pressure is at the hardness H the flat stands below the undeformed surface: that overlap f is the depth of
-flow. The flattened surface h - f touches the flat under the same pressure at the same place, so that it is the contact
-of an elastic body. As the load grows every pressure grows, and every overlap with it (a kernel with a maximum
-principle). So the state at a load on the way up depends on that load alone, and no load below it makes the flattened
-surface flow again.
+Where the pressure equals the hardness H, the flat stands below the undeformed surface: this overlap f is the depth of
+flow. The flattened surface h - f touches the flat under the same pressure at the same place, so that it is in elastic
+contact. As the load grows, every pressure and every overlap grow (a kernel with a maximum principle). Therefore a state
+of first loading depends only on its load, and no smaller load makes the flattened surface flow again.
 """
 
 from __future__ import annotations
@@ -25,31 +24,31 @@ from roughcontact.validation import Array, Mask
 __all__ = ["Flow", "FlowModel", "flow_of", "flow_reading", "lifting_work"]
 
 FlowModel: TypeAlias = Literal["removed", "raised"]
-"""Where material that flows goes: it vanishes, or raises the whole surface (Pullen and Williamson 1972)."""
+"""What happens to material that flows: it vanishes, or raises the whole surface (Pullen and Williamson 1972)."""
 
 AnyBody = TypeVar("AnyBody", Surface, RadialProfile, Surface | RadialProfile)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Flow:
-    """What a surface has lost and gained by plastic flow.
+    """The change of a surface by plastic flow.
 
     Attributes
     ----------
     depth : array, shape of the grid
         Depth of flow f of each cell [m], zero where nothing flowed.
     hardness : float or array, shape of the grid
-        Pressure at which they did [Pa].
+        Pressure at which the cells flow [Pa].
     area : float
-        Area of the cells that flowed [m^2]; on a line [m].
+        Area of the cells that flowed [m^2]; [m] on a line.
     volume : float
-        Volume that flowed, the sum of f dA [m^3]; on a line [m^2].
+        Volume that flowed, the sum of f dA [m^3]; [m^2] on a line.
     energy : float
-        Work that first loading spent on flow, the sum of H f dA [J]; on a line [J/m]. Where the whole surface rises,
-        less the work by which the rise lifts the force, an integral over the loads of the path; NaN where these are too
-        few for a hundredth of the energy.
+        Work that first loading spent on flow, the sum of H f dA [J]; [J/m] on a line. If the whole surface rises, the
+        work of the rise against the force is subtracted. This is an integral over the loads of the path; the energy is
+        NaN if they are too few for an error below a hundredth.
     rise : float
-        By how much the whole surface rises where volume is conserved [m]; 0 where material vanishes.
+        Rise of the whole surface if volume is conserved [m]; 0 if material vanishes.
 
     Examples
     --------
@@ -68,23 +67,23 @@ class Flow:
     rise: float = 0.0
 
     def flatten(self, surface: AnyBody) -> AnyBody:
-        """Return a surface without what flowed, and raised by where it went.
+        """Return a surface without the material that flowed, raised by `rise`.
 
         Parameters
         ----------
         surface : Surface or RadialProfile
-            The one that was pressed; or, of two that were pressed as one (`combined`), the softer of them on the same
+            The surface that was pressed; or, if two were pressed as one (`combined`), the softer of them on the same
             grid, to which the flow belongs.
 
         Returns
         -------
         Surface or RadialProfile
-            With a line more in its provenance.
+            With one more line in its provenance.
 
         Raises
         ------
         ValueError
-            If it lies on another grid.
+            If the surface lies on another grid.
 
         Examples
         --------
@@ -96,9 +95,9 @@ class Flow:
         """
         if tuple(surface.heights.shape) != tuple(self.depth.shape):
             raise InputError(
-                f"what flowed on cells of shape {tuple(self.depth.shape)} is not of a surface of shape "
+                f"the flow is that of a grid of shape {tuple(self.depth.shape)}, not of a surface of shape "
                 f"{tuple(surface.heights.shape)}",
-                "bring it onto the grid that was pressed by resampled()",
+                "bring the surface onto the grid that was pressed by resampled()",
             )
         xp = namespace(surface.heights)
         heights = xp.astype(surface.heights, xp.float64) - self.depth + self.rise
@@ -108,7 +107,7 @@ class Flow:
         return replace(surface, heights=heights, provenance=(*surface.provenance, line))
 
     def on_host(self) -> Flow:
-        """Return the same in NumPy's memory.
+        """Return the flow in NumPy's memory.
 
         Returns
         -------
@@ -127,7 +126,7 @@ class Flow:
         return replace(self, depth=on_host(self.depth), hardness=hardness)
 
     def __repr__(self) -> str:
-        """Say how much flowed, not the field."""
+        """Return the volume, energy and largest depth, without the field."""
         most = float(namespace(self.depth).max(self.depth))
         return f"Flow(volume {self.volume:.4g}, energy {self.energy:.4g}, up to {most:.4g} m deep)"
 
@@ -140,7 +139,7 @@ def flow_of(
     rise: float = 0.0,
     lifting: float = 0.0,
 ) -> Flow:
-    """Return what has flowed where the cells that are `plastic` have a negative gap [m], less the work of its rise."""
+    """Return the flow of the `plastic` cells, from their negative gap [m]; the work of its rise is subtracted."""
     depth = measure.xp.where(plastic & (gap < 0), -gap, 0.0)
     if is_numpy(depth):
         depth.flags.writeable = False
@@ -149,11 +148,11 @@ def flow_of(
 
 
 def lifting_work(loads: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Return the work of a rise against a force, both growing from zero: the integral of F dr [J], and its error.
+    """Return the work of a rise against a force, both growing from zero: the integral of F dr [J] and its error.
 
-    Between two loads, of a force and a rise, the rise is a cubic polynomial of the force, whose slopes are differences.
-    The error is by how much that is more than a straight line. Fewer than three loads give no such slopes: the error is
-    then bounded by the rise, which grows with the force.
+    Between two loads (a force and a rise each) the rise is a cubic polynomial of the force, whose slopes are finite
+    differences. The error is the difference from straight lines. Fewer than three loads give no such slopes: the error
+    is then bounded because the rise grows with the force.
     """
     force, rise = np.array([(0.0, 0.0), *loads]).T
     chords, steps = float(np.trapezoid(force, rise)), np.diff(force)
@@ -164,7 +163,7 @@ def lifting_work(loads: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 
 def flow_reading(flow: str) -> bool:
-    """Return whether a reading of flow raises the surface; refuse what is none."""
+    """Return whether `flow` raises the surface; raise an error if it is neither 'removed' nor 'raised'."""
     if flow not in ("removed", "raised"):
         raise about("flow", f"must be 'removed' or 'raised', not {flow!r}")
     return flow == "raised"

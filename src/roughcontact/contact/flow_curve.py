@@ -1,4 +1,4 @@
-"""What flows along a loading curve, and the stiffness that unloading from each of its loads would have."""
+"""Plastic flow along a loading curve, and the stiffness of unloading from each of its loads."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ __all__ = ["FlowCurve", "flow_curve", "flow_point"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlowCurve:
-    """Flow at each load of a curve; on unloading and reloading nothing flows, and what has flowed stays.
+    """Plastic flow at each load of a curve; on unloading and reloading it stays as it is.
 
     Attributes
     ----------
     plastic_area : array, shape (n,)
-        Area of the cells that flow at this load, whose pressure is the hardness [m^2].
+        Area of the cells that flow at this load: those whose pressure is the hardness [m^2].
     flow_volume : array, shape (n,)
         Volume that has flowed [m^3].
     flow_energy : array, shape (n,)
         Work that first loading spent on flow [J], see `Flow`.
     unloading_stiffness, unloading_interfacial_stiffness : array, shape (n,)
         ``stiffness`` and ``interfacial_stiffness`` of `Curve` as the load is reduced, to which all cells in contact
-        answer [N/m].
+        contribute [N/m].
 
     Examples
     --------
@@ -48,7 +48,7 @@ class FlowCurve:
 
 
 def flow_point(solution: Solution) -> tuple[float, ...]:
-    """Return the numbers of one load, in the order of the fields; none without a hardness."""
+    """Return the numbers of one load, in the order of the fields; empty without a hardness."""
     flow = solution.flow
     if flow is None:
         return ()
@@ -58,5 +58,5 @@ def flow_point(solution: Solution) -> tuple[float, ...]:
 
 
 def flow_curve(points: Sequence[tuple[float, ...]]) -> FlowCurve | None:
-    """Return the numbers of all loads; None where there is no flow."""
+    """Return the numbers of all loads; None without a hardness."""
     return FlowCurve(*np.array(points).T) if points and points[0] else None

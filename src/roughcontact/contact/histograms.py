@@ -1,4 +1,4 @@
-"""Distributions of the pressure in contact and of the gap beside it; `Solution` has them as its methods."""
+"""Distributions of the pressure in contact and of the gap outside it; methods of `Solution`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["gap_histogram", "pressure_histogram"]
 def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     """Return the distribution of the pressure over the contact area.
 
-    Cells count by their area.
+    Cells are weighted by their area.
 
     Parameters
     ----------
@@ -27,14 +27,14 @@ def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array
     Returns
     -------
     density : array, shape (bins,)
-        Probability density [1/Pa]; on springs [m/N].
+        Probability density [1/Pa]; [m/N] on springs.
     edges : array, shape (bins + 1,)
-        Edges of the bins [Pa]; on springs [N/m].
+        Edges of the bins [Pa]; [N/m] on springs.
 
     Raises
     ------
     ValueError
-        If there is not a bin.
+        If there is no bin.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def pressure_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array
 def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     """Return the distribution of the gap over the cells that are not in contact.
 
-    Cells count by their area.
+    Cells are weighted by their area.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def gap_histogram(solution: Solution, bins: int = 50) -> tuple[Array, Array]:
     Raises
     ------
     ValueError
-        If there is not a bin.
+        If there is no bin.
 
     Examples
     --------
@@ -88,7 +88,7 @@ def _density(solution: Solution, field: Array, mask: Mask, bins: int) -> tuple[A
         raise InputError(f"a histogram needs at least one bin, not {bins}")
     chosen = on_host(mask).astype(bool)
     values, areas = on_host(field)[chosen], solution.problem.measure.on(np.flatnonzero(chosen))
-    values = np.maximum(values, 0.0)  # a gap that is but rounding may be below
+    values = np.maximum(values, 0.0)  # a gap within rounding may be negative
     if not values.size:
         return np.zeros(int(bins)), np.linspace(0.0, 1.0, int(bins) + 1)
     end = float(values.max()) or 1.0

@@ -1,4 +1,4 @@
-"""Two loading curves of one contact, computed one after the other, as one."""
+"""Two loading curves of one contact, joined into one."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _COLUMNS = (*CURVE_POINTS, *names_of(CERTIFICATES), "spots")
 
 
 def part_of(curve: Curve, chosen: Mask) -> Curve:
-    """Return some loads of an elastic curve, those where `chosen`, of shape (n,), is true."""
+    """Return the loads of an elastic curve where `chosen`, shape (n,), is true."""
     status = tuple(each for each, kept in zip(curve.status, chosen, strict=True) if kept)
     columns: dict[str, Any] = {name: getattr(curve, name)[chosen] for name in _COLUMNS}
     return replace(curve, **columns, status=status)
@@ -28,22 +28,22 @@ def part_of(curve: Curve, chosen: Mask) -> Curve:
 def joined(first: Curve, second: Curve) -> Curve:
     """Return the loads of two elastic curves of one contact in the order of their depths.
 
-    Elastic states do not depend on the loads before them, so that curves may be computed in parts.
+    Elastic states do not depend on the loads before them, so a curve can be computed in parts.
 
     Parameters
     ----------
     first, second : Curve
-        Of one surface under one modulus.
+        Curves of one surface and one modulus.
 
     Returns
     -------
     Curve
-        With the loads of both.
+        The loads of both.
 
     Raises
     ------
     InputError
-        If the curves differ in anything but their loads, or something flows along them.
+        If the curves differ in more than their loads, or something flows along them.
 
     Examples
     --------

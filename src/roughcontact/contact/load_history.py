@@ -1,4 +1,4 @@
-"""Loads up and down: what flows is kept, and the surface is elastic up to the largest load so far."""
+"""Loads up and down: flow is kept, and the surface is elastic up to the largest load so far."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ KNOWN = 1e-2  # of the energy of flow: the error of the work of a rise
 def follow_history(
     problem: ContactProblem, controls: list[Control], solver: Solver, *, raises: bool = False
 ) -> Iterator[Solution]:
-    """Yield the solution under one control after the other, up and down.
+    """Yield the solutions under a sequence of controls, up and down.
 
-    What flowed under a load that missed its tolerance is kept until a larger load follows. The states below that load
-    are those of a surface that is not known to the tolerance; their status is ``AFTER_MISSED``.
+    The flow under a load that missed its tolerance is kept until a larger load follows. The surface below that load is
+    therefore not accurate to the tolerance; the status of its states is ``AFTER_MISSED``.
 
     Parameters
     ----------
     problem : ContactProblem
-        Of the surface as it was, under a hardness.
+        The original surface, under a hardness.
     controls : list of Force or Depth
         In any order.
     solver : Solver
     raises : bool
-        Whether what flows raises the whole surface.
+        Whether flow raises the whole surface.
     """
     subdomains = SubdomainSolver(problem.operator)
     top: Solution | None = None
@@ -51,13 +51,13 @@ def follow_history(
         turn = shown.flattened
         elastic = turn.problem
         for solution in follow(elastic, _reachable(elastic, run), solver, start=turn, subdomains=subdomains):
-            # What flowed is known no better than the load that made it flow.
+            # Flow is no more accurate than the load that caused it.
             doubtful = solution.status.converged and not turn.status.converged
             yield replace(solution, status=Status.AFTER_MISSED) if doubtful else solution
 
 
 def _runs(controls: list[Control]) -> Iterator[tuple[bool, list[Control]]]:
-    """Yield the loads in runs: whether they go beyond all loads before, and which they are."""
+    """Yield the loads in runs: whether a run exceeds all loads before it, and its loads."""
     largest, marked = -1.0, []
     for control in controls:
         marked.append((control.value > largest, control))
@@ -67,7 +67,7 @@ def _runs(controls: list[Control]) -> Iterator[tuple[bool, list[Control]]]:
 
 
 def _reachable(problem: ContactProblem, controls: list[Control]) -> list[Control]:
-    """Return depths, none beyond full contact, which is known to the tolerance only."""
+    """Return depths, limited to full contact, which is known only to the tolerance."""
     if not problem.semidefinite or problem.missing:
         return controls
     mean = problem.mean_separation
@@ -75,9 +75,9 @@ def _reachable(problem: ContactProblem, controls: list[Control]) -> list[Control
 
 
 def _raised(solution: Solution, lighter: list[tuple[float, float]]) -> Solution:
-    """Return a state of first loading on the surface that what has flowed raises as a whole; depths count as before.
+    """Return a state of first loading on the surface that flow has raised as a whole; depths count as before.
 
-    The work of the rise is that of the forces and rises of lighter loads; NaN where these are too few.
+    The work of the rise follows from the forces and rises of lighter loads; it is NaN if these are too few.
     """
     flow, problem = solution.flow, solution.problem
     if flow is None or not flow.volume:

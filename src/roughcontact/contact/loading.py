@@ -40,43 +40,43 @@ def loading_path(
     hardness: Hardness | None = None,
     flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
-    """Yield the solution of every load, in order; each starts from the one before, if that met its tolerance.
+    """Yield the solution at each load, in order; each solve starts from the load before, if that met its tolerance.
 
-    For surfaces that attract each other see `adhesive_path`.
+    For surfaces that attract each other, see `adhesive_path`.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     forces, depths, pressures : array, shape (n,)
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
         order. Without any, 24 forces that suit the surface, see `load_range`.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`.
+        A body other than the half-space on the surface's grid, see `press`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
     hardness : float, array, function, Material or str, optional
-        Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
-        is the elastic one of the flattened surface.
+        Pressure that no cell exceeds [Pa], see `press`. Flow is kept: up to the largest load so far, the contact is the
+        elastic contact of the flattened surface.
     flow : {"removed", "raised"}
-        Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
-        volume conserved (Pullen and Williamson 1972), which changes the depth alone.
+        What happens to material that flows: it vanishes, or raises the whole surface evenly over all measured cells,
+        its volume conserved (Pullen and Williamson 1972), which changes only the depth.
 
     Yields
     ------
     Solution
-        With its stiffness computed. The `status` of a load that missed its tolerance says so. Under a hardness, the
-        smaller loads after it have the status ``Status.AFTER_MISSED``: the flow is kept, and is not known to the
-        tolerance until a larger load follows.
+        With its stiffness computed. Check `status`: a load may miss its tolerance. Under a hardness, the smaller loads
+        after it have the status ``Status.AFTER_MISSED``: the flow is kept, and is not accurate to the tolerance until a
+        larger load follows.
 
     Raises
     ------
     ValueError
-        If the input makes no sense, at once and not at the first load.
+        If the input makes no sense; raised by the call, before the first load.
 
     Examples
     --------
@@ -106,34 +106,34 @@ def loading_curve(
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
 
-    For surfaces that attract each other see `adhesive_curve`.
+    For surfaces that attract each other, see `adhesive_curve`.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     forces, depths, pressures : array, shape (n,)
         At most one: strictly increasing forces [N], depths [m] or nominal pressures [Pa]; under a hardness in any
         order. Without any, 24 forces that suit the surface, see `load_range`.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`.
+        A body other than the half-space on the surface's grid, see `press`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual of each load.
     hardness : float, array, function, Material or str, optional
-        Pressure that no cell exceeds [Pa], see `press`. What flows is kept: up to the largest load so far the contact
-        is the elastic one of the flattened surface.
+        Pressure that no cell exceeds [Pa], see `press`. Flow is kept: up to the largest load so far, the contact is the
+        elastic contact of the flattened surface.
     flow : {"removed", "raised"}
-        Where material that flows goes: it vanishes, or raises the whole surface evenly over all measured cells, its
-        volume conserved (Pullen and Williamson 1972), which changes the depth alone.
+        What happens to material that flows: it vanishes, or raises the whole surface evenly over all measured cells,
+        its volume conserved (Pullen and Williamson 1972), which changes only the depth.
 
     Returns
     -------
     Curve
-        One point for each load, marked where a load missed its tolerance; fields are not kept, see `loading_path`.
+        One point for each load, with its status; fields are not kept, see `loading_path`.
 
     Raises
     ------
@@ -162,17 +162,17 @@ def solutions_along(
     hardness: Hardness | None = None,
     flow: FlowModel = "removed",
 ) -> Iterator[Solution]:
-    """Yield the solution of every load, see `loading_path`; without loads, under 24 forces that suit the surface.
+    """Yield the solution at each load, see `loading_path`; without loads, at 24 forces that suit the surface.
 
     Raises
     ------
     ValueError
-        If the input makes no sense, at once and not at the first load.
+        If the input makes no sense; raised by the call, before the first load.
     """
     raises, keeps = flow_reading(flow), hardness is not None
     if raises and loads is not None and loads.kind == "depth":
         raise InputError(
-            "depths cannot be named where the surface rises as it flows", "give forces or pressures"
+            "depths cannot be prescribed if the surface rises as it flows", "give forces or pressures"
         )
     loads = loads or suitable(surface, modulus, operator, hardness)
     if not keeps:
@@ -182,7 +182,7 @@ def solutions_along(
         surface, modulus, controls[0], operator, tolerance=tolerance, hardness=hardness, curve=True
     )
     for control in controls[1:]:
-        problem.under(control)  # what cannot be asked for is refused before the first load is solved
+        problem.under(control)  # an impossible load raises an error before the first one is solved
     method = solver or ActiveSet()
     path = follow(problem, controls, method)
     if keeps:

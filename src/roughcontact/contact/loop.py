@@ -1,4 +1,4 @@
-"""A whole loop of loads: first loading, along which the surface flows, then unloading and reloading, both elastic."""
+"""A loop of loads: first loading, during which the surface flows, then elastic unloading and reloading."""
 
 from __future__ import annotations
 
@@ -37,18 +37,18 @@ class Loop:
     Attributes
     ----------
     loading : Curve
-        First loading, up to the largest load; what flows there is ``loading.flow``.
+        First loading, up to the largest load; ``loading.flow`` is its flow.
     unloading, reloading : Curve
-        From the largest load down to the least, and up again, on the flattened surface: its stiffness is that of all
-        cells in contact. Depths count from the first touch of the surface as it was.
+        From the largest load down to the smallest, and up again, on the flattened surface; all cells in contact
+        contribute to the stiffness. Depths count from the first touch of the original surface.
     surface : Surface or RadialProfile
-        As it was.
+        The original surface.
     flattened : Surface or RadialProfile
-        After the largest load, with its provenance.
+        The surface after the largest load, with its provenance.
     flow : Flow
-        What has flowed at the largest load.
+        The flow at the largest load.
     residual_depth : float
-        Depth at which the flattened surface is touched without force [m]: what stays of the approach.
+        Depth at which the flattened surface is touched without force [m]: the permanent part of the approach.
     residual_gap : float
         Mean gap of the flattened surface at that touch [m].
 
@@ -88,24 +88,24 @@ class Loop:
 
     @property
     def dissipated_work(self) -> float:
-        """Work of loading that unloading does not give back [J]: the area of the loop, the energy of flow.
+        """Work of loading that unloading does not return [J]: the area of the loop, equal to the energy of flow.
 
-        NaN if the surface rises and the loads are too few for the work by which it lifts them, see `Flow`.
+        NaN if the surface rises and the loads are too few for the work of the rise, see `Flow`.
         """
         return self.flow.energy
 
     @property
     def work(self) -> float:
-        """Work of first loading [J]: the elastic energy at the largest load, and what is dissipated."""
+        """Work of first loading [J]: the elastic energy at the largest load plus the dissipated work."""
         return float(self.loading.elastic_energy[-1]) + self.dissipated_work
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What makes first loading doubtful, in sentences: unloading follows no power law on any rough surface."""
+        """Reasons to doubt first loading, in sentences. Unloading has no notes: it never follows a power law."""
         return self.loading.notes
 
     def __repr__(self) -> str:
-        """Say what the loop spans, not its numbers."""
+        """Return the range of the loop, without its arrays."""
         unit = unit_of("force", self.loading.geometry)
         return (
             f"Loop({len(self.loading)} loads up to {self.loading.force[-1]:.4g} {unit}, residual depth "
@@ -139,16 +139,16 @@ def loading_loop(
     surface : Surface or RadialProfile
         Heights [m], see `press`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     hardness : float, array, function, Material or str
-        Pressure that no cell exceeds [Pa], see `press`: of the softer body.
+        Pressure that no cell exceeds [Pa]: the hardness of the softer body, see `press`.
     forces, pressures : array, shape (n,)
         At most one: strictly increasing forces [N] or nominal pressures [Pa], of which the last is the largest load.
-        Unloading and reloading take the same ones. Without any, 24 forces that suit the surface, see `load_range`.
+        Unloading and reloading use the same loads. Without any, 24 forces that suit the surface, see `load_range`.
     flow : {"removed", "raised"}
-        Where material that flows goes, see `loading_path`.
+        What happens to material that flows, see `loading_path`.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid, see `press`.
+        A body other than the half-space on the surface's grid, see `press`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
@@ -157,7 +157,7 @@ def loading_loop(
     Returns
     -------
     Loop
-        Three curves, the flattened surface, and what has flowed.
+        Three curves, the flattened surface, and the flow.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def loads_of_loop(loads: Loads) -> Loads:
 
 
 def collect_loop(path: Iterator[Solution], count: int) -> Loop:
-    """Drain a path of loads, up, down and up again, into a loop; fields are not kept, but for those at the turn."""
+    """Drain a path of loads, up, down and up again, into a loop; only the fields at the largest load are kept."""
     turn: list[Solution] = []
 
     def watched() -> Iterator[Solution]:

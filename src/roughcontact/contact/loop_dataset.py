@@ -42,7 +42,7 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
     Returns
     -------
     xarray.Dataset
-        Variables with units and long names; ``branch`` says to which branch a load belongs.
+        Variables with units and long names; ``branch`` names the branch of each load.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
     import xarray
 
     kind, grid = loop.loading.geometry, loop.surface.grid
-    # What lies between two loads has no place where branches meet; scales and titles are those of first loading.
+    # Values between two loads are dropped because branches meet; scales and titles are those of first loading.
     branches = [curve_dataset(curve).drop_dims("interval") for curve in loop.curves.values()]
     along = [name for name, values in branches[0].items() if values.dims == ("load",)]
     loads = xarray.concat([each[along] for each in branches], "load")
@@ -70,7 +70,7 @@ def loop_dataset(loop: Loop) -> xarray.Dataset:
 
 
 def loop_record(loop: Loop) -> dict[str, Any]:
-    """Return the numbers as plain values, for JSON: a record of each branch, and what they have in common.
+    """Return the numbers as plain values, for JSON: a record of each branch, and the numbers of the loop.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def loop_record(loop: Loop) -> dict[str, Any]:
     Returns
     -------
     dict
-        Numbers, texts and lists of them, as JSON takes them.
+        Numbers, texts and lists of them.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The memory that a load or a curve takes at its peak, from measured bytes per cell, before it is tried."""
+"""The peak memory of a load or a curve before it is computed, from measured bytes per cell."""
 
 from __future__ import annotations
 
@@ -20,11 +20,12 @@ from roughcontact.validation import shown
 
 __all__ = ["largest_maps", "memory_needed", "require_memory_for"]
 
-# Bytes per cell beside the heights: of a load on few cells and of the heaviest, and of a curve likewise. They depend on
-# the geometry, and on whether a constant pressure moves nothing: then all cells are solved for, however light the load.
-# Those of rings are for each pair of rings, since their matrix is full. `benchmarks/memory.py` measures them on maps of
-# 512 x 512 and 2048 x 2048 cells, and lines of up to 640 000. A lower bound is rounded down, since what works must not
-# be refused: every load writes 9 bytes, the separation and the mask of missing cells.
+# Bytes per cell in addition to the heights: for a load on few cells and for the heaviest load, and the same for a
+# curve. They depend on the geometry, and on whether a constant pressure causes no displacement: then all cells are
+# solved for, even under a light load. For rings they are bytes per pair of rings, because the matrix is full.
+# `benchmarks/memory.py` measures them on maps of 512 x 512 and 2048 x 2048 cells, and lines of up to 640 000. Lower
+# bounds are rounded down, because a load that fits must not be refused. Every load writes at least 9 bytes: the
+# separation and the mask of missing cells.
 BYTES = {
     (Geometry.SURFACE, False): (9, 95, 60, 155),
     (Geometry.SURFACE, True): (40, 75, 45, 105),
@@ -38,12 +39,12 @@ BYTES = {
 def memory_needed(
     surface: Body | AnyGrid, *, operator: Operator | None = None, curve: bool = False
 ) -> tuple[int, int]:
-    """Return the memory that a load takes at its peak, beside the surface: of a light one, and in full contact.
+    """Return the peak memory of a load in addition to the surface: of a light load, and in full contact.
 
     Parameters
     ----------
     surface : Surface, RadialProfile, Grid or RadialGrid
-        What is pressed, or its grid.
+        The surface, or its grid.
     operator : Operator, optional
         The body, if it is not the half-space.
     curve : bool
@@ -52,18 +53,18 @@ def memory_needed(
     Returns
     -------
     tuple of int
-        The least that any load takes, and the most [bytes]; of a surface in slabs those of this process. Python and
-        its libraries take some 150 MB beside it.
+        The smallest and the largest memory of a load [bytes]; for a surface in slabs, those of this process. Python and
+        its libraries take about 150 MB more.
 
     Raises
     ------
     ValueError
-        If this is neither a surface nor a grid.
+        If `surface` is neither a surface nor a grid.
 
     Notes
     -----
-    A table of measured bytes per cell, see docs/how-to/memory.md. The second number contains up to 64 MB for arrays
-    that are kept for the next load and for a matrix of few cells in contact.
+    The numbers come from a table of measured bytes per cell, see docs/how-to/memory.md. The second one contains up to
+    64 MB for arrays that are kept for the next load and for the matrix of a contact of few cells.
 
     Examples
     --------
@@ -90,7 +91,7 @@ def memory_needed(
 
 
 def largest_maps(memory: float) -> tuple[int, int]:
-    """Return the cells a side of free square maps that fit a memory [bytes]: for light loads, and in full contact."""
+    """Return the cells per side of free square maps that fit a memory [bytes]: for light loads, in full contact."""
     light, full, *_ = BYTES[Geometry.SURFACE, False]
     heights = 8  # bytes of a cell
     return math.isqrt(int(memory / (light + heights))), math.isqrt(
@@ -99,7 +100,7 @@ def largest_maps(memory: float) -> tuple[int, int]:
 
 
 def require_memory_for(surface: Body, operator: Operator | None = None, *, curve: bool = False) -> None:
-    """Refuse a load, or a curve, for which the memory never suffices; warn where a heavy one may not fit.
+    """Raise an error if no load or curve fits into memory; warn if a heavy load may not fit.
 
     Raises
     ------
@@ -116,7 +117,7 @@ def require_memory_for(surface: Body, operator: Operator | None = None, *, curve
     if not in_slabs:
         require_memory(light, full, what, remedy)
         return
-    # Several processes may share a machine: all of them refuse what does not fit one machine.
+    # Several processes may share a machine: all of them raise the error if one machine has too little memory.
     communicator, machine = heights.functions.communicator, platform.node()
     needed_by_all = communicator.allgather((machine, light, full))
     here = [needed for name, *needed in needed_by_all if name == machine]

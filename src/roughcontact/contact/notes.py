@@ -1,4 +1,4 @@
-"""What a reader of the numbers of a contact should know, and what an engineer would question in them."""
+"""Notes on the numbers of a contact: their limits, and doubtful input."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import numpy as np
 from roughcontact.arrays import is_numpy
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
+from roughcontact.labels.variables import unit_of
 from roughcontact.materials import MATERIALS
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
@@ -18,14 +20,14 @@ from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 
 __all__ = ["notes_on"]
 
-STRAINED = 0.5  # of the reduced modulus: a pressure beyond is a matter for another theory
-ABOVE = 0.2  # of the contact, above the hardness: with less, area and stiffness change by less than a tenth
-BEYOND = 1e-3  # of the hardness, on unloading: more than what a tolerance leaves open
-EDGE = 0.01  # of the force, on the outermost cells: below, what lies beyond them changes no number by more
+STRAINED = 0.5  # of the reduced modulus: small-strain elasticity does not hold at larger pressures
+ABOVE = 0.2  # of the contact area, above the hardness: below, area and stiffness change by less than a tenth
+BEYOND = 1e-3  # of the hardness, exceeded on unloading: more than the tolerance allows
+EDGE = 0.01  # of the force, on the outermost cells: below, a larger map would change each number by less
 
 
 def notes_on(solution: Solution) -> Iterator[Note]:
-    """Yield what is to be said of a solution."""
+    """Yield the notes on a solution."""
     count, problem = solution.problem.measure.xp.count_nonzero, solution.problem
     yielding, in_contact = int(count(solution.pressure >= problem.hardness)), int(count(solution.contact))
     if not solution.status.converged:
@@ -36,13 +38,13 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     elif in_contact and not solution.resolved_from_below:
         line = problem.geometry is Geometry.LINE
         small = f"narrower than {CELLS} cells" if line else f"less stiff than {CELLS} cells"
-        text = f"Not resolved: the contact is {small}, so that the grid sets the stiffness, not the surface."
+        text = f"Not resolved: the contact is {small}, and its stiffness depends on the grid, not on the surface."
         yield Note(Rank.WRONG, text)
     if yielding:
         yield Note(
             Rank.LIMITED,
-            f"{yielding} of {in_contact} cells in contact are at the hardness: they are plastic, and the stiffness is "
-            "that of the others.",
+            f"{yielding} of {in_contact} cells in contact are at the hardness: they are plastic, and only the others "
+            "contribute to the stiffness.",
         )
     yield from _of_hardness(solution)
     yield from _of_flow(solution)
@@ -50,17 +52,17 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     yield from _of_input(solution)
     if solution.missing:
         hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"
-        yield Note(Rank.USUAL, f"{hold} no height: kept out of contact.")
+        yield Note(Rank.USUAL, f"{hold} no height and cannot come into contact.")
     if solution.edge_share >= EDGE and problem.surface is not None:
         yield Note(
             Rank.USUAL,
             f"Contact reaches the edge of the map, whose cells carry {100 * solution.edge_share:.2g} % of the force: "
-            "what lies beyond it would carry load too.",
+            "the surface beyond the map would carry load as well.",
         )
 
 
 def _of_hardness(solution: Solution) -> Iterator[Note]:
-    """Yield what is wrong with an elastic contact of a metal that would flow."""
+    """Yield a note if an elastic contact exceeds the hardness of a metal."""
     problem, softer = solution.problem, solution.problem.softer
     is_elastic = not problem.plastic and problem.flow is None and problem.geometry is not Geometry.FOUNDATION
     if softer is None or not is_elastic or not solution.contact_area:
@@ -70,7 +72,7 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
         given = repr(softer.name) if softer.name in MATERIALS else f"{softer.hardness:.4g}"
         yield Note(
             Rank.WRONG,
-            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {softer.hardness / 1e9:.3g} GPa "
+            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {written(softer.hardness, 'Pa')} "
             f"(the largest pressure is {solution.max_pressure / softer.hardness:.2g} times the hardness): "
             f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given} "
             "for first loading; for a joint that was pressed before, compute unloading by loading_loop.",
@@ -78,55 +80,56 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
 
 
 def _of_flow(solution: Solution) -> Iterator[Note]:
-    """Yield what there is to say where a flattened surface bears more than the pressure that flattened it."""
+    """Yield a note if the energy of flow is unknown, or a flattened surface bears more than its hardness."""
     flow = solution.flow
     if flow is not None and math.isnan(flow.energy):
         yield Note(
             Rank.LIMITED,
-            "The energy of flow is not known, because the loads are too few for the work by which the rise of the "
-            "surface lifts the force: give more loads between zero and the largest.",
+            "The energy of flow is unknown, because the loads are too few for the work of the rise of the surface "
+            "against the force: give more loads between zero and the largest.",
         )
     elif flow is not None and solution.problem.flow is not None:
         beyond = float(solution.problem.measure.xp.max(solution.pressure / flow.hardness)) - 1
         if beyond > BEYOND:
             yield Note(
                 Rank.LIMITED,
-                f"On the flattened surface the largest pressure is {beyond:.1e} of the hardness beyond it: on these "
-                "cells unloading is not quite elastic.",
+                f"On the flattened surface the largest pressure exceeds the hardness by {beyond:.1e} of it: unloading "
+                "is not quite elastic there.",
             )
 
 
 def _of_two_sides(solution: Solution, touching: int) -> Iterator[Note]:
-    """Yield what there is to say where the stiffness on loading is another."""
+    """Yield a note if the stiffness on loading differs from that on unloading."""
     if not touching:
         return
-    k = solution.stiffness
+    k, more = solution.stiffness, solution.loading_stiffness
     most = added_stiffness(solution.problem.operator, solution.contact, solution.touching)
-    if most <= SLIGHT * k or solution.loading_stiffness <= (1 + SLIGHT) * k:
+    if most <= SLIGHT * k or more <= (1 + SLIGHT) * k:
         return
     touch = "1 cell touches" if touching == 1 else f"{touching} cells touch"
+    unit = unit_of("stiffness", solution.problem.geometry)
     yield Note(
         Rank.LIMITED,
-        f"{touch} without pressure: as the load grows the stiffness is {solution.loading_stiffness:.6g}, and "
-        f"{k:.6g} as it is reduced, which is the one that is given.",
+        f"{touch} without pressure: the stiffness is {written(more, unit, 6)} as the load grows, and "
+        f"{written(k, unit, 6)} as the load is reduced. The latter is reported.",
     )
 
 
 def _of_input(solution: Solution) -> Iterator[Note]:
-    """Yield what an engineer would question in load, modulus and surface."""
+    """Yield notes on a doubtful load, modulus or surface."""
     problem, largest = solution.problem, solution.max_pressure
     modulus, surface = problem.modulus, problem.surface
     springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
     if largest > STRAINED * modulus and not springs:
         yield Note(
             Rank.DOUBTFUL,
-            f"The largest pressure, {largest:.3g} Pa, is {largest / modulus:.0%} of the reduced modulus: real bodies "
-            "yield or break at lower pressures, and the theory of small strains does not hold.",
+            f"The largest pressure, {written(largest, 'Pa')}, is {largest / modulus:.0%} of the reduced modulus: real "
+            "bodies yield or break at lower pressures, and the theory of small strains does not hold.",
         )
     if solution.depth > max(problem.grid.lengths):
         yield Note(
             Rank.DOUBTFUL,
-            f"The depth, {solution.depth:.3g} m, exceeds the map: check the units of load and modulus.",
+            f"The depth, {written(solution.depth, 'm')}, exceeds the map: check the units of load and modulus.",
         )
     if surface is not None and is_numpy(surface.heights):
         _, above = height_limits(surface.heights)
@@ -138,5 +141,5 @@ def _of_input(solution: Solution) -> Iterator[Note]:
             yield Note(
                 Rank.DOUBTFUL,
                 f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all, and {carry} {borne:.0%} of "
-                f"the force. If they are faults of the measurement, take them out by masked(above={above:.6g}).",
+                f"the force. If they are faults of the measurement, remove them by masked(above={above:.6g}).",
             )

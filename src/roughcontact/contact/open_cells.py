@@ -1,8 +1,8 @@
 """Mean over the measured cells of a field that vanishes in contact: the gap, or its change per unit depth.
 
-Near full contact this mean is a small difference of other means: with one open cell of 200 x 200 on a free plane, less
-than a millionth of them. In contact the field is zero by the conditions of contact, so the open cells alone give the
-mean, and nothing cancels.
+Near full contact this mean is a small difference of other means: with one open cell of 200 x 200 on a free plane, it is
+less than a millionth of them. In contact the field is zero by the conditions of contact, so only the open cells
+contribute to the mean, and nothing cancels.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from roughcontact.validation import Array, Mask
 __all__ = ["ACCURACY", "ROUNDING", "mean_opening"]
 
 
-ACCURACY = 5e-7  # of a mean found as a difference; with what the stiffness k itself lacks, 1e-7, within 1e-6
-SOLVED = 1e-7  # of the mean over the open cells: how far from zero the field may be in contact
-ROUNDING = 1e-12  # of a mean over any number of cells, and of the product behind it
-SWEEP = (1e-10, 1e-3)  # least and largest reduction of the error by one solve
+ACCURACY = 5e-7  # of a mean found as a difference; with the error of the stiffness k, 1e-7, within 1e-6
+SOLVED = 1e-7  # of the mean over the open cells: largest value of the field in contact
+ROUNDING = 1e-12  # of a mean over any number of cells, and of the product that it follows from
+SWEEP = (1e-10, 1e-3)  # smallest and largest factor of the error in one solve
 
 
 def mean_opening(operator: Operator, opening: Array, region: Mask, measured: Mask) -> float:
@@ -30,18 +30,17 @@ def mean_opening(operator: Operator, opening: Array, region: Mask, measured: Mas
     Parameters
     ----------
     operator : Operator
-        The exact one.
+        The exact operator.
     opening : array, shape ``operator.grid.shape``
-        A gap [m], or its change per unit depth: small on the region. What is left there is taken off by a pressure on
-        the region, until it is small against the mean over the open cells. Values where nothing was measured do not
-        matter.
+        A gap [m], or its change per unit depth: small on the region. A pressure on the region reduces its values there
+        until they are small against the mean over the open cells. Values of cells that were not measured are ignored.
     region, measured : bool array
-        The cells that are closed, and those that count.
+        The closed cells, and the measured cells.
 
     Notes
     -----
     A pressure on the region displaces no other cell of a half-space by more than those of the region (the maximum
-    principle). So what is left on the region bounds the error of the mean over the open cells.
+    principle). So the values left on the region bound the error of the mean over the open cells.
     """
     xp = namespace(opening)
     measure = Measure(operator.weights, xp)

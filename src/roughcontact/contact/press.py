@@ -47,34 +47,35 @@ def press(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
 ) -> Solution:
-    """Press a rough surface against a flat and return the contact, with a certificate.
+    """Press a rough surface against a flat and return the solution with its certificate.
 
-    For surfaces that attract each other see `adhesive_state`.
+    For surfaces that attract each other, see `adhesive_state`.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
-        Heights [m], positive toward the flat. Its grid says whether it is free or periodic.
+        Heights [m], positive toward the flat. Its grid is free or periodic.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     force, depth, pressure : float
-        Exactly one: normal force [N], indentation depth, the approach since first touch [m], or nominal pressure [Pa]
+        Exactly one: normal force [N], indentation depth [m] (the approach since first touch), or nominal pressure [Pa]
         (force over the area of all cells). On a line, forces are per unit length [N/m].
     operator : Operator, optional
-        Another body than the half-space on the surface's grid. A surface of one axis needs one: `line`, or the
+        A body other than the half-space on the surface's grid. A surface of one axis needs one: `line`, or the
         `foundation` of the method of dimensionality reduction.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
         Largest residual; see docs/concepts/results.md.
     hardness : float, array, function, Material or str, optional
-        Pressure that no cell exceeds [Pa]: a perfectly plastic limit of the softer body. One number, one for each cell,
-        a function of the radii of the contact spots [m], such as `NixGao`, or a material of the `handbook` or its name.
+        Pressure that no cell exceeds [Pa]: the perfectly plastic limit of the softer body. It is a number, an array
+        with a value for each cell, a function of the radii of the contact spots [m] such as `NixGao`, or a material of
+        the `handbook` or its name.
 
     Returns
     -------
     Solution
-        Pressure, depth and certificate; area, stiffness and more follow from it.
+        Pressure, depth and certificate; area, stiffness and more follow from them.
 
     Raises
     ------
@@ -105,7 +106,7 @@ def press(
 
 
 def grid_of(surface: Body) -> AnyGrid:
-    """Return the grid of a surface; refuse what is not a surface."""
+    """Return the grid of a surface; raise an error if it is not a surface."""
     if not isinstance(surface, Surface | RadialProfile):
         raise InputError(
             f"a Surface is wanted (heights and a grid), not {type(surface).__name__}", place="surface"
@@ -123,7 +124,7 @@ def make_problem(
     hardness: Hardness | None = None,
     curve: bool = False,
 ) -> ContactProblem:
-    """Return the problem of a surface against a flat; refuse what the memory never suffices for."""
+    """Return the problem of a surface against a flat; raise an error if it cannot fit into memory."""
     value = as_modulus(modulus)
     require_memory_for(surface, operator, curve=curve)
     body = body_on(surface.grid, value, operator)
@@ -140,15 +141,15 @@ def solve(
     initial: tuple[Array, float] | None = None,
     subdomains: SubdomainSolver | None = None,
 ) -> Solution:
-    """Return the solution of a contact problem; its status says whether the tolerance was met.
+    """Return the solution of a contact problem; check its status, the tolerance may be missed.
 
     Parameters
     ----------
     problem : ContactProblem
     solver : Solver, optional
-        Settings of the method; the active set without.
+        Settings of the method; `ActiveSet` by default.
     initial : tuple of array and float, optional
-        Pressure [Pa] on the whole grid and depth [m] to start from; without, coarser grids are solved first.
+        Pressure [Pa] on the whole grid and depth [m] to start from; by default coarser grids are solved first.
     subdomains : SubdomainSolver, optional
         Keeps restricted operators from one load to the next.
     """
@@ -166,7 +167,7 @@ def solve(
 def solve_state(
     problem: ContactProblem, solver: Solver, initial: Start | None, subdomains: SubdomainSolver
 ) -> tuple[ContactProblem, State, Subdomain]:
-    """Return the problem, with the hardness of its spots, the last state on its window, and where that lies."""
+    """Return the problem with the hardness of its spots, the last state on its window, and the window."""
     if isinstance(solver, type) or not hasattr(solver, "run"):
         raise InputError(
             f"a solver is wanted, such as ActiveSet() or PolonskyKeer(), not {solver!r}", place="solver"
@@ -185,7 +186,7 @@ def solve_state(
 
 
 def lock(pressure: Array) -> None:
-    """Make an answer read-only, where its library can."""
+    """Make an array read-only, if its library supports that."""
     if is_numpy(pressure):
         pressure.flags.writeable = False
 
@@ -193,7 +194,7 @@ def lock(pressure: Array) -> None:
 def _from_touch(
     problem: ContactProblem, solver: Solver, start: Start, subdomains: SubdomainSolver
 ) -> tuple[State, Subdomain]:
-    """Solve with depths that count from where the flattened bodies touch: more would cost digits of the pressure."""
+    """Solve with depths that count from the touch of the flattened bodies; larger ones cost digits of the pressure."""
     touch = problem.first_touch
     separation = problem.once("separation_at_touch", lambda: problem.separation - touch)
     control = problem.control
@@ -204,7 +205,7 @@ def _from_touch(
 
 
 def _untouched(problem: ContactProblem, depth: float) -> tuple[State, Subdomain]:
-    """Up to the depth of first touch the bodies carry nothing."""
+    """Return the state up to the depth of first touch, without pressure."""
     shape = problem.grid.shape
     zero = problem.measure.xp.zeros_like(problem.separation)
     whole = tuple(slice(0, n) for n in shape)

@@ -35,11 +35,11 @@ __all__ = [
 T = TypeVar("T")
 
 Body = Surface | RadialProfile
-"""What is pressed: heights on a grid."""
+"""A body that can be pressed: heights on a grid."""
 
 
 _UNITS = {"separation": "m", "modulus": "Pa", "hardness": "Pa", "rise": "m", "lifting": "J"}
-# Of a mean over any number of cells: a depth equal to it, as the user computes it, is allowed.
+# Rounding of a mean over any number of cells: a depth equal to the mean, as the user computes it, is allowed.
 ROUNDING = 1e-12
 
 
@@ -54,26 +54,27 @@ class ContactProblem:
     operator : Operator
         Displacement [m] from pressure [Pa].
     control : Force or Depth
-        What is prescribed.
+        The prescribed force or depth.
     tolerance : float
         Largest residual of a solution, see ``roughcontact.solver.optimality``.
     surface : Surface or RadialProfile, optional
-        Where the separation comes from.
+        The surface that the separation comes from.
     modulus : float
-        Reduced modulus E* [Pa], for the record; NaN where the operator keeps it to itself.
+        Reduced modulus E* [Pa], for the record; NaN if the operator does not have it.
     hardness : float or array, shape of the grid
-        Pressure that no cell exceeds [Pa]: there the body is perfectly plastic; the flat may stand below its surface.
+        Pressure that no cell exceeds [Pa]. Cells at this pressure are perfectly plastic: the flat may stand below their
+        surface.
     size_law : function, optional
-        Hardness [Pa] from the radii of contact spots [m], see `roughcontact.NixGao`; its solutions have as `hardness`
-        what it gives there.
+        Hardness [Pa] from the radii of contact spots [m], see `roughcontact.NixGao`; in the problem of a solution,
+        `hardness` holds its values.
     rise : float
-        By how much the surface has been raised by what flowed [m]; it is in the separation already.
+        Rise of the surface by flow [m]; the separation includes it.
     lifting : float
-        Work by which this rise lifted the force along the loads so far [J]; NaN if it is not known.
+        Work of this rise against the force along the loads so far [J]; NaN if unknown.
     flow : Flow, optional
-        What flowed under larger loads; it is in the separation already.
+        Flow under larger loads; the separation includes it.
     softer : Material, optional
-        The softer body, if the bodies were given as materials; its hardness limits nothing here.
+        The softer body, if the bodies were given as materials; its hardness does not limit the pressure here.
 
     Raises
     ------
@@ -128,17 +129,17 @@ class ContactProblem:
             strongest = bearing_force(self.measure, self.measured, self.spec)
             if self.control.value >= strongest:
                 raise InputError(
-                    f"a force of {self.control.value:.6g} is not to be carried: the hardness on all measured cells "
-                    f"gives {strongest:.6g}",
+                    f"a force of {self.control.value:.6g} exceeds {strongest:.6g}, the most that all measured cells "
+                    "can carry at this hardness",
                     "press by less, or give a greater hardness",
                     "force",
                 )
         if not (isinstance(self.control, Depth) and self.semidefinite) or self.missing:
-            return  # missing cells never touch and may bulge: contact is never full
+            return  # missing cells never touch and may bulge: there is no full contact
         if self.plastic or self.size_law is not None:
             return  # a plastic body can be pressed to any depth
         mean = self.mean_separation
-        # What flowed is known to the tolerance of the load that made it flow.
+        # Flow is accurate to the tolerance of the load that caused it.
         allowed = ROUNDING if self.flow is None else max(ROUNDING, self.tolerance)
         if self.control.value > mean * (1 + allowed):
             raise InputError(
@@ -149,7 +150,7 @@ class ContactProblem:
             )
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what copies and pickles take: without what `once` keeps, which cannot all be pickled."""
+        """Return the state for copies and pickles, without the values of `once`: not all of them can be pickled."""
         return vars(self) | {"_memo": {}}
 
     @property
@@ -169,17 +170,17 @@ class ContactProblem:
 
     @property
     def spec(self) -> Specification:
-        """What is asked of a solver."""
+        """The specification for the solver."""
         return Specification(self.control, self.tolerance, self.hardness)
 
     @property
     def geometry(self) -> Geometry:
-        """What the cells are: the units of the answers depend on it."""
+        """Geometry of the cells; the units of the results depend on it."""
         return geometry_of(self.operator)
 
     @property
     def semidefinite(self) -> bool:
-        """Whether a constant pressure moves nothing."""
+        """Whether a constant pressure causes no displacement."""
         return is_semidefinite(self.operator)
 
     @property
@@ -189,14 +190,14 @@ class ContactProblem:
 
     @property
     def first_touch(self) -> float:
-        """Depth at which the bodies touch first [m]: not zero where the surface has flowed."""
+        """Depth of first touch [m]: not zero if the surface has flowed."""
         if self.flow is None:
             return -self.rise
         return self.once("first_touch", lambda: float(self.measure.xp.min(self.separation)))
 
     @property
     def measure(self) -> Measure:
-        """Sums over its cells; they carry the array library of its fields."""
+        """Sums over the cells, with the array library of the fields."""
         return self.once("measure", lambda: Measure(self.operator.weights, namespace(self.separation)))
 
     def under(self, control: Control) -> ContactProblem:
@@ -205,12 +206,12 @@ class ContactProblem:
         Parameters
         ----------
         control : Force or Depth
-            What is prescribed instead.
+            The new force or depth.
 
         Returns
         -------
         ContactProblem
-            It shares what has been computed of the bodies.
+            It shares the values of `once`.
 
         Raises
         ------
@@ -227,7 +228,7 @@ class ContactProblem:
         Depth(value=1e-07)
         """
         other = replace(self, control=control)
-        object.__setattr__(other, "_memo", self._memo)  # what depends on the bodies alone is found once
+        object.__setattr__(other, "_memo", self._memo)  # values that depend only on the bodies are shared
         return other
 
     def raised(self, rise: float, lifting: float = 0.0) -> ContactProblem:
@@ -236,9 +237,9 @@ class ContactProblem:
         Parameters
         ----------
         rise : float
-            By how much [m].
+            The rise [m].
         lifting : float
-            Work by which the rise lifted the force [J].
+            Work of the rise against the force [J].
 
         Returns
         -------
@@ -262,12 +263,12 @@ class ContactProblem:
         Parameters
         ----------
         flow : Flow
-            What has flowed under the load.
+            The flow under the load.
 
         Returns
         -------
         ContactProblem
-            Without a hardness, up to that load.
+            Elastic, without a hardness: valid up to that load.
 
         Examples
         --------
@@ -283,7 +284,7 @@ class ContactProblem:
         return self._moved(separation, surface=surface, hardness=math.inf, size_law=None, flow=flow)
 
     def _moved(self, separation: Array, **changes: Any) -> ContactProblem:
-        """Return bodies of which the surface alone has changed: what follows from where they touch is kept."""
+        """Return bodies with a changed surface: values that depend on the separation are computed again."""
         if is_numpy(separation):
             separation.flags.writeable = False
         other = replace(self, separation=separation, **changes)
@@ -301,7 +302,8 @@ class ContactProblem:
         def respond() -> Array:
             xp = self.measure.xp
             measured = xp.astype(self.measured, self.separation.dtype)
-            # Under a unit pressure on the measured cells, each cell moves by what a force on it moves them.
+            # By reciprocity, a unit pressure on the measured cells displaces a cell as much as a force on it displaces
+            # them.
             return exact_of(self.operator).apply(measured) / self.measure.total(measured)
 
         return self.once("mean_response", respond)
@@ -312,19 +314,19 @@ class ContactProblem:
         return self.once("mean_separation", lambda: self.measure.mean(self.separation, self.measured))
 
     def once(self, name: str, compute: Callable[[], T]) -> T:
-        """Return what depends on the bodies alone, computed once for all loads on them.
+        """Return a value that depends only on the bodies, computed once for all loads on them.
 
         Parameters
         ----------
         name : str
-            What the value is kept under.
+            The key of the value.
         compute : function
-            Without arguments; called if nothing is kept under the name.
+            Without arguments; called if there is no value for the name.
 
         Returns
         -------
         object
-            What `compute` returned first.
+            The first result of `compute`.
 
         Examples
         --------
@@ -336,7 +338,7 @@ class ContactProblem:
         True
         """
         if name not in self._memo:
-            self._memo.setdefault(name, compute())  # of threads that ask at once all get the first
+            self._memo.setdefault(name, compute())  # concurrent threads all get the first value
         value: T = self._memo[name]
         return value
 
@@ -344,9 +346,9 @@ class ContactProblem:
 def separation_of(surface: Body) -> Array:
     """Return the undeformed gap at first touch [m], in double precision; infinite where nothing was measured."""
     xp = namespace(surface.heights)
-    # In single precision no certificate could be met.
+    # No certificate could be met in single precision.
     heights = xp.astype(surface.heights, xp.float64, copy=False)
-    if is_numpy(heights):  # planes are large: no more than the answer and a mask are made
+    if is_numpy(heights):  # planes are large: only the result and a mask are allocated
         apart = buffers.empty(heights.shape, np.float64)
         np.subtract(np.fmax.reduce(heights, axis=None), heights, out=apart)
         np.copyto(apart, math.inf, where=np.isnan(apart))

@@ -1,4 +1,4 @@
-"""Hardness of one number, of one for each cell, or by the size of the contact spots."""
+"""Hardness as one number, as one number for each cell, or as a function of the size of the contact spots."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ Hardness: TypeAlias = float | Array | SizeLaw | Material | str
 class NixGao:
     """The hardness of small spots: ``H(a) = H0 sqrt(1 + a0/a)`` (Nix and Gao, J. Mech. Phys. Solids 46, 411, 1998).
 
-    Their law is of the depth h of a cone or pyramid, ``H0 sqrt(1 + h0/h)``; with ``h = a tan(theta)``, theta the
-    angle between its face and the surface, ``a0 = h0/tan(theta)``.
+    Their law depends on the depth h of a cone or pyramid, ``H0 sqrt(1 + h0/h)``. With ``h = a tan(theta)``, where theta
+    is the angle between its face and the surface, ``a0 = h0/tan(theta)``.
 
     Parameters
     ----------
     hardness : float
         Hardness of large spots, H0 [Pa].
     radius : float
-        Radius of the spot that is harder by the square root of two, a0 [m].
+        Radius a0 [m] of the spot whose hardness is larger by the square root of two.
 
     Raises
     ------
     ValueError
-        If one of them is not positive and finite.
+        If a parameter is not positive and finite.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class NixGao:
         Parameters
         ----------
         radius : array
-            Radii of the spots [m]: of discs of their areas.
+            Radii of the spots [m]: of discs of the same area.
 
         Returns
         -------
@@ -75,7 +75,7 @@ class NixGao:
 
 
 def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | None]:
-    """Return the hardness [Pa], a number or beside a field, and the law that gives it instead."""
+    """Return the hardness [Pa], a number or an array like `field`, and the size law if `hardness` is one."""
     hardness = hardness_of(hardness)
     if hardness is None:
         return math.inf, None
@@ -89,6 +89,6 @@ def as_hardness(hardness: Any, field: Array) -> tuple[float | Array, SizeLaw | N
     if not bool(xp.all((values > 0) & (values < math.inf))):
         raise about(
             "the hardness",
-            "of every cell must be positive and finite [Pa]: one that never flows takes a large number",
+            "of every cell must be positive and finite [Pa]: use a large number for a cell that never flows",
         )
     return values, None

@@ -1,4 +1,4 @@
-"""The answer of a contact problem, and everything that follows from it."""
+"""The solution of a contact problem, and all quantities that follow from it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ __all__ = ["Solution", "mean_pressure"]
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
-    """A pressure, its depth and its certificate; the rest is computed when asked for, once.
+    """A pressure, its depth and its certificate; other quantities are computed once, on first access.
 
     Attributes
     ----------
@@ -52,12 +52,12 @@ class Solution:
     depth : float
         Approach of the bodies since first touch [m].
     status : Status
-        How the solve ended; it claims nothing that was not earned.
+        How the solve ended.
     residual : float
-        Largest violation of the conditions of contact relative to the largest displacement, on a product of
-        the exact operator with this pressure.
+        Largest violation of the conditions of contact relative to the largest displacement, from a product of the exact
+        operator with this pressure.
     steps : int
-        Products with the operator that the solve took on its finest grid.
+        Number of products with the operator on the finest grid.
 
     Examples
     --------
@@ -81,7 +81,7 @@ class Solution:
 
     @cached_property
     def displacement(self) -> Array:
-        """Displacement of the surface [m]; its mean is zero on a periodic grid, else it vanishes far away."""
+        """Displacement of the surface [m]; its mean is zero on a periodic grid, otherwise it vanishes far away."""
         return exact_of(self.problem.operator).apply(self.pressure)
 
     @cached_property
@@ -98,7 +98,7 @@ class Solution:
     @cached_property
     @one_blas_thread()
     def force(self) -> float:
-        """Normal force [N]; on a line [N/m]."""
+        """Normal force [N]; [N/m] on a line."""
         if not self._measure.on_host:
             return self._measure.total(self.pressure)
         cells = self._cells
@@ -106,14 +106,14 @@ class Solution:
 
     @cached_property
     def contact_area(self) -> float:
-        """Real contact area [m^2]; on a line [m]."""
+        """Real contact area [m^2]; [m] on a line."""
         if not self._measure.on_host:
             return self._measure.total(self.contact)
         return float(self._measure.on(self._cells).sum())
 
     @property
     def nominal_area(self) -> float:
-        """Area of all cells [m^2], missing ones included; of a line and of springs their length [m]."""
+        """Area of all cells [m^2], missing ones included; for a line and for springs, the length [m]."""
         return self.problem.grid.area
 
     @property
@@ -123,7 +123,7 @@ class Solution:
 
     @property
     def nominal_pressure(self) -> float:
-        """Force over the nominal area [Pa]; of the springs of a foundation, over their length [N/m]."""
+        """Force over the nominal area [Pa]; for a foundation of springs, over its length [N/m]."""
         return self.force / self.nominal_area
 
     @property
@@ -138,20 +138,20 @@ class Solution:
 
     @cached_property
     def mean_gap(self) -> float:
-        """Mean of the deformed gap over the measured cells [m], at this depth; plastic cells count below zero."""
+        """Mean of the deformed gap over the measured cells [m]; plastic cells have a negative gap."""
         undeformed = self.problem.mean_separation
         mean = self._mean_displacement(self.pressure) + undeformed - self.depth
         if self._moves_no_mean:
             return mean
         error = self.residual * self._largest_displacement + ROUNDING * (undeformed + self.depth)
         if error <= ACCURACY * abs(mean):
-            return mean  # else, near full contact, its terms cancel
+            return mean  # otherwise, near full contact, its terms cancel
         return self._mean_opening(self.displacement + self.problem.separation - self.depth)
 
     @cached_property
     @one_blas_thread()
     def elastic_energy(self) -> float:
-        """Elastic energy [J]: half the pressure times the displacement, which in contact is depth - separation."""
+        """Elastic energy [J]: half the pressure times the displacement, which is depth - separation in contact."""
         if self.problem.plastic or not is_numpy(self.pressure):  # under a hardness part of the depth is flow
             return 0.5 * self._measure.dot(self.pressure, self.displacement)
         cells = self._cells
@@ -160,7 +160,7 @@ class Solution:
 
     @cached_property
     def frozen(self) -> FrozenContact:
-        """The response of the contact region as it is, displaced as one."""
+        """The response of the present contact region, displaced as a whole."""
         if self._frozen is not None:
             return self._frozen
         return frozen_contact(self.problem.operator, elastic_contact(self.pressure, self.problem.hardness))
@@ -172,7 +172,7 @@ class Solution:
 
     @cached_property
     def flow(self) -> Flow | None:
-        """What has flowed at this load, or at a larger one before; None without a hardness."""
+        """The plastic flow at this load, or at a larger one before; None without a hardness."""
         problem = self.problem
         if problem.flow is not None or not problem.plastic:
             return problem.flow
@@ -181,36 +181,37 @@ class Solution:
 
     @cached_property
     def flattened(self) -> Solution:
-        """The same state as an elastic contact of the surface that has flowed; the same object where none has.
+        """The same state as an elastic contact of the flattened surface; the same object if nothing has flowed.
 
-        Its stiffness is that of unloading, to which all cells in contact answer. Its gap is nowhere negative. Its
-        surface, ``flattened.problem.surface``, is the flattened one.
+        Its stiffness is that of unloading, to which all cells in contact contribute. Its gap is nowhere negative. Its
+        surface, ``flattened.problem.surface``, is the flattened surface.
         """
         if self.flow is None or self.problem.flow is not None:
             return self
         whole = replace(self, problem=self.problem.after(self.flow))
-        # Without a plastic cell all in contact answer already.
+        # Without a plastic cell, all cells in contact contribute to the stiffness already.
         return replace(whole, _frozen=None) if bool(self._measure.xp.any(self.plastic)) else whole
 
     @property
     def stiffness(self) -> float:
         """Normal contact stiffness dF/dd at fixed contact region [N/m] (thesis, eq. 4.1).
 
-        That of the cells that carry pressure: the slope of the force as the load is reduced. Under a hardness the slope
-        as the load grows, to which cells at the hardness do not answer; as it is reduced, that of `flattened`.
+        The region is that of the cells that carry pressure, so this is the slope of the force as the load is reduced.
+        Under a hardness it is the slope as the load grows, to which cells at the hardness do not contribute; the slope
+        as the load is reduced is the stiffness of `flattened`.
         """
         return self.frozen.stiffness
 
     @property
     def stiffness_residual(self) -> float:
-        """Residual of the linear problem of the stiffness, relative: its certificate."""
+        """Relative residual of the linear problem of the stiffness: its certificate."""
         return self.frozen.residual
 
     @cached_property
     def touching(self) -> npt.NDArray[np.bool_]:
-        """Mask of the cells without pressure whose gap is zero, as far as rounding and the residual tell.
+        """Mask of the cells without pressure whose gap is zero within rounding and the residual.
 
-        Only at a knife edge is there any; a further load brings them into contact.
+        Such cells exist only in borderline states; a further load brings them into contact.
         """
         allowed = (ROUNDING_FLOOR + min(self.residual, self.problem.tolerance)) * max_abs(self.displacement)
         gap = self.displacement + self.problem.separation - self.depth
@@ -220,8 +221,8 @@ class Solution:
     def loading_stiffness(self) -> float:
         """Slope dF/dd of the force as the load grows [N/m]: with the cells that are `touching` in contact.
 
-        The force is a convex function of the depth, so that it is never below `stiffness`; the two differ at a knife
-        edge alone.
+        The force is a convex function of the depth, so this is never below `stiffness`; the two differ only if there
+        are cells that are `touching`.
         """
         if not bool(self._measure.xp.any(self.touching)):
             return self.stiffness
@@ -239,7 +240,7 @@ class Solution:
             return k
         if self._moves_no_mean:
             return k
-        # By how much the mean gap closes per unit depth.
+        # Decrease of the mean gap per unit depth.
         closing = 1 - self._mean_displacement(self.frozen.tangent)
         if not self.frozen.residual + ROUNDING <= ACCURACY * closing:
             closing = self._mean_opening(1 - exact_of(self.problem.operator).apply(self.frozen.tangent))
@@ -247,7 +248,7 @@ class Solution:
 
     @property
     def interfacial_stiffness_per_area(self) -> float:
-        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; of a foundation over its length [N/m^2]."""
+        """Interfacial stiffness over the nominal area, K/A0 [Pa/m]; for a foundation, over its length [N/m^2]."""
         return self.interfacial_stiffness / self.nominal_area
 
     @cached_property
@@ -257,7 +258,7 @@ class Solution:
 
     @property
     def spot_count(self) -> int:
-        """Number of contact spots, wherever the arrays live."""
+        """Number of contact spots; the arrays may be on any device."""
         if are_labelled(self.pressure):
             return self.spots.count
         return count_spots(self.contact, self.problem.grid)
@@ -292,10 +293,10 @@ class Solution:
 
     @cached_property
     def edge_share(self) -> float:
-        """Part of the force on the outermost cells of a free grid, beyond which nothing is known."""
+        """Part of the force on the outermost cells of a free grid, at the edge of the map."""
         grid, pressure, xp = self.problem.grid, self.pressure, self._measure.xp
         weights = np.broadcast_to(self.problem.operator.weights, grid.shape)
-        inner: tuple[slice, ...] = ()  # of the axes before: no corner counts twice
+        inner: tuple[slice, ...] = ()  # of the axes before, so that no corner is counted twice
         load = 0.0
         for count, ends in zip(grid.shape, grid.ends, strict=True):
             for end in {end % count for end in ends}:
@@ -311,7 +312,7 @@ class Solution:
 
     @cached_property
     def resolved(self) -> bool:
-        """Whether the stiffness stands above the one-cell artefact and below the full-contact stiffness."""
+        """Whether the stiffness is above the one-cell artefact and below the full-contact stiffness."""
         size, cell = self._size_and_cell
         line = self.problem.geometry is Geometry.LINE
         whole = self.problem.grid.lengths[0] if line else full_contact_stiffness(self.problem)
@@ -319,24 +320,24 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a reader of these numbers should know, in sentences; what makes a number wrong comes first."""
+        """Limits of these numbers, in sentences; notes on wrong numbers come first."""
         return in_order(methods.notes_on(self))
 
     @property
     def resolved_from_below(self) -> bool:
-        """Whether the contact is so large that its numbers are those of the surface and not of the grid."""
+        """Whether the contact is so large that its numbers depend on the surface and not on the grid."""
         size, cell = self._size_and_cell
         return size >= CELLS * cell
 
     @property
     def _size_and_cell(self) -> tuple[float, float]:
-        """What tells a contact from a cell: the stiffness of all of it; on a line its width, for that hardly grows."""
+        """The stiffness of the contact and of a cell; on a line the widths, because the stiffness grows too little."""
         if self.problem.geometry is Geometry.LINE:
             return self.contact_area, self.problem.grid.spacing[0]
         return self.flattened.stiffness, cell_stiffness(self.problem.operator)
 
     def __repr__(self) -> str:
-        """Say what was found, not the field."""
+        """Return the main numbers, without the fields."""
         xp, unit = self._measure.xp, unit_of("force", self.problem.geometry)
         return (
             f"Solution({self.status.value}, force {self.force:.4g} {unit}, depth {self.depth:.4g} m, "
@@ -366,23 +367,23 @@ class Solution:
 
     @property
     def _largest_displacement(self) -> float:
-        """A bound on the displacement [m], without a product.
+        """A bound on the displacement [m], found without a product with the operator.
 
-        No cell is displaced by more than the depth. Where the body may bulge, measured cells do so by no more than
-        their separation, and missing cells by any amount.
+        No cell is displaced by more than the depth. If the body may bulge, a measured cell rises by no more than its
+        separation, and a missing cell by any amount.
         """
         if capabilities(self.problem.operator).positive:
             return self.depth - self.problem.first_touch
         return max(self.depth, float(self._measure.xp.max(self.problem.separation)))
 
     def _mean_opening(self, opening: Array) -> float:
-        """Mean over the measured cells of a field that is about zero in contact, by the open cells alone."""
+        """Mean over the measured cells of a field that is about zero in contact, computed from the open cells only."""
         problem, closed = self.problem, elastic_contact(self.pressure, self.problem.hardness)
         return mean_opening(exact_of(problem.operator), opening, closed, problem.measured)
 
     @one_blas_thread()
     def _mean_displacement(self, pressure: Array) -> float:
-        """Mean displacement of the measured cells under a pressure, without a product (reciprocity)."""
+        """Mean displacement of the measured cells under a pressure, by reciprocity, without a product."""
         if self._moves_no_mean:
             return 0.0
         if not is_numpy(pressure):

@@ -1,9 +1,9 @@
 """A hardness that depends on the size of the contact spots: found by solving until spots and hardness agree.
 
-The larger a spot the softer it is, and the softer it is the larger. So from cells that are as hard as single ones the
-contact grows from solve to solve, up to the smallest contact that agrees with its own hardness: on a finite grid after
-finitely many solves, and whatever the loads before. A law that hardens as spots grow may go to and fro; then the
-status says so.
+A larger spot is softer, and a softer spot grows. The first solve takes the hardness of single cells. From there the
+contact grows from solve to solve, up to the smallest contact that agrees with the hardness of its spots. On a finite
+grid this takes finitely many solves, and the result does not depend on earlier loads. A law that hardens as spots grow
+may oscillate; the status is then ``UNSETTLED``.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["settle", "without_spots"]
 
-ROUNDS = 100  # solves: spots that merge one after the other take one each
+ROUNDS = 100  # solves: each merger of spots may take one
 
 
 def settle(
@@ -37,12 +37,13 @@ def settle(
     start: tuple[Array, float],
     subdomains: SubdomainSolver,
 ) -> tuple[ContactProblem, State, Subdomain]:
-    """Return the problem under the hardness of its own spots, its last state, and where that lies."""
+    """Return the problem under the hardness of its spots, its last state, and the window of the state."""
     contact, steps, last = np.zeros(problem.grid.shape, dtype=bool), 0, 0
     for _ in range(ROUNDS):
         here = replace(problem, hardness=_hardness_of(contact, problem, law))
-        # From the pressure before, of which little changes, by projection: others begin with the elastic contact. Where
-        # nearly all is plastic the projection may stagnate: it is given no more products than the round before took.
+        # The pressure changes little from solve to solve, so projection starts from the one before; other methods begin
+        # with the elastic contact. Projection may stagnate if nearly all cells are plastic, so its products are limited
+        # to the number of the solve before.
         for method in (PolonskyKeer(max_steps=last), solver) if last else (solver,):
             state, subdomain = subdomains.solve(method, here.separation, here.spec, Start(*start))
             steps += state.steps
@@ -57,15 +58,15 @@ def settle(
 
 
 def without_spots(problem: ContactProblem, law: SizeLaw) -> ContactProblem:
-    """Return the problem under the hardness of single cells, as it is before the first touch."""
+    """Return the problem under the hardness of single cells, which holds before the first touch."""
     return replace(problem, hardness=_hardness_of(np.zeros(problem.grid.shape, dtype=bool), problem, law))
 
 
 def _hardness_of(contact: Mask, problem: ContactProblem, law: SizeLaw) -> Array:
-    """Return the hardness of each cell by the spot that it belongs to; outside of contact that of a cell alone [Pa]."""
+    """Return the hardness of each cell from the size of its spot [Pa]; outside contact, that of a single cell."""
     if not problem.measure.on_host:
         raise InputError(
-            "spots are labelled on the host: a hardness by their size takes heights in NumPy's memory"
+            "spots are labelled on the host: a hardness by their size needs heights in NumPy's memory"
         )
     measure, shape = problem.measure, problem.grid.shape
     areas = measure.on(np.arange(problem.grid.size)).reshape(shape)

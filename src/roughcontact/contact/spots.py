@@ -33,7 +33,7 @@ class Spots:
     loads : array, shape (count,)
         Force that each spot carries [N].
     labels : int array, shape of the grid
-        0 outside contact, else 1 to `count`.
+        0 outside contact, 1 to `count` in it.
     """
 
     count: int
@@ -43,10 +43,11 @@ class Spots:
 
 
 def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
-    """Return the number of spots of a contact, without leaving the device that it lives on.
+    """Return the number of spots of a contact, computed on the device of the mask.
 
-    Every cell takes the largest number among its own and its neighbours' in contact, until nothing changes: a spot is
-    then known by the one cell that kept its own. It takes as many passes as the longest way through a spot has cells.
+    Each cell in contact takes the largest number among its own and those of its neighbours, until nothing changes: each
+    spot then has exactly one cell with its original number. The number of passes is the number of cells along the
+    longest path through a spot.
     """
     xp, shape = namespace(contact), tuple(contact.shape)
     own = xp.reshape(xp.arange(1, math.prod(shape) + 1, device=contact.device), shape)
@@ -56,7 +57,7 @@ def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
         for axis, periodic in enumerate(grid.periodic):
             for step in (1, -1):
                 moved = xp.roll(spread, step, axis=axis)
-                if not periodic:  # what came round the edge is no neighbour
+                if not periodic:  # cells across the edge are not neighbours
                     places = xp.arange(shape[axis], device=contact.device)
                     edge = places == (0 if step == 1 else shape[axis] - 1)
                     along = tuple(-1 if a == axis else 1 for a in range(len(shape)))
@@ -68,25 +69,25 @@ def count_spots(contact: npt.NDArray[np.bool_], grid: AnyGrid) -> int:
 
 
 def are_labelled(contact: Any) -> bool:
-    """Whether `find_spots` takes a contact where it lives."""
+    """Whether `find_spots` supports the array of a contact."""
     return isinstance(contact, np.ndarray | SlabArray)
 
 
 def find_spots(contact: Any, pressure: Any, grid: AnyGrid, measure: Measure) -> Spots:
-    """Return the spots of a contact; along a periodic axis they go on across the edge.
+    """Return the spots of a contact; along a periodic axis they continue across the edge.
 
-    Of a contact in slabs, of a plane that is periodic along both axes, each process labels its rows; labels are in
-    slabs.
+    If the contact is in slabs (a plane that is periodic along both axes), each process labels its rows, and the labels
+    are in slabs.
 
     Raises
     ------
     ValueError
-        If the contact lives on a device.
+        If the contact is on a device.
     """
     import scipy.ndimage
 
     if not are_labelled(contact):
-        raise InputError("spots are labelled on the host", "take them of solution.on_host()")
+        raise InputError("spots are labelled on the host", "use solution.on_host().spots")
     alone = isinstance(contact, np.ndarray)
     whole = SlabArray(contact, (0, len(contact)), Slabs().functions) if alone else contact
     functions, mine = whole.functions, whole.local
@@ -112,9 +113,9 @@ def find_spots(contact: Any, pressure: Any, grid: AnyGrid, measure: Measure) -> 
 
 
 def _spot_of_part(labels: SlabArray, periodic: tuple[bool, ...], parts: int) -> npt.NDArray[np.intp]:
-    """Return the spot that each part is of, where parts meet across an edge, or where rows of two processes meet.
+    """Return the spot of each part; parts meet across a periodic edge, or across the rows of two processes.
 
-    Spots are numbered by the first cell of each; label 0, the ground, is linked to nothing.
+    Spots are numbered in the order of their first cells; label 0, the background, is linked to nothing.
     """
     functions, mine = labels.functions, labels.local
     meeting = [(functions.row_beside(labels, 1)[:1], mine[:1])] if periodic[0] else []

@@ -29,17 +29,17 @@ __all__ = [
 ]
 
 
-TOLERANCE = 1e-7  # of the unit displacement; the stiffness itself is off by about its square
+TOLERANCE = 1e-7  # of the unit displacement; the error of the stiffness is about its square
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrozenContact:
-    """The response of a region that is displaced as one: a flat punch of its shape.
+    """The response of a region that is displaced as a whole, like a flat punch of its shape.
 
     Attributes
     ----------
     stiffness : float
-        Force per unit displacement [N/m]; infinite for the whole of a periodic grid.
+        Force per unit displacement [N/m]; infinite for a whole periodic grid.
     residual : float
         Largest error of the unit displacement.
     tangent : array
@@ -52,14 +52,14 @@ class FrozenContact:
 
 
 def elastic_contact(pressure: Array, hardness: float | Array) -> Mask:
-    """Return the cells that answer a further approach by more pressure: those between zero and the hardness."""
+    """Return the cells whose pressure grows on a further approach: it lies between zero and the hardness."""
     return (pressure > 0) & (pressure < hardness)
 
 
 def frozen_contact(
     operator: Operator, region: Mask, *, tangent: Tangent | None = None, tolerance: float = TOLERANCE
 ) -> FrozenContact:
-    """Return the response of `region` to a unit displacement; a `tangent` at hand is used or improved."""
+    """Return the response of `region` to a unit displacement; a given `tangent` is used or improved."""
     operator, xp = exact_of(operator), namespace(region)
     if not bool(xp.any(region)):
         return FrozenContact(0.0, 0.0, xp.zeros(region.shape, dtype=xp.float64, device=region.device))
@@ -91,25 +91,25 @@ def contact_stiffness(
     Parameters
     ----------
     mask : bool array, shape ``grid.shape``
-        The cells in contact; ones and zeros will do. On arrays of other libraries the work is done where they live.
+        The cells in contact; ones and zeros are accepted. Arrays of other libraries are processed on their devices.
     grid : Grid or RadialGrid
         Free or periodic.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     operator : Operator, optional
-        Another body than the half-space on the grid; of a line the stiffness is per unit length [N/m^2].
+        A body other than the half-space on the grid; on a line the stiffness is per unit length [N/m^2].
     tolerance : float
         Largest error of the unit displacement on the region; between 1e-14 and 1e-2.
 
     Returns
     -------
     float
-        Zero for an empty mask, infinite for the whole of a periodic grid.
+        Zero for an empty mask, infinite for a whole periodic grid.
 
     Raises
     ------
     ValueError
-        If the mask does not fit the grid or holds other numbers than ones and zeros, or if the tolerance is out of
+        If the mask does not fit the grid or holds numbers other than ones and zeros, or if the tolerance is out of
         range.
     RuntimeError
         If the tolerance was not reached.
@@ -128,7 +128,7 @@ def contact_stiffness(
     frozen = frozen_contact(body, region, tolerance=tolerance)
     if frozen.residual > tolerance:
         raise RuntimeError(
-            f"the stiffness was found to {frozen.residual:.1e} only; ask for a larger tolerance"
+            f"the stiffness was found only to {frozen.residual:.1e}; ask for a larger tolerance"
         )
     return frozen.stiffness
 
@@ -142,7 +142,7 @@ def cell_stiffness(operator: Operator) -> float:
 def full_contact_stiffness(problem: ContactProblem) -> float:
     """Return the stiffness with all measured cells in contact [N/m]; infinite for a whole periodic surface.
 
-    To a thousandth in the displacement: enough for a limit.
+    Its displacement has an error of a thousandth, small enough for a limit.
     """
     return problem.once(
         "full_contact_stiffness",

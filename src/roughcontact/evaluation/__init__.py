@@ -1,1 +1,1 @@
-"""Readers of a pressed contact: stress below it, conductance, errors, laws of interfaces, theories beside it."""
+"""Evaluation of a pressed contact: stress below it, conductance, errors, laws of interfaces, theories."""

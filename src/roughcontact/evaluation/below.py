@@ -1,4 +1,4 @@
-"""What a solved contact does below the surface: stresses, displacements, and where a metal would flow first."""
+"""Stresses and displacements below a solved contact, and the place where a metal would flow first."""
 
 from __future__ import annotations
 
@@ -32,10 +32,12 @@ __all__ = [
 ]
 
 
-ALIKE = 1e-3  # a displacement that is further from the half-space's is another body's
-ROUNDING = 1e-9  # of what the largest pressure does in its own cell: all that a constant one leaves
-STEP = 1.4  # from one depth to the next while the largest stress is looked for
-PRECISION = 1e-3  # of its depth
+ALIKE = 1e-3  # relative difference beyond which a displacement is not that of a half-space
+ROUNDING = (
+    1e-9  # of the displacement of a cell by the largest pressure: all that remains of a constant pressure
+)
+STEP = 1.4  # ratio of successive depths in the search for the largest stress
+PRECISION = 1e-3  # of the depth of the largest stress
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,12 +49,12 @@ class StressPeak:
     von_mises : float
         Equivalent stress of von Mises [Pa].
     depth : float
-        Below the surface [m].
+        Depth below the surface [m].
     position : tuple of float
-        Middle of the cell above it, ``(y, x)`` [m].
+        Middle of the cell above this point, ``(y, x)`` [m].
     resolved : bool
-        Whether it lies at least two cells below the surface. Nearer to it the stress is that of
-        uniformly loaded cells, and a finer grid has another.
+        Whether the point lies at least two cells below the surface. Nearer to the surface the stress is that of
+        uniformly loaded cells and depends on the grid.
 
     Examples
     --------
@@ -76,11 +78,11 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     Parameters
     ----------
     solution : Solution
-        Of a half-space under a surface, free or periodic.
+        The solution for a half-space under a surface, free or periodic.
     depth : float or array, shape (nz,)
         Depth below the surface [m], 0 or more.
     solid : Solid or float
-        The body looked into, or its Poisson's ratio: of two bodies in contact both carry the same pressure.
+        The body below the surface, or its Poisson's ratio; both bodies of a contact carry the same pressure.
 
     Returns
     -------
@@ -91,7 +93,7 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
     Raises
     ------
     ValueError
-        If the solution is not that of a half-space under a surface, or depth or Poisson's ratio make no sense.
+        If the solution is not that of a half-space under a surface, or the depth or Poisson's ratio makes no sense.
 
     Examples
     --------
@@ -110,16 +112,16 @@ def below(solution: Solution, depth: float | Array, solid: Solid | float) -> Str
 def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -> Displacement:
     """Return the displacements at a depth, or at several, below a solved contact.
 
-    Of two bodies in contact it is the one that is given: their displacements add up to that of the surface.
+    They are those of the given body; the displacements of both bodies add up to that of the surface.
 
     Parameters
     ----------
     solution : Solution
-        Of a half-space under a surface, free or periodic along both axes.
+        The solution for a half-space under a surface, free or periodic along both axes.
     depth : float or array, shape (nz,)
         Depth below the surface [m], 0 or more.
     solid : Solid
-        The body whose displacements are wanted, not rigid.
+        The body whose displacements are computed, not rigid.
 
     Returns
     -------
@@ -147,20 +149,20 @@ def displacement_below(solution: Solution, depth: float | Array, solid: Solid) -
 def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
     """Return the largest equivalent stress of von Mises below a solved contact, and where it is.
 
-    Depths from half a cell to the extent of the contact are searched in steps, those next to the best one closer
-    until the depth is known to a thousandth. Sideways the answer is that of a cell.
+    Depths from half a cell to the extent of the contact are searched in steps, then refined near the best depth to a
+    thousandth of it. The lateral resolution is a cell.
 
     Parameters
     ----------
     solution : Solution
-        Of a half-space under a surface, free or periodic.
+        The solution for a half-space under a surface, free or periodic.
     solid : Solid or float
-        The body whose stresses are wanted, or its Poisson's ratio.
+        The body whose stresses are computed, or its Poisson's ratio.
 
     Returns
     -------
     StressPeak
-        The stress [Pa], its depth and its place.
+        The stress [Pa], its depth and its position.
 
     Raises
     ------
@@ -204,7 +206,7 @@ def largest_von_mises(solution: Solution, solid: Solid | float) -> StressPeak:
 
 
 def half_space_grid(solution: Solution) -> Grid:
-    """Return the grid of a solution, or say that nothing is known of what lies below it."""
+    """Return the grid of a solution; raise an error if the field below it is unknown."""
     problem = solution.problem
     grid = problem.grid
     if problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
@@ -215,7 +217,7 @@ def half_space_grid(solution: Solution) -> Grid:
     row = sum(grid.periodic) == 1
     own = solution.displacement
     alike = half_space(grid, 1.0).apply(solution.pressure)
-    if row:  # whose constant is a matter of choice
+    if row:  # whose constant is arbitrary
         own, alike = own - own.mean(), alike - alike.mean()
     size = float(np.vdot(alike, alike))
     factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
@@ -228,12 +230,12 @@ def half_space_grid(solution: Solution) -> Grid:
 
 
 def ratio_of(solid: Solid | float) -> float:
-    """Return the Poisson's ratio of a solid, or the number that was given for it."""
+    """Return the Poisson's ratio of a solid, or the ratio that was given."""
     if isinstance(solid, Solid):
         return solid.poisson_ratio
     require(
         not isinstance(solid, Sequence),
-        "both bodies carry the same pressure, and each has a stress of its own",
+        "the two bodies carry the same pressure, but their stresses differ",
         "give one of the two bodies",
         place="solid",
     )
@@ -241,9 +243,9 @@ def ratio_of(solid: Solid | float) -> float:
 
 
 def loaded_part(pressure: Array, grid: Grid) -> tuple[Array, Grid, tuple[int, int]]:
-    """Return the part of the surface below which the stress can be largest, its grid, and its first cell.
+    """Return the part of the pressure below which the stress can be largest, its grid, and its first cell.
 
-    Further from all loads than their extent there is less than below them.
+    Farther from all loads than their extent, the stress is smaller than below them.
     """
     box = bounding_box(pressure != 0)
     if box is None:

@@ -1,4 +1,4 @@
-"""What a contact conducts: electricity and heat, from its stiffness."""
+"""Electrical and thermal conductance of a contact, from its stiffness."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 __all__ = ["Conductors", "conductance", "part_words", "with_conductance"]
 
 
-# What a conductance is of, and the stiffness that it follows from.
+# The part that a conductance belongs to, and the stiffness that it follows from.
 _PARTS = {"interface": "interfacial_stiffness", "total": "stiffness"}
 
 
 @dataclass(frozen=True, slots=True)
 class Conductors:
-    """How well the two bodies conduct.
+    """The resistivities or conductivities of the two bodies.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Conductors:
     Raises
     ------
     ValueError
-        If neither is given, or not for both bodies, a number is negative, or nothing limits the conductance.
+        If neither is given, or only for one body; if a number is negative, or nothing limits the conductance.
     """
 
     resistivities: tuple[float, float] | None = None
@@ -52,20 +52,20 @@ class Conductors:
     def __post_init__(self) -> None:
         if self.resistivities is None and self.conductivities is None:
             raise InputError(
-                "nothing is given that the bodies conduct",
+                "neither resistivities nor conductivities are given",
                 "give the resistivities [ohm m] or the conductivities [W/(m K)] of both bodies",
                 "resistivities, conductivities",
             )
         for pair in (self.resistivities, self.conductivities):
             if pair is not None and np.shape(number(pair, "the numbers of both bodies")) != (2,):
                 raise InputError(
-                    f"{pair!r} are not two numbers",
+                    f"{pair!r} is not a pair of numbers",
                     "give the numbers of both bodies, such as (1.7e-8, 1.7e-8)",
                 )
-        self.of(np.zeros(0), 1.0)  # what makes no sense is refused here
+        self.of(np.zeros(0), 1.0)  # raises an error if the values make no sense
 
     def given(self) -> dict[str, tuple[float, float]]:
-        """Return what was given, by the names of the fields."""
+        """Return the given values, by the names of the fields."""
         pairs = {"resistivities": self.resistivities, "conductivities": self.conductivities}
         return {name: pair for name, pair in pairs.items() if pair is not None}
 
@@ -108,37 +108,37 @@ def conductance(
     conductivities: tuple[float, float] | None = None,
     of: Literal["interface", "total"] = "interface",
 ) -> dict[str, Array] | xarray.Dataset:
-    """Return what a contact conducts: an exact analogy with its stiffness (thesis, eqs 4.2, 4.4 as corrected).
+    """Return conductances and resistances by the exact analogy with the stiffness (thesis, eqs 4.2, 4.4 as corrected).
 
     Parameters
     ----------
     contact : Curve, Solution or Dataset
-        Of a surface, of rings, or of a Winkler foundation. Under a hardness the cells that yield conduct like the
-        others: the stiffness is that of unloading. A dataset is that of a curve, ``curve.to_dataset()`` or as it was
-        read from a file.
+        A contact of a surface, of rings, or of a Winkler foundation. Under a hardness, plastic cells conduct like the
+        others, so the stiffness of unloading is used. A dataset is that of a curve, from ``curve.to_dataset()`` or from
+        a file.
     resistivities, conductivities : tuple of float
         At least one of the two, see ``Conductors``.
     of : {"interface", "total"}
-        The conductance of the interface alone, from the interfacial stiffness; or the total one of two half-spaces that
-        touch on this patch and nowhere else, from the stiffness: the spreading resistance of the patch (the
-        macro-constriction towards it) is in it.
+        The conductance of the interface, from the interfacial stiffness; or the total conductance of two half-spaces
+        that touch only on this patch, from the stiffness. The total includes the spreading resistance of the patch (its
+        macro-constriction).
 
     Returns
     -------
     dict of str to array, or Dataset
-        ``electrical_conductance`` [S] and ``electrical_resistance`` [ohm], ``thermal_conductance`` [W/K] and
-        ``thermal_resistance`` [K/W], what was asked for: along the curve, or one number. Of the interface also over the
-        nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm m^2],
-        ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films, gas
-        and radiation carry nothing here. Of a dataset, this dataset with these as further columns, as
-        `roughcontact.plot.resistance_curve` draws them.
+        ``electrical_conductance`` [S] and ``electrical_resistance`` [ohm] for resistivities, ``thermal_conductance``
+        [W/K] and ``thermal_resistance`` [K/W] for conductivities: along the curve, or one number. For the interface
+        also over the nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm
+        m^2], ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films,
+        gas and radiation are not included. For a dataset, the same dataset with these values as further columns, which
+        `roughcontact.plot.resistance_curve` draws.
 
     Raises
     ------
     ValueError
-        If the materials make no sense, if the contact is that of a line, whose conductance per length depends on the
-        reference length, if it is a curve under a hardness that does not hold the stiffness of unloading, or if the
-        interface is asked for of a Winkler foundation, which has none.
+        If the materials make no sense; if the contact is that of a line, whose conductance per length depends on the
+        reference length; if it is a curve under a hardness without the stiffness of unloading; or if `of` is
+        ``"interface"`` for a Winkler foundation, which has no interfacial stiffness.
 
     Examples
     --------
@@ -154,7 +154,7 @@ def conductance(
     if not isinstance(contact, Curve | Solution):
         if not hasattr(contact, "data_vars"):
             raise InputError(
-                f"a Curve or a Solution conducts, not {type(contact).__name__}",
+                f"conductance takes a Curve, a Solution or a Dataset, not {type(contact).__name__}",
                 "press the surface first",
                 place="contact",
             )
@@ -174,22 +174,22 @@ def conductance(
 def with_conductance(
     dataset: xarray.Dataset, conductors: Conductors, of: str = "interface"
 ) -> xarray.Dataset:
-    """Return the dataset of a curve with what it conducts as further columns along ``load``, instead of any it has.
+    """Return the dataset of a curve with conductances and resistances as columns along ``load``, replacing old ones.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        As `roughcontact.Curve.to_dataset` makes it, or as it was read from a file.
+        The result of `roughcontact.Curve.to_dataset`, or a dataset read from a file.
     conductors : Conductors
         The two bodies.
     of : {"interface", "total"}
-        See `roughcontact.conductance`; the long name of each column says which it is.
+        See `roughcontact.conductance`; the long name of each column contains it.
 
     Raises
     ------
     ValueError
-        If the dataset is not that of a curve, or that of a line contact, or of a plastic body without its stiffness of
-        unloading, or if the interface is asked for of a Winkler foundation.
+        If the dataset is not that of a curve; if it is that of a line contact, or of a plastic body without its
+        stiffness of unloading; or if `of` is ``"interface"`` for a Winkler foundation.
     """
     _require_part(of)
     plastic, stiffness = "hardness" in dataset, _PARTS[of]
@@ -207,18 +207,18 @@ def with_conductance(
 
 
 def part_words(dataset: xarray.Dataset, of: str) -> str:
-    """Return in words what a conductance of a curve's dataset is of."""
+    """Return in words the part that a conductance of a curve's dataset belongs to."""
     if of == "interface":
-        return "the interface alone"
+        return "the interface only"
     if dataset["periodic"].to_numpy().all():
         return "the interface: a periodic map has no spreading resistance"
     return "the whole patch between two half-spaces, its spreading resistance included"
 
 
 def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
-    """Return conductances and resistances, of the interface also over the nominal area.
+    """Return conductances and resistances, for the interface also over the nominal area.
 
-    The spreading resistance of a patch falls with its side, not with its area: of the total there is no such number.
+    The spreading resistance of a patch falls with its side, not with its area, so the total has no value per area.
     """
     if of != "interface":
         return found
@@ -230,7 +230,7 @@ def _of_part(found: dict[str, Array], area: float, of: str) -> dict[str, Array]:
 
 
 def _require_part(of: str) -> None:
-    """Refuse what is neither the interface nor the total."""
+    """Raise an error if `of` is neither the interface nor the total."""
     if of not in _PARTS:
         raise about(
             "of", f"must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
@@ -238,16 +238,16 @@ def _require_part(of: str) -> None:
 
 
 def _require_conducting(geometry: Geometry, hidden: bool, of: str) -> None:
-    """Refuse a curve that does not say what its contact conducts: of a line, or without the stiffness of all cells."""
+    """Raise an error for a line, and for a curve without the stiffness of all cells in contact."""
     if geometry is Geometry.LINE:
         raise InputError(
-            "a line contact has no conductance of its own: it depends on how far away the bodies end",
+            "the conductance of a line contact depends on the size of the bodies",
             "press a map of heights",
         )
     if geometry is Geometry.FOUNDATION and of == "interface":
-        raise InputError("a Winkler foundation has a total conductance only", "take of='total'")
+        raise InputError("a Winkler foundation has only a total conductance", "use of='total'")
     if hidden:
         raise InputError(
             "under a hardness the plastic cells conduct, but the stiffness of this curve leaves them out",
-            "compute it anew, with the stiffness of unloading",
+            "compute the curve again, with the stiffness of unloading",
         )

@@ -1,4 +1,4 @@
-"""The numbers of a contact with their errors, by sources: a value, its table and its record."""
+"""The numbers of a contact with their errors, by sources, as a value, a table and a record."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from roughcontact.labels.variables import VARIABLES
 
 __all__ = ["ErrorBudget", "ErrorSource", "QuotedNumber"]
 
-MANY_TIMES = 10  # a value: how large an error then is says no more
-ROUNDING = 1e-12  # of a value: an error below is none, as a gap is that is so small beside the depth
-SAMPLED = ("interfacial_stiffness", "contact_area", "mean_gap")  # numbers that a picture names
+MANY_TIMES = 10  # a value: larger errors are shown as "> 1000 %"
+ROUNDING = (
+    1e-12  # of a value: smaller errors count as zero, and so do gaps that are smaller relative to the depth
+)
+SAMPLED = ("interfacial_stiffness", "contact_area", "mean_gap")  # numbers that pictures show
 
 Kind: TypeAlias = Literal["bias", "standard error", "order of magnitude", "unknown"]
 InUnit: TypeAlias = Callable[[str, float], tuple[float, str]]
@@ -27,13 +29,13 @@ class ErrorSource:
     Attributes
     ----------
     name : str
-        In words.
+        Name in words.
     kind : {"bias", "standard error", "order of magnitude", "unknown"}
-        A bias is by how much a number changes if one thing is done otherwise; its sign is kept. A standard error is
-        that of a mean over patches. An order of magnitude is a standard deviation that few values show. The parts of
-        an unknown source are NaN.
+        A bias is the change of a number if one step is done differently; it has a sign. A standard error is that of a
+        mean over patches. An order of magnitude is a standard deviation from few values. The parts of an unknown source
+        are NaN.
     how : str
-        What was done, or why the source is unknown.
+        How the error was estimated, or why it is unknown.
     """
 
     name: str
@@ -41,24 +43,24 @@ class ErrorSource:
     how: str
 
     def __str__(self) -> str:
-        """Return what was done, and what that shows."""
+        """Return the kind and the method of the estimate."""
         return self.how if self.kind == "unknown" else f"{self.kind}: {self.how}"
 
 
 @dataclass(frozen=True, slots=True)
 class QuotedNumber:
-    """A number, and what each source makes of it.
+    """A number with its error from each source.
 
     Attributes
     ----------
     name : str
-        As in a `Curve`.
+        Name as in a `Curve`.
     value : float
-        In its SI unit; of several patches the mean.
+        Value in its SI unit; the mean over several patches.
     unit : str
         SI unit, ``"N m-1"``.
     parts : tuple of float
-        For each source of the budget by how much the number changes, or its standard error, in its unit.
+        Change of the number, or its standard error, for each source of the budget, in its unit.
     """
 
     name: str
@@ -68,7 +70,7 @@ class QuotedNumber:
 
     @property
     def error(self) -> float:
-        """The square root of the sum of the squares of the parts, in its unit; NaN if one is unknown."""
+        """The square root of the sum of the squares of the parts, in its unit; NaN if a part is unknown."""
         return math.hypot(*self.parts)
 
     @property
@@ -79,17 +81,17 @@ class QuotedNumber:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ErrorBudget:
-    """The numbers of a contact with their errors, by sources; ``budget["interfacial_stiffness"]`` is one of them.
+    """The numbers of a contact with their errors, by sources; ``budget["interfacial_stiffness"]`` is one number.
 
     Attributes
     ----------
     numbers : tuple of QuotedNumber
     sources : tuple of ErrorSource
     notes : tuple of str
-        What is left out, and why, in sentences.
+        Sources that are left out, and the reasons, in sentences.
     bias_of_size : mapping of str to float
-        By how much the mean over four quarters of the map differs from the whole map, relative, for the numbers that a
-        map of any size has; empty where no quarter was pressed. It is no error, and no correction of a number.
+        Relative difference between the mean over four quarters of the map and the whole map, for the numbers that do
+        not depend on the size of a map; empty if no quarter was pressed. It is neither an error nor a correction.
     """
 
     numbers: tuple[QuotedNumber, ...]
@@ -98,7 +100,7 @@ class ErrorBudget:
     bias_of_size: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> QuotedNumber:
-        """Return a number by its name."""
+        """Return the number of a name."""
         for number in self.numbers:
             if number.name == name:
                 return number
@@ -112,9 +114,9 @@ class ErrorBudget:
         Parameters
         ----------
         names : sequence of str, optional
-            Numbers to be shown; without, all.
+            Numbers to show; by default all.
         in_unit : function, optional
-            ``in_unit(name, value)`` returns the factor from the SI unit and the unit to be shown; without, SI.
+            ``in_unit(name, value)`` returns the factor from the SI unit and the unit to show; by default SI.
 
         Returns
         -------
@@ -148,7 +150,7 @@ class ErrorBudget:
         Returns
         -------
         dict
-            By the name of each number its value, error and parts, with the sources, the bias of size and the notes.
+            Value, error and parts by the name of each number, with the sources, the bias of size and the notes.
         """
         keys = [source.name.replace(" ", "_").replace("-", "") for source in self.sources]
         numbers = {
@@ -168,7 +170,7 @@ class ErrorBudget:
         return {**numbers, "sources": sources, "bias_of_size": bias, "notes": list(self.notes)}
 
     def facts(self) -> list[tuple[str, str]]:
-        """Return what each source is, and how the numbers change with the size of the map, in words.
+        """Return a description of each source, and the change of the numbers with the size of the map, in words.
 
         Returns
         -------
@@ -187,7 +189,7 @@ class ErrorBudget:
 
     @property
     def sampling(self) -> str:
-        """How much another map of the surface would differ, in a line for a picture; empty where it is left out."""
+        """The difference between maps of the surface, in a line for a picture; empty if the source is left out."""
         for place, source in enumerate(self.sources):
             if source.name == "sampling":
                 parts = {number.name: number.parts[place] / number.value for number in self.numbers}
@@ -196,7 +198,7 @@ class ErrorBudget:
         return ""
 
     def __repr__(self) -> str:
-        """Return the table in SI units, and what each source is."""
+        """Return the table in SI units, and a description of each source."""
         header, rows = self.table()
         lines = [header, *rows]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
@@ -208,7 +210,7 @@ class ErrorBudget:
 
 
 def _decimals(error: float, value: float) -> int:
-    """Return the decimals with which an error and its value have two digits; without an error the value has four."""
+    """Return the decimals at which an error has two digits; without an error, those at which the value has four."""
     known = math.isfinite(error) and error > abs(value) * ROUNDING
     size = min(error, abs(value) or error) if known else abs(value)
     if not (math.isfinite(size) and size > 0):
@@ -217,7 +219,7 @@ def _decimals(error: float, value: float) -> int:
 
 
 def _text(value: float, decimals: int, sign: str = "") -> str:
-    """Return a number with so many decimals, below or above the usual ones as a power of ten."""
+    """Return a number with `decimals` decimals; as a power of ten if it is very small or large."""
     if not math.isfinite(value):
         return "infinite" if math.isinf(value) else "unknown"
     value = round(value, decimals) + 0.0  # no negative zero
@@ -228,7 +230,7 @@ def _text(value: float, decimals: int, sign: str = "") -> str:
 
 
 def _percent(part: float, sign: str = "") -> str:
-    """Return a relative error, or with the sign "+" a bias, of two digits."""
+    """Return a relative error with two digits, or a bias if `sign` is "+"."""
     if not math.isfinite(part):
         return "unknown"
     if part > MANY_TIMES:

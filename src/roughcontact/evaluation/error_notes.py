@@ -1,4 +1,4 @@
-"""What a reader of an error budget should know where one source is nearly all of an error, in sentences."""
+"""Notes on an error budget in which one source contributes nearly all of an error."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from roughcontact.labels.variables import VARIABLES
 __all__ = ["notes_on_sources"]
 
 ALL = 0.9  # of an error, from one source
-LARGE = 0.1  # of a number: an error that is worth a sentence
+LARGE = 0.1  # of a number: smaller errors get no note
 REMEDIES = MappingProxyType(
     {
         "grid": "The cells are too large for this load: take a finer map.",
-        "short cut-off": "The shortest waves of the map make it: quote the shortest wave with the number, or name that "
+        "short cut-off": "The shortest waves of the map cause it: quote the shortest wave with the number, or that "
         "of the instrument (short_cutoff, --shortest-wave).",
-        "levelling": "The longest waves are about as long as the map, and a quadratic form takes them away: measure a "
-        "larger map, or find out whether the form is that of the instrument.",
+        "levelling": "The longest waves are about as long as the map, and a quadratic form removes them: measure a "
+        "larger map, or check whether the form is that of the instrument.",
         "sampling": "Other maps of this surface differ by about as much: measure a larger map, or several.",
         "patches": "The patches differ by as much: take more or larger ones.",
     }
 )
-OTHERWISE = ("_per_area", "_fraction")  # endings of names: numbers that are others over the area
+OTHERWISE = ("_per_area", "_fraction")  # endings of names: other numbers over the area
 
 
 def notes_on_sources(numbers: Sequence[QuotedNumber], sources: Sequence[ErrorSource]) -> list[str]:
-    """Return a sentence for each source that is nearly all of a large error, with the numbers and the remedy."""
+    """Return a note for each source that contributes nearly all of a large error, with the numbers and the remedy."""
     known = [place for place, source in enumerate(sources) if source.kind != "unknown"]
     error = "error" if len(known) == len(sources) else "known error"
     sizes = [math.hypot(*(number.parts[place] for place in known)) for number in numbers]
@@ -42,6 +42,6 @@ def notes_on_sources(numbers: Sequence[QuotedNumber], sources: Sequence[ErrorSou
             and size >= LARGE * abs(number.value) > 0
         ]
         if made:
-            words = f"Nearly all of the {error} of {', '.join(made)} is that of {sources[place].name}."
+            words = f"Nearly all of the {error} of {', '.join(made)} comes from {sources[place].name}."
             notes.append(f"{words} {REMEDIES[sources[place].name]}")
     return notes

@@ -20,32 +20,33 @@ NUMBERS = (
     *("contact_area", "corrected_contact_area", "contact_fraction", "corrected_contact_fraction"),
     *("mean_gap", "elastic_energy"),
 )
-# Factors on the correction of an area for its perimeter. They cover nine in ten single spheres
+# Factors of the correction of an area for its perimeter. They cover nine in ten single spheres
 # (docs/concepts/errors.md).
 OF_AREA, OF_CORRECTED, OF_STIFFNESS = 1.0, 1 / 2, 1 / 8
 
 
 def number_table(solutions: Sequence[Solution | None]) -> Array:
-    """Return NUMBERS of contacts, shape (numbers, contacts); NaN for None."""
+    """Return the values of NUMBERS for contacts, shape (numbers, contacts); NaN for None."""
     return np.array([list(_numbers(each)) for each in solutions]).T
 
 
 def border_floor(values: Array, spots: npt.ArrayLike) -> Array:
-    """Return what the cells at the border of a contact leave unknown of its numbers, whatever another grid gives.
+    """Return the smallest error of the numbers of a contact, from the cells along its border.
 
-    Borders of different spots lie independently between the cells, so that it decreases as the root of their number.
+    The borders of different spots lie independently between the cells, so this error decreases as the square root of
+    the number of spots.
 
     Parameters
     ----------
     values : array
-        Of `number_table`, shape (numbers, contacts).
+        From `number_table`, shape (numbers, contacts).
     spots : array-like, shape (contacts,)
-        The numbers of spots.
+        The number of spots of each contact.
 
     Returns
     -------
     array
-        The smallest error of the grid, of this shape; 0 for numbers that do not depend on the border.
+        Smallest errors, of the shape of `values`; 0 for numbers that do not depend on the border.
     """
     found, floor = dict(zip(NUMBERS, values, strict=True)), dict.fromkeys(NUMBERS, np.zeros(values.shape[1]))
     for name in ("contact_area", "contact_fraction"):

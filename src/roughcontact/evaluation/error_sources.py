@@ -1,4 +1,4 @@
-"""The errors of a load: it is pressed again on maps that were made otherwise."""
+"""The errors of a load, from solutions on maps that were made differently."""
 
 from __future__ import annotations
 
@@ -32,66 +32,65 @@ from roughcontact.validation import numeric, positive_scalar
 
 __all__ = ["checked_cutoff", "error_budget"]
 
-CELLS = 4  # of the default short cut-off: with fewer a Gaussian filter is none on a free map
-OF_CELLS = ("grid", "short cut-off")  # sources that know of no wave below the cells; they come first
+CELLS = 4  # of the default short cut-off: with fewer, a Gaussian filter does not work on a free map
+OF_CELLS = ("grid", "short cut-off")  # sources without waves shorter than the cells; they come first
 OF_FORM = (
     "Levelling and sampling are left out: the form of the map is larger than its roughness, and is taken for the body "
     "itself. If it is not, remove it (levelled('quadratic'), --level quadratic)."
 )
-AT_DEPTH = (
-    "No sampling: at a given depth, maps differ by their highest points. Prescribe the force or the pressure."
-)
+AT_DEPTH = "Sampling is left out: at a given depth, maps differ by their highest points. Prescribe force or pressure."
 FLOOR = "areas and stiffnesses at least by the cells along the border of the contact"
-SAME = 1e-9  # relative difference up to which two loads or spacings are one
+SAME = 1e-9  # relative difference up to which two loads or spacings are equal
 
 
 @numeric(short_cutoff="m")
 def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None) -> ErrorBudget:
     """Return the errors of the numbers of a pressed map, or of the means of several patches.
 
-    The load is pressed again on half as many cells, on the map without its short waves, and, where the map is free and
-    nominally flat, without its quadratic form; the changes of a number are its parts. They are not corrections: each
-    says how much a number depends on what was not known when the map was made. Four quarters of the map show how much
+    The load is computed again on half as many cells, on the map without its short waves, and, if the map is free and
+    nominally flat, without its quadratic form; the changes of a number are its parts. They are not corrections: each is
+    the sensitivity of the number to a property of the map that is unknown. Four quarters of the map show how much
     another map would differ.
 
     Parameters
     ----------
     pressed : Solution or sequence of Solution
-        What `press` returned of a map of heights; or of several patches of one size, at the same load.
+        The solution of `press` for a map of heights; or the solutions for several patches of one size, at the same
+        load.
     short_cutoff : float, optional
-        Wavelength [m] below which the instrument does not measure: the Gaussian filter leaves half of it. Four cells
-        without.
+        Wavelength [m] below which the instrument does not measure: the Gaussian filter halves the amplitude there. By
+        default four cells.
 
     Returns
     -------
     ErrorBudget
-        The number that was prescribed, force or depth, is not in it.
+        It does not contain the prescribed number, force or depth.
 
     Raises
     ------
     ValueError
-        If what is given was not pressed as a map of heights, the cut-off has fewer than four cells or is as long as the
-        map, or patches differ in their grid or load.
+        If a solution is not that of a map of heights, if the cut-off has fewer than four cells or is as long as the
+        map, or if patches differ in their grid or load.
     ConvergenceError
         If a load missed its tolerance.
 
     Notes
     -----
-    *Grid*: the mean heights over half as many cells of the same sides, so that long waves stay what they are. The
-    change is what the grid at hand gained over that one; on nested surfaces it is more than what it still lacks. Two
-    grids may agree by chance: areas and stiffnesses have at least what the cells along the border leave unknown.
-    *Short cut-off*: what the shortest waves of the map do. Still shorter ones do as much again to the area, and the
-    depth counts from the highest point of all: their errors are those of a surface without shorter waves than its map.
-    On a map that is rough down to its cells the depth has none (NaN), because it would grow with the grid.
-    The largest pressure grows with the waves, and at the border of a free map with the grid: it has no error at all.
-    *Levelling*: the map less its least-squares quadratic. *Patches*: the standard error of the mean over them. The
-    first two have the waves of two to four cells in common, so that the error is rather too large
-    (docs/concepts/errors.md).
-    *Sampling*: how much another map of the surface would differ, as an order of magnitude, for one periodic or
-    nominally flat map under a force. Four free quarters are pressed at the same nominal pressure; half of their
-    relative standard deviation is the part. With fewer than ten spots the part, and so the error, is NaN.
+    *Grid*: mean heights on half as many cells of the same map, which leaves long waves unchanged. The part is the
+    difference between the two grids; on nested surfaces it exceeds the remaining error of the finer one. Two grids may
+    agree by chance, so the parts of areas and stiffnesses are at least the error from the cells along the border.
+    *Short cut-off*: the effect of the shortest waves of the map. Still shorter waves change the area by as much again,
+    and the depth counts from the highest point, so these errors hold for a surface without shorter waves than its map.
+    On a map that is rough down to its cells the depth has no error (NaN), because it would grow with the grid. The
+    largest pressure has no error at all: it grows with the waves, and at the border of a free map with the grid.
+    *Levelling*: the map without its least-squares quadratic. *Patches*: the standard error of the mean over them. Grid
+    and short cut-off both change the waves of two to four cells, so the error is rather too large
+    (docs/concepts/errors.md). *Sampling*: how much another map of the surface would differ, as an order of magnitude,
+    for one periodic or nominally flat map under a force. Four free quarters are pressed at the same nominal pressure;
+    the part is half of their relative standard deviation. With fewer than ten spots the part, and therefore the error,
+    is NaN.
 
-    The area is given as the cells count it and as corrected for its perimeter by Yastrebov, Anciaux and Molinari,
+    The area is given both as counted by cells and corrected for its perimeter by Yastrebov, Anciaux and Molinari,
     Tribology International 114 (2017) 161.
 
     Examples
@@ -136,7 +135,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
             parts.append(part)
             if np.isnan(again).all(axis=0).any():
                 notes.append(
-                    f"The map made otherwise ({source.name}) cannot take this load: its part is unknown."
+                    f"The map made otherwise ({source.name}) cannot carry this load, so its part is unknown."
                 )
         if len(patches) > 1:
             many = f"standard error of the mean of {len(patches)} patches"
@@ -166,7 +165,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
 
 
 def _of_highest_point(prescribed: str) -> str:
-    """Return what is said of the depth of a map that is rough down to its cells."""
+    """Return the note on the depth of a map that is rough down to its cells."""
     why = "This map is rough down to its cells, and finer waves raise the highest point, from which the depth counts"
     if prescribed == "depth":
         return f"{why}: the errors at a given depth grow with the grid. Prescribe the force or the pressure."
@@ -174,10 +173,10 @@ def _of_highest_point(prescribed: str) -> str:
 
 
 def _check(patches: Sequence[Solution]) -> None:
-    """Refuse what is no map of heights that was pressed to its tolerance, and patches that differ."""
+    """Raise an error for solutions that are not those of maps within their tolerance, and for different patches."""
     if not patches or not all(isinstance(each, Solution) for each in patches):
         raise InputError(
-            "errors are those of solutions",
+            "an error budget takes solutions",
             "give the Solution that press returned, or several of one size and load",
         )
     first = patches[0].problem
@@ -186,12 +185,12 @@ def _check(patches: Sequence[Solution]) -> None:
         if problem.geometry is not Geometry.SURFACE or not isinstance(problem.surface, Surface):
             raise InputError(
                 f"errors are those of a map of heights that was pressed, not of a {problem.geometry.value} or of a "
-                "separation alone",
+                "separation without a map",
                 "press a Surface of two axes",
             )
         if not is_numpy(problem.surface.heights):
             raise InputError(
-                "errors are for heights in NumPy's memory",
+                "an error budget needs heights in NumPy's memory",
                 "press the surface there, or take solution.on_host()",
             )
         if problem.flow is not None or problem.rise or not isinstance(problem.hardness, int | float):
@@ -222,12 +221,12 @@ def _words(problem: ContactProblem) -> str:
 
 
 def checked_cutoff(surface: Surface, given: float | None) -> float:
-    """Return the short cut-off [m] of the errors of a map: the given one, or four cells.
+    """Return the short cut-off [m] of the errors of a map: `given`, or four cells.
 
     Raises
     ------
     ValueError
-        If the map has too few cells for it, or is no longer than it.
+        If the map has too few cells for the cut-off, or is not longer than it.
     """
     cutoff = (
         CELLS * max(surface.grid.spacing) if given is None else positive_scalar(given, "short_cutoff [m]")
@@ -242,20 +241,20 @@ def checked_cutoff(surface: Surface, given: float | None) -> float:
 
 
 def _again(solution: Solution, change: Callable[[Surface], Surface]) -> Solution | None:
-    """Return the same load on the surface made otherwise; None where that cannot take it, as near full contact."""
+    """Return the same load on a changed surface; None if that cannot carry it, as near full contact."""
     problem = solution.problem
     surface, operator = change(problem.surface), problem.operator  # type: ignore[arg-type]
     if surface.grid != problem.grid:
         other = capabilities(operator).coarsened(surface.grid)
         if other is None:
             raise InputError(
-                "this body is not known on other cells, so that the error of its grid cannot be estimated",
+                "this body cannot be made on other cells, so the error of its grid cannot be estimated",
                 "press the surface without operator=",
             )
         operator = other
     try:
         other_map = replace(problem, separation=separation_of(surface), operator=operator, surface=surface)
-    except ValueError:  # all else about it was accepted before
+    except ValueError:  # every other value was accepted before
         return None
     answer = solve(other_map)
     if not answer.status.converged:

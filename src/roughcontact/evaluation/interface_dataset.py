@@ -25,7 +25,7 @@ def interface_dataset(table: InterfaceTable) -> xarray.Dataset:
     Returns
     -------
     xarray.Dataset
-        One value of each quantity a load; ``zero_gap`` without a dimension.
+        One value of each quantity for each load; ``zero_gap`` has no dimension.
 
     Examples
     --------

@@ -23,20 +23,20 @@ _CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_are
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class InterfaceTable:
-    """What an interface does per nominal area: the resolved loads of a curve, by rising pressure.
+    """The law of an interface per nominal area: the resolved loads of a curve, by rising pressure.
 
-    The bodies' own compliance is not in it: the model around the interface has that.
+    It does not contain the compliance of the bodies, which the model around the interface has.
 
     Attributes
     ----------
     pressure, gap, stiffness, contact_fraction : array, shape (n,)
         Nominal pressure p [Pa], mean gap g [m], K/A0 [Pa/m], relative real contact area A/A0.
     conductances : dict of array
-        ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], where known.
+        ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], if known.
     area : float
-        Nominal area that a table of forces is for [m^2].
+        Nominal area of a table of forces [m^2].
     periodic : bool
-        Whether the map was pressed as a part of an endless surface.
+        Whether the map was pressed as a part of an infinite surface.
     hardness : float
         Pressure that no cell exceeds [Pa].
 
@@ -74,22 +74,22 @@ class InterfaceTable:
     def zero_gap(self) -> float:
         """Mean gap at which the pressure begins [m]: the tangent of the first resolved load ends there.
 
-        A rough surface has no such gap: its pressure falls without end as the gap grows. Codes want one, and from it to
-        the first resolved load a straight line of the stiffness of that load.
+        The pressure of a rough surface falls without end as the gap grows. Finite-element codes need such a gap, and a
+        straight line from there to the first resolved load, with the stiffness of that load.
         """
         return float(self.gap[0] + self.pressure[0] / self.stiffness[0])
 
     @property
     def overclosure(self) -> Array:
-        """How far the interface has closed since `zero_gap` [m], shape (n,)."""
+        """Closure of the interface since `zero_gap` [m], shape (n,)."""
         return self.zero_gap - self.gap
 
     @property
     def chord_error(self) -> float:
-        """How far straight lines between the loads lie above the pressure at most, relative.
+        """Largest relative distance of straight lines between the loads above the pressure.
 
-        Of an exponential law, which that of a rough surface is nearly: (r - 1)/ln r exp(ln r/(r - 1) - 1) - 1 between
-        pressures of the ratio r.
+        It is that of an exponential law, (r - 1)/ln r exp(ln r/(r - 1) - 1) - 1 between pressures of the ratio r. The
+        law of a rough surface is nearly exponential.
         """
         ratio = float((self.pressure[1:] / self.pressure[:-1]).max())
         return math.expm1(math.log((ratio - 1) / math.log(ratio)) + math.log(ratio) / (ratio - 1) - 1)
@@ -108,22 +108,22 @@ def interface_table(
 ) -> InterfaceTable:
     """Return pressure, stiffness and area against gap, per nominal area: the law of an interface.
 
-    For finite elements and discrete elements: `roughcontact.write` makes of it a table of comma-separated values
-    (``.csv``), lines for Abaqus (``.inp``) and a table of forces for LAMMPS (``.table``).
+    For finite elements and discrete elements: `roughcontact.write` writes it as a table of comma-separated values
+    (``.csv``), lines for Abaqus (``.inp``) or a table of forces for LAMMPS (``.table``).
 
     Parameters
     ----------
     curve : Curve
-        Of a map, best of a periodic one; the loads that are not resolved have no part in the table.
+        The curve of a map, best of a periodic one; loads that are not resolved are left out of the table.
     resistivities, conductivities : tuple of float, optional
-        Of both bodies [ohm m] and [W/(m K)], for the conductances per area; see `conductance`.
+        Values of both bodies [ohm m] and [W/(m K)], for the conductances per area; see `conductance`.
     area : float, optional
-        Nominal area that the forces of LAMMPS are for [m^2], such as that of one particle; by default that of the map.
+        Nominal area of the forces for LAMMPS [m^2], such as that of one particle; by default that of the map.
 
     Returns
     -------
     InterfaceTable
-        By rising pressure.
+        The resolved loads, by rising pressure.
 
     Raises
     ------
@@ -144,7 +144,7 @@ def interface_table(
     """
     if curve.geometry is not Geometry.SURFACE:
         raise InputError(
-            f"an interface has a law per area where a map of it was pressed, not a {curve.geometry.value}",
+            f"the law of an interface per area needs the curve of a map, not of a {curve.geometry.value}",
             "press a map of heights",
         )
     resolved = curve.resolved & np.isfinite(curve.interfacial_stiffness) & (curve.force > 0)
@@ -154,7 +154,7 @@ def interface_table(
     gap = curve.mean_gap[kept]
     if not ((np.diff(gap) < 0).all() and (np.diff(curve.force[kept]) > 0).all()):
         raise InputError(
-            "the gap does not fall from each resolved load to the next", "take loads that are further apart"
+            "the gap does not fall from each resolved load to the next", "use loads that are further apart"
         )
     found = {}
     if resistivities is not None or conductivities is not None:

@@ -1,4 +1,4 @@
-"""The law of an interface in the words of other programs: lines for Abaqus, a table of forces for LAMMPS."""
+"""The law of an interface in the formats of other programs: lines for Abaqus, a table of forces for LAMMPS."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from roughcontact.validation import Array
 
 __all__ = ["UNIT_SYSTEMS", "abaqus_text", "lammps_text"]
 
-# By system: its units in words, then what a pressure, a length, a thermal and an electrical conductance per area in SI
-# is to be multiplied by. With mm, N, s and t (tonnes) stresses are in MPa and powers in mW, and so amperes go with mV.
+# For each system: its units in words, then the factors from SI of a pressure, a length, and a thermal and an electrical
+# conductance per area. With mm, N, s and t (tonnes) stresses are in MPa and powers in mW, so that amperes require mV.
 UNIT_SYSTEMS = {
     "SI": ("m, N, Pa, W/m2/K, A/V/m2", (1.0, 1.0, 1.0, 1.0)),
     "mm": ("mm, N, MPa, mW/mm2/K, A/mV/mm2", (1e-6, 1e3, 1e-3, 1e-9)),
 }
-_WIDTH = 120  # letters of a comment, which Abaqus reads whole up to 256
-_LINES = 1001  # of a table for LAMMPS: evenly spaced, as its own interpolation wants them
+_WIDTH = 120  # characters of a comment; Abaqus reads at most 256
+_LINES = 1001  # of a table for LAMMPS: evenly spaced, as its interpolation requires
 _GAP_CONDUCTANCES = (
     ("thermal_conductance_per_area", "*GAP CONDUCTANCE, PRESSURE"),
     ("electrical_conductance_per_area", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE"),
@@ -28,20 +28,20 @@ _GAP_CONDUCTANCES = (
 
 
 def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: str = "SI") -> str:
-    """Return a surface interaction for Abaqus: pressure against overclosure, and what the gap conducts.
+    """Return a surface interaction for Abaqus: pressure against overclosure, and the conductances of the gap.
 
     Parameters
     ----------
     table : InterfaceTable
     remarks : iterable of str
-        Further comments.
+        Additional comments.
     units : {"SI", "mm"}
         Metres, newtons, pascals; or millimetres, newtons, megapascals.
 
     Returns
     -------
     str
-        Ends with a line end.
+        The text, with a line end at its end.
     """
     words, (stress, length, *conduction) = UNIT_SYSTEMS[units]
     zero = f"overclosure 0 is a mean gap of {table.zero_gap * length!r}: bodies meshed in touch carry nothing yet"
@@ -50,7 +50,7 @@ def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: st
         *_facts(table, "Pa" if stress == 1 else "MPa", stress),
         zero,
         "between two lines Abaqus interpolates linearly: at most "
-        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it goes on straight",
+        f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it is straight",
         *remarks,
     ]
     lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]
@@ -71,12 +71,12 @@ def lammps_text(table: InterfaceTable, remarks: Iterable[str] = ()) -> str:
     ----------
     table : InterfaceTable
     remarks : iterable of str
-        Further comments.
+        Additional comments.
 
     Returns
     -------
     str
-        Ends with a line end.
+        The text, with a line end at its end.
     """
     gap, pressure, energy = _evenly(table)
     head = [
@@ -95,7 +95,7 @@ def lammps_text(table: InterfaceTable, remarks: Iterable[str] = ()) -> str:
 
 
 def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
-    """Yield what whoever uses a table must know of it, pressures in a unit of which a pascal is `stress`."""
+    """Yield the facts that users of a table need, with pressures in `unit`; a pascal is `stress` of it."""
     low, high = (stress * each for each in table.validity)
     yield "law of a rough interface, per nominal area; the compliance of the bodies is not in it: the model has it"
     yield f"valid from {low:.6g} to {high:.6g} {unit}, {len(table)} resolved loads; below: a straight line to zero"
@@ -109,7 +109,7 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
     yield f"computed on a {kind}; {body}, normal load, no friction, no adhesion"
     if flows:
         limit = f"{table.hardness * stress:.6g} {unit}"
-        yield f"no cell bears more than {limit}: for loading only, on unloading it is another law"
+        yield f"no cell bears more than {limit}: for loading only, the law of unloading differs"
 
 
 def _pairs(first: Array, second: Array) -> Iterator[str]:
@@ -119,7 +119,7 @@ def _pairs(first: Array, second: Array) -> Iterator[str]:
 
 
 def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
-    """Return evenly spaced gaps with the pressure and the energy per area that it has stored."""
+    """Return evenly spaced gaps with the pressure and the stored energy per area."""
     from scipy.interpolate import PchipInterpolator
 
     log_pressure = PchipInterpolator(table.gap[::-1], np.log(table.pressure[::-1]))
@@ -132,13 +132,13 @@ def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
     there = pressure(gaps)
     there[-1] = 0.0
     between = pressure((gaps[1:] + gaps[:-1]) / 2)
-    # Simpson's rule on each step; the energy is that of closing from where the force begins.
+    # Simpson's rule on each step; the energy is that of closing the gap from the begin of the force.
     steps = np.diff(gaps) * (there[1:] + 4 * between + there[:-1]) / 6
     return gaps, there, np.append(np.cumsum(steps[::-1])[::-1], 0.0)
 
 
 def _plain(lines: Iterable[str]) -> Iterator[str]:
-    """Yield remarks in short lines, in letters that every reader knows."""
+    """Yield remarks in short lines of ASCII characters."""
     for line in lines:
         plain = " | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii")
         yield from wrap(plain, _WIDTH, break_on_hyphens=False)

@@ -1,4 +1,4 @@
-"""How much another map of the same surface would differ, from four quarters of this one that are pressed alone."""
+"""The difference between maps of the same surface, from four quarters of one map, each pressed separately."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ __all__ = ["Sampling", "sampling_of"]
 SPOTS = 10  # with fewer, quarters show 0.6 of the scatter of maps (docs/concepts/errors.md)
 CELLS = 4  # along each axis of a quarter
 MEASURED = 0.5  # of the cells of a quarter
-LENGTHS = ("depth", "mean_gap")  # numbers that are not larger on a larger area
-# Numbers that a map of any size has.
+LENGTHS = ("depth", "mean_gap")  # numbers that do not grow with the area
+# Numbers that do not depend on the size of a map.
 OF_JOINT = ("interfacial_stiffness_per_area", "contact_fraction", "corrected_contact_fraction", "mean_gap")
 HOW = "four free quarters at the same nominal pressure, their relative standard deviation over two"
 
@@ -36,16 +36,17 @@ Window = tuple[slice, ...]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampling:
-    """What quarters of a map show.
+    """The scatter of the quarters of a map.
 
     Attributes
     ----------
     source : ErrorSource
-        Of kind "unknown", with a sentence that says why, where the parts are unknown.
+        Its kind is "unknown", with the reason in a sentence, if the parts are unknown.
     parts : array, shape (numbers,)
-        For each of NUMBERS the relative standard deviation of the quarters over two, times the number; NaN if unknown.
+        Half of the relative standard deviation of the quarters times the number, for each of NUMBERS; NaN if unknown.
     bias_of_size : mapping of str to float
-        Relative difference of the mean of the quarters from the whole, for the numbers that a map of any size has.
+        Relative difference between the mean of the quarters and the whole, for the numbers that do not depend on the
+        size of a map.
     """
 
     source: ErrorSource
@@ -54,12 +55,12 @@ class Sampling:
 
 
 def sampling_of(solution: Solution) -> Sampling:
-    """Return how much another map of the same surface would differ, as an order of magnitude.
+    """Return the difference between maps of the same surface, as an order of magnitude.
 
-    A map is four quarters. If these were independent, the mean over the map would scatter from map to map by half of
-    what a quarter scatters from quarter to quarter. Each quarter carries the force in proportion to its measured cells,
-    and its forces, stiffnesses, areas and energies count per measured cell. Of an odd number of cells the middle row or
-    column belongs to no quarter.
+    A map consists of four quarters. If these were independent, the scatter of the mean over a map would be half of the
+    scatter of the quarters. Each quarter carries the force in proportion to its measured cells, and its forces,
+    stiffnesses, areas and energies count per measured cell. If the number of cells is odd, the middle row or column
+    belongs to no quarter.
 
     Raises
     ------
@@ -88,9 +89,9 @@ def sampling_of(solution: Solution) -> Sampling:
 
 
 def _scatter(whole: Array, quarters: Array, density: Array, solution: Solution) -> Sampling:
-    """Return what the numbers of quarters, shape (numbers, 4), show about those of the whole."""
+    """Return the scatter of the numbers of quarters, shape (numbers, 4), as errors of the whole."""
     found = dict(zip(NUMBERS, quarters, strict=True))
-    if all(solution.problem.grid.periodic):  # where both stiffnesses of the whole are one
+    if all(solution.problem.grid.periodic):  # where both stiffnesses of the whole are equal
         found["stiffness"] = found["interfacial_stiffness"]
     each = np.array([row if name in LENGTHS else row / density for name, row in found.items()])
     with np.errstate(invalid="ignore", divide="ignore"):  # in full contact stiffnesses are infinite
@@ -102,11 +103,11 @@ def _scatter(whole: Array, quarters: Array, density: Array, solution: Solution) 
 
 
 def _no_estimate(solution: Solution, measured: list[float]) -> str:
-    """Return why quarters say nothing about other maps, in a sentence; an empty text if they do."""
+    """Return the reason why quarters give no estimate, in a sentence; an empty text if they give one."""
     count, shape = solution.spot_count, solution.problem.grid.shape
     if count < SPOTS:
         spots = f"{count} spot{'s' if count != 1 else ''}"
-        return f"{spots}: one map cannot say how much another map of this surface would differ"
+        return f"{spots}, too few to estimate from one map how much another map of this surface would differ"
     if min(shape) < 2 * CELLS:
         return (
             f"a map of {' x '.join(map(str, shape))} cells has no quarters of {CELLS} cells along each axis"
@@ -123,7 +124,7 @@ def _quarters(shape: tuple[int, ...]) -> list[Window]:
 
 
 def _free_bodies(operator: Operator, windows: list[Window]) -> list[Operator]:
-    """Return the same body under each window, with nothing around it; an empty list if it is known periodic only."""
+    """Return the same body under each window, with nothing around it; an empty list if it exists only periodic."""
     grid = operator.grid
     if not any(grid.periodic):
         return [operator.restrict(window) for window in windows]

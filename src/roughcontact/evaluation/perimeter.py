@@ -1,4 +1,4 @@
-"""The perimeter of a contact on its cells, and the area that it adds to the counted one."""
+"""The perimeter of a contact on its cells, and the area that is overcounted along it."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ OVERHANG = (math.pi - 1 + math.log(2)) / 24  # of a cell, for each edge of the p
 def edge_count(solution: Solution) -> int:
     """Return the number of edges between a cell in contact and a measured one that is not.
 
-    Along a periodic axis neighbours go on across the border of the map. Times the size of a square cell that is the
-    perimeter of the contact on its grid, which is longer than the true one: of a disc 4/pi times.
+    Along a periodic axis neighbours continue across the border of the map. On square cells the perimeter of the contact
+    on its grid is this number times the size of a cell. It is longer than the true perimeter: 4/pi times for a disc.
     """
     contact, measured = on_host(solution.contact), on_host(solution.problem.measured)
     count = 0
@@ -37,16 +37,16 @@ def edge_count(solution: Solution) -> int:
 
 
 def corrected_area(solution: Solution) -> float:
-    """Return the real contact area less what counting whole cells adds to it along its perimeter [m^2].
+    """Return the real contact area without the area that counting whole cells adds along its perimeter [m^2].
 
     ``A - (pi - 1 + ln 2)/24 S d`` with the perimeter S on square cells of size d: Yastrebov, Anciaux and Molinari,
-    Tribology International 114 (2017) 161, arXiv:1701.02727. Of cells that are not square each edge counts by the area
-    of a cell.
+    Tribology International 114 (2017) 161, arXiv:1701.02727. For cells that are not square, each edge counts by the
+    area of a cell.
 
     Raises
     ------
     ValueError
-        If the contact is not one on a surface.
+        If the contact is not that of a surface.
     """
     problem = solution.problem
     if problem.geometry is not Geometry.SURFACE:

@@ -1,18 +1,18 @@
-"""A sphere pressed on a half-space, beside Hertz: whether an installation computes what it should."""
+"""A sphere pressed on a half-space, compared with Hertz: a check of an installation."""
 
 from __future__ import annotations
 
 __all__ = ["LIMITS", "self_check"]
 
-# Deviations from Hertz at 16 cells to the radius of the contact are 0.12 and 0.28 %: that of the area is the grid's.
+# With 16 cells per contact radius the deviations from Hertz are 0.12 and 0.28 %; the area is off because of the grid.
 LIMITS = {"depth error": 5e-3, "stiffness error": 1e-2, "residual": 1e-8}
-"""The largest values of a right answer, by their names."""
+"""The largest values of a correct result, by their names."""
 
 
 def self_check() -> dict[str, float]:
-    """Return how far depth and stiffness of a pressed sphere are from Hertz, relatively, and the residual.
+    """Return the relative deviations of depth and stiffness of a pressed sphere from Hertz, and the residual.
 
-    Some 800 of 4096 cells come into contact: sums over many cells and the machine code take part.
+    About 800 of 4096 cells come into contact, so that sums over many cells and the machine code are used.
     """
     import roughcontact as rc
 

@@ -1,4 +1,4 @@
-"""From a surface to the theories of its contact: what they need to know, and what body they stand on."""
+"""Theories for the contact of a surface: their inputs from its heights, and the body below it."""
 
 from __future__ import annotations
 
@@ -44,30 +44,31 @@ def loading_laws(
     surface : Surface
         Without tilt, on a grid of two axes; missing points are filled for the spectrum.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     names : str or sequence of str
-        Of ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others, in upper
-        or lower case.
+        Names in ``roughcontact.theory.laws.LAWS``: ``"persson"``, ``"gw"``, ``"bgt"``, ``"power-law"`` and others, in
+        upper or lower case.
     **given : dict
-        What is known better than the heights show: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
+        Values to use instead of those from the heights: ``hurst``, ``rms``, ``spectrum``, ``moments``, ``rolloff``,
         ``radius``, ``hardness``, see `roughcontact.theory.laws.LawInputs`.
 
     Returns
     -------
     list of LoadingLaw
-        In the order of the names, each with the contact it was `made_for`. A theory of the interface alone gets the
-        stiffness against the approach as well: on a periodic grid the same, on a free one with the compliance of the
-        body under its nominal area.
+        In the order of the names, each with the contact it was `made_for`. A theory of only the interface also gets the
+        stiffness against the approach: on a periodic grid it is the same, on a free grid the compliance of the body
+        under its nominal area is added.
 
     Raises
     ------
     ValueError
-        If there is no theory of a name, the surface is a line, or a theory needs what the surface does not show.
+        If there is no theory of a name, if the surface is a line, or if a theory needs a value that the surface does
+        not give.
 
     Notes
     -----
-    Spectrum and moments are those of the very waves of a periodic surface; of a free one those of its power
-    spectrum under a window, over the band to be relied upon. The Hurst exponent is fitted where none is given.
+    Spectrum and moments are those of the waves of a periodic surface; for a free surface, those of its power spectrum
+    under a window, over the reliable band. The Hurst exponent is fitted if it is not given.
 
     Examples
     --------
@@ -79,11 +80,11 @@ def loading_laws(
     ['Persson', 'Greenwood-Williamson']
     """
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
-        raise InputError("these theories are about surfaces", "give a grid of two axes")
+        raise InputError("these theories are for surfaces", "give a surface on a grid of two axes")
     wanted = [str(name).casefold() for name in ([names] if isinstance(names, str) else names)]
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
-        raise InputError("cgp is about a body that sinks in as a whole: a periodic surface has none, take gw")
+        raise InputError("cgp is for a body that is indented as a whole, unlike a periodic surface: use gw")
     known = {"modulus": value, "area": surface.grid.area} | inputs_for(surface, wanted, **given)
     found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
     scope = Scope(value, surface.grid.area, surface.rms, known.get("spectrum"))
@@ -91,13 +92,13 @@ def loading_laws(
 
 
 def inputs_for(surface: Surface, names: Sequence[str], **given: Unpack[laws.GivenValues]) -> dict[str, Any]:
-    """Return what theories of these names need to know of a surface: the `given` values, and the rest from its heights.
+    """Return the inputs of theories: the `given` values, and the others from the heights of a surface.
 
     The keys are those of `roughcontact.theory.laws.LawInputs`.
     """
     needs = {need for name in names if name in laws.LAWS for need in laws.LAWS[name].needs} - given.keys()
     found = dict(given)
-    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, a given one too
+    if needs & {"spectrum", "moments"}:  # the moments follow from the spectrum, also from a given one
         found.setdefault("spectrum", _waves(surface))
     if "rms" in needs:
         found["rms"] = surface.rms
@@ -109,10 +110,10 @@ def inputs_for(surface: Surface, names: Sequence[str], **given: Unpack[laws.Give
 
 
 def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
-    """Return Persson's probability density of the pressure [1/Pa] at the load of a solution, for comparison.
+    """Return Persson's probability density of the pressure [1/Pa] at the load of a solution.
 
-    A function of an array of pressures above zero [Pa]. Its integral is his contact fraction, its first moment the
-    nominal pressure; compare with `Solution.pressure_histogram` times the contact fraction.
+    It is a function of an array of pressures above zero [Pa]. Its integral is Persson's contact fraction, its first
+    moment the nominal pressure; compare it with `Solution.pressure_histogram` times the contact fraction.
 
     Raises
     ------
@@ -121,7 +122,7 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
     """
     surface = solution.on_host().problem.surface
     if not isinstance(surface, Surface) or surface.grid.ndim != 2:
-        raise InputError("Persson's theory is about surfaces on a grid of two axes")
+        raise InputError("Persson's theory is for surfaces on a grid of two axes")
     waves = _waves(surface)
     nominal = solution.nominal_pressure
     modulus = solution.problem.modulus
@@ -129,12 +130,12 @@ def persson_pressures(solution: Solution) -> Callable[[Array], Array]:
 
 
 def _whole(surface: Surface) -> Surface:
-    """Return the surface with a height at every point: a spectrum wants every one."""
+    """Return the surface with a height at every point, as a spectrum requires."""
     return surface.filled() if surface.missing else surface
 
 
 def _waves(surface: Surface) -> Waves:
-    """Return the very waves of a periodic surface, of a free one its spectrum in the band to be relied upon."""
+    """Return the waves of a periodic surface, or the spectrum of a free surface in its reliable band."""
     whole = _whole(surface)
     if all(whole.grid.periodic):
         dy, dx = whole.grid.spacing
@@ -143,7 +144,7 @@ def _waves(surface: Surface) -> Waves:
 
 
 def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[LoadingLaw]:
-    """Return laws that give the stiffness against the approach, where they give any."""
+    """Return laws with the stiffness against the approach, if they have a stiffness."""
     of_interface = [
         "stiffness" not in law.quantities and "interfacial_stiffness" in law.quantities for law in found
     ]
@@ -157,7 +158,7 @@ def _on_their_body(found: list[LoadingLaw], grid: Grid, modulus: float) -> list[
             )
 
     else:
-        # Mean displacement under a unit pressure everywhere, E* = 1, over the length.
+        # Mean displacement under a uniform unit pressure, for E* = 1, over the length.
         deflection = float(half_space(grid, 1.0).apply(np.ones(grid.shape)).mean()) / math.sqrt(grid.area)
 
         def standing(law: LoadingLaw) -> LoadingLaw:

@@ -1,4 +1,4 @@
-"""Theories of a joint that is known by its specification, without heights: per nominal area, against pressure."""
+"""Theories of a joint from its specification, without heights: per nominal area, against pressure."""
 
 from __future__ import annotations
 
@@ -23,12 +23,14 @@ if TYPE_CHECKING:
 
 __all__ = ["WITHOUT_SIZE", "theory_table"]
 
-LONGEST = 1e3  # roll-offs in the longest wave: those beyond have a millionth of the mean square height
+LONGEST = (
+    1e3  # roll-off wavelengths in the longest wave: longer waves have a millionth of the mean square height
+)
 _OF_A_JOINT = {"moments", "spectrum", "hardness", "modulus", "area"}
 WITHOUT_SIZE = tuple(
     name for name, law in laws.LAWS.items() if _OF_A_JOINT.issuperset(law.needs) and name != "cgp"
 )
-"""The theories of a joint of any size. The body of ``"cgp"`` ends at the edge of the contact."""
+"""The theories for joints of any size. The body of ``"cgp"`` ends at the edge of the contact."""
 _PER_AREA = {
     "contact_area": "contact_fraction",
     "interfacial_stiffness": "interfacial_stiffness_per_area",
@@ -47,21 +49,21 @@ def theory_table(
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
 ) -> xarray.Dataset:
-    """Return what theories say of a joint of two nominally flat faces, per nominal area.
+    """Return the predictions of theories for a joint of two nominally flat faces, per nominal area.
 
     Parameters
     ----------
     joint : SurfaceSpecification
         As `roughcontact.specified` returns it.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     names : str or sequence of str
         Laws of ``roughcontact.theory.laws.LAWS`` that need no size of the joint: ``"cmy"``, ``"mikic"``, ``"gw"``,
         ``"persson"`` and others. ``"cmy"`` and ``"mikic"`` take rms height and slope only.
     pressures : array_like, shape (n,)
         Nominal pressures [Pa].
     hardness : float, optional
-        Of the softer body [Pa], for theories of bodies that yield.
+        Hardness of the softer body [Pa], for theories of bodies that yield.
     resistivities, conductivities : tuple of float, optional
         Electrical resistivities [ohm m] and thermal conductivities [W/(m K)] of both bodies.
 
@@ -70,14 +72,15 @@ def theory_table(
     Dataset
         Along ``theory`` and ``load``: ``contact_fraction``, ``interfacial_stiffness_per_area`` [Pa/m], ``mean_gap``
         [m], and conductances and resistances per area, such as ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)].
-        These are those of the spots in vacuum: gas in the gap, films and radiation carry nothing. NaN where a theory
-        says nothing, and beyond the pressure up to which it holds. ``"ceb"`` and ``"kogut-etsion"`` give no
-        conductance: their stiffness is that of first loading, and the spots conduct as they unload.
+        Conductances are those of the spots in vacuum: gas in the gap, films and radiation are not included. Values are
+        NaN if a theory does not give them, and beyond the pressure up to which it holds. ``"ceb"`` and
+        ``"kogut-etsion"`` give no conductance: their stiffness is that of first loading, while the conductance follows
+        from that of unloading.
 
     Raises
     ------
     ValueError
-        If a theory is not known, needs the size of the joint, or needs a number that the specification leaves open.
+        If a theory is unknown, needs the size of the joint, or needs a number that the specification does not contain.
 
     Examples
     --------
@@ -89,7 +92,7 @@ def theory_table(
     """
     if not isinstance(joint, SurfaceSpecification):
         raise InputError(
-            "a joint is known by its specification here",
+            "theory_table takes the specification of a joint",
             "give rc.specified(sigma=..., slope=...), or take rc.loading_laws for a surface",
             "joint",
         )
@@ -126,9 +129,9 @@ def theory_table(
 
 
 def _law(name: str, joint: SurfaceSpecification, modulus: float, hardness: float | None) -> LoadingLaw:
-    """Return a law of one square metre of a joint, whose forces are its pressures."""
+    """Return a law of one square metre of a joint, whose forces are therefore its pressures."""
     if name not in WITHOUT_SIZE:
-        why = "needs the size of the joint" if name in laws.LAWS else "is not known"
+        why = "needs the size of the joint" if name in laws.LAWS else "is unknown"
         raise InputError(f"the theory {name!r} {why}", f"choose from {', '.join(WITHOUT_SIZE)}", "names")
     given: dict[str, Any] = {"area": 1.0, "moments": joint}
     if "spectrum" in laws.LAWS[name].needs:
@@ -137,7 +140,7 @@ def _law(name: str, joint: SurfaceSpecification, modulus: float, hardness: float
     if "hardness" in laws.LAWS[name].needs:
         if hardness is None:
             raise InputError(
-                f"the theory {name!r} takes a hardness, which no roughness shows",
+                f"the theory {name!r} needs a hardness, which does not follow from the roughness",
                 "give the `hardness` of the softer body, such as 1e9 (Pa)",
                 "hardness",
             )

@@ -1,8 +1,8 @@
-"""Pictures: functions of what is drawn and the axes it is drawn on, and whole figures.
+"""Pictures: functions that draw on axes, and whole figures.
 
-A function takes what is drawn first, then ``ax=None``, the Matplotlib axes to draw on, and the rest by name; it returns
-the axes. Without axes it makes a figure of pyplot, which notebooks show. A name that ends in ``figure`` makes a whole
-figure, without pyplot, which `save` writes as PNG, PDF or SVG.
+The first argument of a function is the object to draw, the second ``ax=None``, the Matplotlib axes to draw on; the
+others are keywords. It returns the axes. Without axes it makes a figure of pyplot, which notebooks show. A function
+whose name ends in ``figure`` makes a whole figure, without pyplot, which `save` writes as PNG, PDF or SVG.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
+    from roughcontact.labels.engineering_units import Scale as Scale
     from roughcontact.plot.canvas import (
         areal_figure as areal_figure,
         curve_figure as curve_figure,
@@ -32,7 +33,6 @@ if TYPE_CHECKING or _LATE is None:
         height_distribution as height_distribution,
         pressure_distribution as pressure_distribution,
     )
-    from roughcontact.plot.drawing.engineering_units import Scale as Scale
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
     from roughcontact.plot.jumps import (
         jump_area as jump_area,
@@ -69,7 +69,7 @@ if TYPE_CHECKING or _LATE is None:
 __all__ = [name for name in _LATE or globals() if not name.startswith("_")]
 
 
-if not TYPE_CHECKING:  # to which it would be a module that has any name
+if not TYPE_CHECKING:  # a type checker would accept every name of a module with __getattr__
 
     def __getattr__(name: str) -> Any:
         return open_name(globals(), _LATE, name)

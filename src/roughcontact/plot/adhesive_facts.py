@@ -1,4 +1,4 @@
-"""What is worth telling of surfaces that stick, line by line: on a screen and in a notebook."""
+"""The main numbers of adhesive surfaces, line by line, for a screen and a notebook."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 __all__ = ["ADHESIVE_COLUMNS", "adhesive_curve_facts", "adhesive_facts", "jump_facts", "law_facts", "tension"]
 
 ADHESIVE_COLUMNS = names_of(shown_in("path", ADHESIVE_CURVE[("load",)]))
-_JUMPS = 12  # that are listed one by one: those that lost most
+_JUMPS = 12  # listed one by one: those that lost most energy
 
 
 def law_facts(
     adhesion: Adhesion, modulus: float, spacing: Sequence[float], summit_radius: float
 ) -> list[tuple[str, str]]:
-    """Return the law of adhesion, over how many cells the attraction varies beside a contact, and Tabor's number."""
+    """Return the law of adhesion, Irwin's length with its number of cells, and Tabor's number."""
     zone = adhesion.process_zone(modulus)
     work = (
         "the work of each cell"
@@ -51,7 +51,7 @@ def law_facts(
 
 
 def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
-    """Return what a state of surfaces that stick is worth telling, line by line."""
+    """Return the main numbers of a state of adhesive surfaces, line by line."""
     problem, kind = state.problem, state.geometry
     grid = problem.operator.grid
     met = "met" if state.status.converged else "MISSED"
@@ -80,7 +80,7 @@ def adhesive_facts(state: AdhesiveState) -> list[tuple[str, str]]:
 
 
 def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
-    """Return what a path of surfaces that stick is worth telling, line by line."""
+    """Return the main numbers of a path of adhesive surfaces, line by line."""
     kind = loop.geometry
     facts = []
     if not math.isnan(loop.jump_in_force):
@@ -98,12 +98,12 @@ def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
 
 
 def tension(force: float, kind: Geometry) -> str:
-    """Return a force [N], positive in tension, without its sign and with the word for it."""
+    """Return the size of a force [N], positive in tension, with the word for its sign."""
     return f"{quantity('pull_off_force', abs(force), kind)} in {'compression' if force < 0 else 'tension'}"
 
 
 def jump_facts(jumps: Sequence[Jump], kind: Geometry) -> list[tuple[str, str]]:
-    """Return one line for each of the jumps that lost most, in their order, and how many others there are."""
+    """Return one line for each of the jumps that lost most energy, in their order, and the number of the others."""
     if not jumps:
         return [("jumps", "none")]
     listed = sorted(sorted(range(len(jumps)), key=lambda k: -jumps[k].lost)[:_JUMPS])

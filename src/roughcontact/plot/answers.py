@@ -1,4 +1,4 @@
-"""Surfaces and answers drawn as their methods draw them: each by the picture that suits it."""
+"""The ``plot`` methods of surfaces and solutions: each draws a suitable picture."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ __all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surfa
 
 
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
-    """Draw the heights: a map in colour, of a profile a curve.
+    """Draw the heights: a map in colour, or a curve for a profile.
 
     Parameters
     ----------
     surface : Surface
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     spikes : Spikes, optional
-        Such as ``roughcontact.find_spikes(surface)``: each is marked.
+        Spikes to mark, such as ``roughcontact.find_spikes(surface)``.
 
     Returns
     -------
@@ -53,13 +53,13 @@ def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | N
 def plot_solution(
     solution: Solution, ax: Axes | None = None, *, field: Literal["pressure", "contact"] = "pressure"
 ) -> Axes:
-    """Draw the pressure, or the cells in contact over the heights: maps, of a line or of rings curves.
+    """Draw the pressure, or the cells in contact over the heights: maps, or curves for a line and for rings.
 
     Parameters
     ----------
     solution : Solution
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     field : {"pressure", "contact"}
 
     Returns
@@ -69,7 +69,7 @@ def plot_solution(
     Raises
     ------
     ValueError
-        If the field is another.
+        If the field is unknown.
 
     Examples
     --------
@@ -100,14 +100,14 @@ def plot_curve(
     ----------
     curve : Curve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     quantity : str
         ``"stiffness"``, ``"contact_area"`` or ``"depth"`` against force; ``"interfacial_stiffness_per_area"``,
         ``"contact_fraction"`` or ``"mean_gap"`` against nominal pressure.
     law : PowerLaw, optional
-        To be drawn with a stiffness, such as ``curve.fit()``.
+        A law to draw with a stiffness, such as ``curve.fit()``.
     theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
+        Theories to draw, such as those of `roughcontact.loading_laws`.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def plot_curve(
     Raises
     ------
     ValueError
-        If the quantity is another, or a law is given that is not about it.
+        If the quantity is unknown, or a law is given with a quantity other than a stiffness.
 
     Examples
     --------
@@ -129,7 +129,7 @@ def plot_curve(
     ('log', 'contact area [µm²]')
     """
     if law is not None and "stiffness" not in quantity:
-        raise about("law", "is about the stiffness", f"leave it out with {quantity!r}")
+        raise about("law", "applies only to the stiffness", f"leave it out with {quantity!r}")
     if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
         raise about("quantity", f"must be one of {', '.join(every)}, not {quantity!r}")
     draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve
@@ -145,7 +145,7 @@ def plot_loop(
     ----------
     loop : Loop
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     quantity : {"depth", "stiffness", "bearing"}
         Force against depth; the stiffness per area K/A0 against nominal pressure, both logarithmic; or the bearing
         (Abbott) curve before and after.
@@ -157,7 +157,7 @@ def plot_loop(
     Raises
     ------
     ValueError
-        If the quantity is another.
+        If the quantity is unknown.
 
     Examples
     --------
@@ -176,13 +176,13 @@ def plot_loop(
 
 
 def plot_state(state: AdhesiveState | DetachmentState, ax: Axes | None = None) -> Axes:
-    """Draw the pressure of surfaces that stick, tension in blue, the contact outlined; of a line or rings a curve.
+    """Draw the pressure of adhesive surfaces, tension in blue, contact outlined; for a line or rings, a curve.
 
     Parameters
     ----------
     state : AdhesiveState or DetachmentState
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------

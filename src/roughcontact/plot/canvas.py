@@ -1,4 +1,4 @@
-"""Whole figures, and how they reach the disk; no pyplot, no global state."""
+"""Whole figures and their files, without pyplot and without global state."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.files.aside import WriteError, written_aside
+from roughcontact.labels.engineering_units import Scale, written
 from roughcontact.labels.variables import unit_of
 from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
-from roughcontact.plot.drawing.engineering_units import Scale, written
 from roughcontact.plot.drawing.error_bars import Errors, sampling_lines
 from roughcontact.plot.drawing.marks import contact_window
 from roughcontact.plot.drawing.raster import Window
@@ -41,14 +41,14 @@ _FORMATS = ("png", "pdf", "svg")
 
 @numeric
 def solution_figure(solution: Solution, errors: ErrorBudget | None = None) -> Figure:
-    """Return the contact on the whole map beside the pressure; the pressure is enlarged where that helps.
+    """Return the contact on the whole map beside the pressure, which is enlarged if the contact is small.
 
     Parameters
     ----------
     solution : Solution
-        Of a surface, a line or rings.
+        The solution for a surface, a line or rings.
     errors : ErrorBudget, optional
-        Of the solution: how much another map would differ stands below the maps.
+        Errors of the solution; the expected difference of another map is written below the maps.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def solution_figure(solution: Solution, errors: ErrorBudget | None = None) -> Fi
         if width <= 1.8 * height:
             figure = Figure(figsize=(9.0, 4.2), layout="constrained")
             first, second = figure.subplots(1, 2)
-        else:  # of a wide map two are better one above the other
+        else:  # two wide maps fit better one above the other
             figure = Figure(figsize=(7.0, max(1.8 + 11.0 * height / width, 3.2)), layout="constrained")
             first, second = figure.subplots(2, 1)
         contact_map(solution, first, frame=window)
@@ -90,14 +90,14 @@ def solution_figure(solution: Solution, errors: ErrorBudget | None = None) -> Fi
 
 @numeric
 def pressure_distribution_figure(solution: Solution, theories: Mapping[str, Density] | None = None) -> Figure:
-    """Return the distribution of the pressure and what theories say about it.
+    """Return the distribution of the pressure, with the predictions of theories.
 
     Parameters
     ----------
     solution : Solution
-        With at least one cell in contact.
+        A solution with at least one cell in contact.
     theories : mapping of str to callable, optional
-        By name, the density [1/Pa] at pressures [Pa].
+        Functions by name: the density [1/Pa] at pressures [Pa].
 
     Returns
     -------
@@ -123,17 +123,17 @@ def curve_figure(
     theories: Sequence[Law] = (),
     errors: Errors | None = None,
 ) -> Figure:
-    """Return stiffness, contact area and depth against force, and what theories say about them.
+    """Return stiffness, contact area and depth against force, with the predictions of theories.
 
     Parameters
     ----------
     curve : Curve
     law : PowerLaw, optional
-        Such as ``curve.fit()``.
+        A law to draw, such as ``curve.fit()``.
     theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
+        Theories to draw, such as those of `roughcontact.loading_laws`.
     errors : mapping of float to ErrorBudget, optional
-        By force [N]: bars at these loads, and in a line each how much another map would differ.
+        Errors by force [N]: bars at these loads, and a line for each load with the expected difference of another map.
 
     Returns
     -------
@@ -166,19 +166,19 @@ def areal_figure(
     units: Mapping[str, Scale] | None = None,
     errors: Errors | None = None,
 ) -> Figure:
-    """Return K/A0, A/A0 and mean gap against nominal pressure: what a joint has whatever its size.
+    """Return K/A0, A/A0 and mean gap against nominal pressure, which do not depend on the size of a joint.
 
     Parameters
     ----------
     curve : Curve
     law : PowerLaw, optional
-        Of k, such as ``curve.fit()``; drawn on a periodic grid alone.
+        A law of k, such as ``curve.fit()``; drawn only on a periodic grid.
     theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
+        Theories to draw, such as those of `roughcontact.loading_laws`.
     units : mapping of str to Scale, optional
-        Units to draw in, by ``"nominal_pressure"``, ``"interfacial_stiffness_per_area"`` and ``"mean_gap"``.
+        Units of the axes, by ``"nominal_pressure"``, ``"interfacial_stiffness_per_area"`` and ``"mean_gap"``.
     errors : mapping of float to ErrorBudget, optional
-        By force [N]: bars at these loads, and in a line each how much another map would differ.
+        Errors by force [N]: bars at these loads, and a line for each load with the expected difference of another map.
 
     Returns
     -------
@@ -208,12 +208,12 @@ def areal_figure(
 
 
 def resistance_figure(dataset: xarray.Dataset) -> Figure:
-    """Return the electrical and the thermal resistance, those that the dataset holds: of the interface per area.
+    """Return the electrical and thermal resistances in a dataset, per area for an interface.
 
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.conductance` returns it of the dataset of a curve.
+        The result of `roughcontact.conductance` for the dataset of a curve.
 
     Returns
     -------
@@ -247,7 +247,7 @@ def surface_figure(surface: Surface, spikes: Spikes | None = None) -> Figure:
     ----------
     surface : Surface
     spikes : Spikes, optional
-        Such as ``roughcontact.find_spikes(surface)``, to be marked.
+        Spikes to mark, such as ``roughcontact.find_spikes(surface)``.
 
     Returns
     -------
@@ -270,19 +270,19 @@ def surface_figure(surface: Surface, spikes: Spikes | None = None) -> Figure:
 
 
 def save(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure as PNG, PDF or SVG, by the ending of `path`; whole or not at all.
+    """Write a figure as PNG, PDF or SVG, by the ending of `path`; on an error no file is left behind.
 
     Parameters
     ----------
     figure : Figure
-        Of axes its ``ax.figure``.
+        The figure; for axes, their ``ax.figure``.
     path : path-like
         Its name ends in ``.png``, ``.pdf`` or ``.svg``.
 
     Raises
     ------
     WriteError
-        If the ending is another or the file cannot be written.
+        If the ending is unknown or the file cannot be written.
 
     Examples
     --------
@@ -299,12 +299,12 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
 
 
 def require_picture(path: str | os.PathLike[str]) -> str:
-    """Return the format of a picture, by the ending of `path`; meant to be asked before a long computation.
+    """Return the format of a picture from the ending of `path`, for checks before a long computation.
 
     Raises
     ------
     WriteError
-        If the ending is none of a picture.
+        If the ending is not that of a picture.
     """
     ending = Path(path).suffix.lower().removeprefix(".")
     if ending not in _FORMATS:
@@ -313,7 +313,7 @@ def require_picture(path: str | os.PathLike[str]) -> str:
 
 
 def _peak(solution: Solution, window: Window | None) -> str:
-    """Return the largest pressure of what is shown, and where that of the map is if it is larger."""
+    """Return the largest pressure in the window; if that of the map is larger, also the latter and its place."""
     pressure, grid = solution.pressure, solution.problem.grid
     largest = float(pressure.max())
     if window is None:

@@ -1,6 +1,6 @@
-"""Loading curves and theories beside them.
+"""Pictures of loading curves with theories.
 
-All are logarithmic, with force or nominal pressure along x. Points that the grid resolves are filled, the others open.
+All axes are logarithmic, with force or nominal pressure along x. Resolved points are filled, the others open.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from matplotlib.axes import Axes
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import Scale, scale
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import Scale, scale
 from roughcontact.plot.drawing.error_bars import Errors, error_bars
 from roughcontact.plot.drawing.level import free_place, level
 from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
@@ -34,14 +34,14 @@ __all__ = [
     *("areal_curve", "force_curve", "resistance_curve"),
 ]
 
-_POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: every eye tells them apart
+_POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: distinct also for colour-blind readers
 _RESISTANCES = {"electrical_resistance": _POINTS, "thermal_resistance": _LAW}
-# Colours that every eye tells from the points and from each other, and dashes for eyes that see no colours. Five
-# colours and four dashes have no common period: of twenty laws no two look the same.
+# Colours that are distinct from the points and from each other for every reader, and dashes for readers without colour
+# vision. Five colours and four dashes give twenty different lines.
 _LAWS = ("#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b")
 _DASHES = ("-", (0, (5, 1.5)), (0, (3, 1.5, 1, 1.5)), (0, (1, 1)))
-OF_FORCE = ("stiffness", "contact_area", "depth")  # what is drawn against force
-# What is drawn against nominal pressure, and the quantity of the patch that theories give for it.
+OF_FORCE = ("stiffness", "contact_area", "depth")  # quantities against force
+# Quantities against nominal pressure, and the quantity of the patch for which theories have functions.
 PER_AREA = {
     "interfacial_stiffness_per_area": "interfacial_stiffness",
     "contact_fraction": "contact_area",
@@ -49,7 +49,7 @@ PER_AREA = {
 }
 _SMOOTH = 200  # points of a line
 _FULL = "full contact"
-_ROOM = 1.7  # space beyond the outermost line of a logarithmic axis, as a factor
+_ROOM = 1.7  # factor of space beyond the outermost line of a logarithmic axis
 
 
 @numeric
@@ -64,23 +64,23 @@ def force_curve(
 ) -> Axes:
     """Draw the stiffness, the real contact area or the depth against force, both logarithmic.
 
-    Resolved points are filled, the others open. With the stiffness, horizontal lines mark that of twenty cells (not on
-    a line contact, where widths tell what is resolved) and that of all measured cells in contact, and the outer axes
-    give force and stiffness without dimension. With the area, the right axis gives the relative one. The depth is that
-    since first touch.
+    Resolved points are filled, the others open. With the stiffness, horizontal lines mark that of twenty cells (except
+    on a line contact, which is resolved by its width) and that of all measured cells in contact, and the outer axes
+    show force and stiffness without dimension. With the area, the right axis shows the relative area. The depth counts
+    from first touch.
 
     Parameters
     ----------
     curve : Curve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     quantity : {"stiffness", "contact_area", "depth"}
     law : PowerLaw, optional
-        Of the stiffness, such as ``curve.fit()``: drawn strongly over its window and thinly beyond.
+        A law of the stiffness, such as ``curve.fit()``: a strong line over its window and a thin line beyond.
     theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`: lines in colours of their own.
+        Theories to draw, such as those of `roughcontact.loading_laws`; each has its colour.
     errors : mapping of float to ErrorBudget, optional
-        By force [N]: bars at these loads.
+        Errors by force [N], drawn as bars.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def force_curve(
     Raises
     ------
     ValueError
-        If the quantity is another, or a law is given that is not about it.
+        If the quantity is unknown, or a law is given with a quantity other than a stiffness.
 
     Examples
     --------
@@ -111,7 +111,10 @@ def force_curve(
     )
     stiffness = quantity == "stiffness"
     require(
-        stiffness or law is None, "law is about the stiffness", f"leave it out with {quantity!r}", place="law"
+        stiffness or law is None,
+        "law applies only to the stiffness",
+        f"leave it out with {quantity!r}",
+        place="law",
     )
     axes = axes_for(ax)
     _, y = scales = _draw(axes, curve, quantity)
@@ -133,7 +136,7 @@ def force_curve(
         level(axes, value * y.factor, words, (0, (6, 3)), **place)
     if stiffness:
         if axes.get_legend_handles_labels()[0]:
-            # The corner between the curve and its upper limit is the one that stays free, but for theories.
+            # The corner between the curve and its upper limit stays free, except for theories.
             top = math.log(limits[_FULL] / low) / math.log(high / low) if _FULL in limits else 1.0
             corner: Any = {"loc": "upper left", "bbox_to_anchor": (0.0, top - 0.005)}
             axes.legend(**({"loc": "best"} if theories else corner), fontsize=TICK, frameon=False)
@@ -155,22 +158,22 @@ def areal_curve(
     units: Mapping[str, Scale] | None = None,
     errors: Errors | None = None,
 ) -> Axes:
-    """Draw K/A0, A/A0 or the mean gap against nominal pressure, both logarithmic: what a joint has whatever its size.
+    """Draw K/A0, A/A0 or the mean gap, which do not depend on the size of a joint, against nominal pressure.
 
     Parameters
     ----------
     curve : Curve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     quantity : {"interfacial_stiffness_per_area", "contact_fraction", "mean_gap"}
     law : PowerLaw, optional
-        Of k. This and the limits of what is resolved are drawn with K/A0 where the two are one: on a periodic grid.
+        A law of k. The law and the limits of resolved points are drawn with K/A0 only on a periodic grid, where k = K.
     theories : sequence of Law, optional
-        Such as those of `roughcontact.loading_laws`.
+        Theories to draw, such as those of `roughcontact.loading_laws`.
     units : mapping of str to Scale, optional
-        Units to draw in, by ``"nominal_pressure"`` and the quantity.
+        Units of the axes, by ``"nominal_pressure"`` and the quantity.
     errors : mapping of float to ErrorBudget, optional
-        By force [N]: bars at these loads.
+        Errors by force [N], drawn as bars.
 
     Returns
     -------
@@ -179,7 +182,7 @@ def areal_curve(
     Raises
     ------
     ValueError
-        If the quantity is another.
+        If the quantity is unknown.
 
     Examples
     --------
@@ -206,7 +209,7 @@ def areal_curve(
     numbers = (curve.nominal_pressure, np.asarray(getattr(curve, quantity)))
     given = tuple((units or {}).get(each) for each in ("nominal_pressure", quantity))
     x, y = _draw_points(axes, numbers, words, np.asarray(curve.resolved), _POINTS, given)
-    # From what belongs to the patch to what is drawn: over the nominal area, the gap as it is.
+    # From values of the patch to those of the picture: per nominal area, except for the gap.
     of_force = Scale(x.factor / curve.nominal_area, x.unit)
     of_patch = y if of_theory == quantity else Scale(y.factor / curve.nominal_area, y.unit)
     low, high = axes.get_ylim()
@@ -226,16 +229,16 @@ def areal_curve(
 
 
 def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None) -> Axes:
-    """Draw one resistance against force, one per area against pressure; what is infinite has no place on the axis.
+    """Draw one resistance against force, or one per area against pressure; infinite values are left out.
 
     Parameters
     ----------
     dataset : Dataset
-        As `roughcontact.conductance` returns it of the dataset of a curve.
+        The result of `roughcontact.conductance` for the dataset of a curve.
     name : str
-        Of the resistance in it, such as ``"electrical_resistance_per_area"``.
+        Name of the resistance in it, such as ``"electrical_resistance_per_area"``.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -270,11 +273,11 @@ def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None)
 
 
 def _limits(curve: Curve) -> dict[str, float]:
-    """Return the stiffnesses [N/m] between which a curve is resolved, by what they are called."""
+    """Return the stiffnesses [N/m] between which a curve is resolved, by their names."""
     limits = {_FULL: curve.full_contact_stiffness}
-    if curve.geometry is not Geometry.LINE:  # there it is the width that counts
+    if curve.geometry is not Geometry.LINE:  # a line is resolved by its width
         limits = {f"{CELLS} x one cell": CELLS * curve.cell_stiffness} | limits
-    # A periodic surface in full contact is infinitely stiff: that limit has no line.
+    # A periodic surface in full contact is infinitely stiff, so this limit has no line.
     return {words: value for words, value in limits.items() if math.isfinite(value)}
 
 
@@ -299,9 +302,9 @@ def _draw_points(
     colour: str,
     units: tuple[Scale | None, ...] = (None, None),
 ) -> tuple[Scale, Scale]:
-    """Draw values against loads and label both axes by names and units, in SI if none is given; return their scales.
+    """Draw values against loads and label both axes by names and units, by default SI; return their scales.
 
-    A logarithmic axis has no place for zero, and none for infinity: such points are left out.
+    Zero and infinite values are left out, because the axes are logarithmic.
     """
     loads, values = numbers
     x, y = (
@@ -328,10 +331,10 @@ def _draw_points(
 def _draw_laws(
     axes: Axes, laws: Sequence[Law], quantity: str, forces: tuple[float, float], scales: tuple[Scale, Scale]
 ) -> None:
-    """Draw what each of the theories says about a quantity between two `forces` [N].
+    """Draw the prediction of each theory for a quantity between two `forces` [N].
 
-    A theory keeps its style from one picture to the next, whether or not it gives every quantity. The
-    axes keep the limits that the computed points gave them.
+    A theory has the same style in all pictures, even if it does not have every quantity. The axes keep the limits of
+    the computed points.
     """
     x, y = scales
     force = np.geomspace(*forces, _SMOOTH)
@@ -367,11 +370,11 @@ def _outer(axes: Axes, curve: Curve, scales: tuple[Scale, Scale]) -> None:
 
 
 def _without_length(name: str, curve: Curve) -> str:
-    """Return how a quantity without dimension is made: on a line, where loads are per length, without L."""
+    """Return the formula of a dimensionless quantity: on a line, where loads are per length, without L."""
     label = VARIABLES[name].label
     return label.replace("E* L", "E*").replace("(E*)", "E*") if curve.geometry is Geometry.LINE else label
 
 
 def _parts_of(unit: float) -> Any:
-    """Return the two functions of an axis that counts in `unit`: there and back."""
+    """Return the two functions of an axis in multiples of `unit`: forward and inverse."""
     return (lambda value: value / unit), (lambda part: part * unit)

@@ -1,4 +1,4 @@
-"""Stuck surfaces that are drawn back: force against depth, with the cells that let go; and facts in words."""
+"""Detachment of stuck surfaces: force against depth, with the cells that let go, and the main numbers in words."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 
 from roughcontact.labels.adhesive_columns import DETACHMENT_CURVE
 from roughcontact.labels.column import names_of, shown_in
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.adhesive_facts import tension
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.plot.facts import closed_gap, quantity, size_of
 from roughcontact.validation import Array
@@ -34,7 +34,7 @@ def detachment_force(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
     ----------
     curve : DetachmentCurve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def detachment_force(curve: DetachmentCurve, ax: Axes | None = None) -> Axes:
 
 
 def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
-    """Return what a state of stuck surfaces is worth telling, line by line."""
+    """Return the main numbers of a state of stuck surfaces, line by line."""
     problem, kind = state.problem, state.geometry
     met = "met" if state.status.converged else "MISSED"
     energies = [quantity(name, getattr(state, name), kind) for name in ("elastic_energy", "adhesive_energy")]
@@ -88,7 +88,7 @@ def detachment_state_facts(state: DetachmentState) -> list[tuple[str, str]]:
 
 
 def detachment_facts(curve: DetachmentCurve) -> list[tuple[str, str]]:
-    """Return what a curve of stuck surfaces is worth telling, line by line."""
+    """Return the main numbers of a curve of stuck surfaces, line by line."""
     kind = curve.geometry
     depth, force = min(line_of(curve), key=lambda point: point[1], default=(0.0, 0.0))
     at = f" at a depth of {quantity('depth', depth)}" if force < 0 else ""
@@ -114,7 +114,7 @@ def _count(number: int, name: str) -> str:
 
 
 def line_of(curve: DetachmentCurve) -> Array:
-    """Return depths and forces along the curve: between detachments the force is linear in the depth."""
+    """Return depths and forces along the curve; between detachments the force is linear in the depth."""
     points: list[tuple[float, float]] = []
     for k, here in enumerate(zip(curve.depth, curve.force, strict=True)):
         for event, at in zip(curve.detachments, curve.detached_at, strict=True):

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.drawing.usual_range import usual_range
 from roughcontact.plot.pressure_bars import fewer, pressure_bars
@@ -28,7 +28,7 @@ Density = Callable[[Array], Array]
 
 _BARS: Any = {"fill": True, "color": "#0072b2", "alpha": 0.45}
 _LINES = ("#d55e00", "#009e73", "#cc79a7")
-_ABOVE = 1.25  # height of the axes over what is drawn: there the legend covers nothing
+_ABOVE = 1.25  # height of the axes over that of the bars, to leave room for the legend
 
 
 @numeric
@@ -39,21 +39,21 @@ def pressure_distribution(
     theories: Mapping[str, Density] | None = None,
     bins: int = 60,
 ) -> Axes:
-    """Draw the probability density of the pressure over the nominal area, without the part that carries none.
+    """Draw the probability density of the pressure over the nominal area, without the part outside contact.
 
-    A few cells at the edges of spots may carry many times more than all others: where they would take a quarter of the
-    axis for themselves, it ends before, and the legend says how much lies beyond.
+    A few cells at the edges of spots may carry many times the pressure of all others. If they would take a quarter of
+    the axis, the axis ends before them, and the legend shows the part beyond.
 
     Parameters
     ----------
     solution : Solution
-        With at least one cell in contact.
+        A solution with at least one cell in contact.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     theories : mapping of str to callable, optional
-        By name, the density [1/Pa] at pressures [Pa]; its integral is the theory's contact fraction.
+        Functions by name: the density [1/Pa] at pressures [Pa], whose integral is the theory's contact fraction.
     bins : int
-        Number of bars at the most: of few cells Rice's rule, ``2 n^(1/3)``, makes fewer.
+        Largest number of bars; for few cells it is lower by Rice's rule, ``2 n^(1/3)``.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def pressure_distribution(
     solution = solution.on_host()
     unit = unit_of("pressure", solution.problem.geometry)
     if not solution.contact.any():
-        raise InputError("nothing is in contact: there is no pressure to show the distribution of")
+        raise InputError("nothing is in contact, so the pressure has no distribution")
     axes = axes_for(ax)
     bars = pressure_bars(solution, bins)
     end = float(bars.edges[-1])
@@ -97,18 +97,18 @@ def pressure_distribution(
 @numeric
 @analysed_on_host
 def height_distribution(surface: Surface, ax: Axes | None = None, *, bins: int = 60) -> Axes:
-    """Draw the density of the heights above their mean, and the normal one of the same rms; missing points count not.
+    """Draw the density of the measured heights above their mean, and the normal density of the same rms.
 
-    A flat surface has no normal distribution; it is drawn without one. Where a few points
-    would take half of the axis for themselves, it ends before, and the legend says how many lie beyond.
+    A flat surface is drawn without the normal density. If a few points would take half of the axis, the axis ends
+    before them, and the legend shows the part beyond.
 
     Parameters
     ----------
     surface : Surface
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     bins : int
-        Number of bars at the most: of few points Rice's rule, ``2 n^(1/3)``, makes fewer.
+        Largest number of bars; for few points it is lower by Rice's rule, ``2 n^(1/3)``.
 
     Returns
     -------

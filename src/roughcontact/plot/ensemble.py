@@ -1,4 +1,4 @@
-"""Ensembles: means with the band of their error, and what is fitted to them against a parameter."""
+"""Ensembles: means with the band of their error, and values fitted to them against a parameter."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import pretty
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import pretty
 from roughcontact.plot.drawing.ticks import TICK, label_axes
 from roughcontact.validation import Array
 
 __all__ = ["fitted_values", "hollow_marks", "mean_curves", "shades"]
 
-# Colours that every eye tells apart; more groups than these take shades in their order.
+# Colours that are distinct for every reader; more groups than these get shades in their order.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-_NAMED = 12  # more groups than these leave no room for a legend
+_NAMED = 12  # groups at most, to leave room for a legend
 _BAND = 0.25  # opacity
 
 
@@ -33,21 +33,21 @@ def mean_curves(
     error: xarray.DataArray | None = None,
     resolved: xarray.DataArray | None = None,
 ) -> Axes:
-    """Draw means over samples against force, both logarithmic, one line a group.
+    """Draw means over samples against force, both logarithmic, one line for each group.
 
     Parameters
     ----------
     force : DataArray
-        Along the points, and the groups where they differ; such as ``dimensionless_force`` of an export.
+        Along the points, and along the groups if their forces differ; such as ``dimensionless_force`` of an export.
     mean : DataArray
-        Along the points and at most one dimension more, whose values tell the groups apart.
+        Along the points and at most one more dimension, whose values name the groups.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     error : DataArray, optional
-        Half the width of a band about the mean, such as `roughcontact.statistics.standard_error`, or the
-        standard deviation where the scatter of samples is meant.
+        Half the width of a band about the mean, such as `roughcontact.statistics.standard_error`, or the standard
+        deviation for the scatter of samples.
     resolved : DataArray of bool, optional
-        Points outside it are drawn thin and dotted.
+        Points that are not resolved are drawn thin and dotted.
 
     Returns
     -------
@@ -103,25 +103,25 @@ def fitted_values(
     shift: float = 0.0,
     resolved: xarray.DataArray | None = None,
 ) -> Axes:
-    """Draw what `roughcontact.statistics.fit_power_laws` found against a parameter, with its intervals.
+    """Draw the results of `roughcontact.statistics.fit_power_laws` against a parameter, with their intervals.
 
     Parameters
     ----------
     fits : Dataset
-        Of no other dimension than `along`; ensembles without a fit are left out.
+        A dataset whose only dimension is `along`; ensembles without a fit are left out.
     name : str
         ``"exponent"`` or ``"prefactor"``.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     along : str
         The parameter.
     label : str
-        In the legend.
+        Label in the legend.
     colour : str
     shift : float
-        Of the marks along the axis, so that several series do not hide one another.
+        Shift of the marks along the axis, so that several series do not hide one another.
     resolved : DataArray of bool, optional
-        Marks outside it are hollow.
+        Marks of loads that are not resolved are hollow.
 
     Returns
     -------
@@ -148,13 +148,13 @@ def fitted_values(
     """
     if fits[name].dims != (along,):
         raise InputError(
-            f"{name} lies along {', '.join(map(str, fits[name].dims))}, not along {along!r} alone",
+            f"{name} lies along {', '.join(map(str, fits[name].dims))}, not only along {along!r}",
             "select first",
         )
     axes = axes_for(ax)
     x, y, low, high = (fits[each].to_numpy() for each in (along, name, f"{name}_low", f"{name}_high"))
     shown = np.isfinite(y)
-    # Of one sample there is a value and no interval.
+    # A single sample has a value and no interval.
     arms = np.nan_to_num(np.stack([y - low, high - y])[:, shown])
     style: Any = {"fmt": "o", "markersize": 4, "capsize": 2, "linewidth": 1.0, "color": colour, "zorder": 3}
     axes.errorbar(x[shown] + shift, y[shown], np.maximum(arms, 0.0), label=label or None, **style)
@@ -165,14 +165,14 @@ def fitted_values(
 
 
 def hollow_marks(colour: Any) -> dict[str, Any]:
-    """Return the style of marks whose loads are not resolved, as in the picture of a curve."""
+    """Return the style of marks for loads that are not resolved, as in the picture of a curve."""
     return {"marker": "o", "markersize": 4, "linestyle": "", "color": colour, "markerfacecolor": "white"}
 
 
 def _curve(
     axes: Axes, numbers: tuple[Array, Array, Array], inside: npt.NDArray[np.bool_], name: str, colour: Any
 ) -> None:
-    """Draw one mean with its band; a logarithmic axis has no place for zero."""
+    """Draw one mean with its band; zeros are left out, because the axis is logarithmic."""
     x, y, half = numbers
     shown = np.isfinite(y) & (y > 0) & (x > 0)
     if not inside[shown].all():
@@ -186,7 +186,7 @@ def _curve(
 
 
 def shades(count: int) -> list[Any]:
-    """Return that many colours for lines on white."""
+    """Return `count` colours for lines on white."""
     if count <= len(_COLOURS):
         return list(_COLOURS[:count])
     # The last of viridis is too pale for a line on white.

@@ -1,4 +1,4 @@
-"""What is worth telling of an answer, line by line and in units that suit: on a screen and in a notebook."""
+"""The main numbers of results, line by line and in suitable units, for a screen and a notebook."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import numpy as np
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
+from roughcontact.labels.engineering_units import Scale, pretty, scale, written
 from roughcontact.labels.labelled import values_of
 from roughcontact.labels.variables import VARIABLES, unit_of
-from roughcontact.plot.drawing.engineering_units import Scale, pretty, scale, written
 from roughcontact.solver.control import Status
 from roughcontact.surface.height_range import height_range
 
@@ -33,15 +33,15 @@ __all__ = [
     *("surface_facts", "surface_record"),
 ]
 
-_SUITS: Mapping[str, Scale] = MappingProxyType({})  # units that suit the numbers
-_ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of its size
+_SUITS: Mapping[str, Scale] = MappingProxyType({})  # choose units by the numbers
+_ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of that size
 CURVE_COLUMNS = names_of(shown_in("patch", (*POINTS, *UNLOADED, *CERTIFICATES)))
 AREAL_COLUMNS = names_of(shown_in("joint", (*POINTS, *UNLOADED, *CERTIFICATES)))
-"""Of a table of loads; those of unloading are there in a loop only."""
+"""The columns of a table of loads; those of unloading exist only in a loop."""
 
 
 def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
-    """Return a quantity of the table of variables with a unit that suits it."""
+    """Return a quantity of the table of variables with a suitable unit."""
     return written(value, unit_of(name, geometry), digits=4)
 
 
@@ -59,7 +59,7 @@ def column_facts(
     names: Mapping[str, str],
     units: Mapping[str, Scale] = _SUITS,
 ) -> list[tuple[str, str]]:
-    """Return what an answer holds of columns, line by line: the label and the value in its unit, or one that suits."""
+    """Return columns of a result line by line: the label, and the value in its unit or a suitable one."""
     facts = []
     for column, value in values_of(answer, columns, names).items():
         if column.name == "mean_gap":
@@ -75,7 +75,7 @@ def column_facts(
 
 
 def solution_facts(solution: Solution, units: Mapping[str, Scale] = _SUITS) -> list[tuple[str, str]]:
-    """Return what one loaded state is worth telling, line by line, in units by the names of quantities."""
+    """Return the main numbers of one loaded state, line by line, in units by the names of quantities."""
     problem = solution.problem
     met = "met" if solution.status.converged else "MISSED"
     flowed = solution.flow is not None and solution.flow.volume > 0
@@ -88,7 +88,7 @@ def solution_facts(solution: Solution, units: Mapping[str, Scale] = _SUITS) -> l
 
 
 def _flow_facts(solution: Solution, units: Mapping[str, Scale]) -> list[tuple[str, str]]:
-    """Return what there is to tell of a state that has flowed."""
+    """Return the main numbers of the flow of a state."""
     flow, flattened, kind = solution.flow, solution.flattened, solution.problem.geometry
     assert flow is not None
     most = float(solution.problem.measure.xp.max(flow.depth))
@@ -117,7 +117,7 @@ def stiffness_facts(
 
 
 def loop_facts(loop: Loop) -> list[tuple[str, str]]:
-    """Return what a loop of loads is worth telling, line by line."""
+    """Return the main numbers of a loop of loads, line by line."""
     kind, loading, unloading = loop.loading.geometry, loop.loading, loop.unloading
     dissipated, work = loop.dissipated_work, loop.work
     gap, flattened = float(loading.mean_gap[-1]), float(unloading.mean_gap[0])
@@ -146,7 +146,7 @@ def loop_facts(loop: Loop) -> list[tuple[str, str]]:
 
 
 def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
-    """Return what a curve is worth telling as a whole, line by line: its power law, if it has one, and its limits."""
+    """Return the numbers of a curve as a whole, line by line: its power law, if it has one, and its limits."""
     kind = curve.geometry
     full = quantity("full_contact_stiffness", curve.full_contact_stiffness, kind)
     facts = [
@@ -161,7 +161,7 @@ def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
 
 
 def bend_words(law: PowerLaw) -> str:
-    """Return what is to be said of a law whose exponent changes over its window."""
+    """Return a remark on a law whose exponent changes over its window."""
     low, high = law.ends
     return (
         f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
@@ -170,7 +170,7 @@ def bend_words(law: PowerLaw) -> str:
 
 
 def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of those columns that a curve has, a row a load, each in one unit, and remarks."""
+    """Return header and rows of the columns that a curve has, a row for each load, with units and remarks."""
     header, columns = [], []
     geometry = Geometry(dataset.attrs.get("geometry", "surface"))
     for name in filter(dataset.__contains__, names):
@@ -194,7 +194,7 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
 
 
 def surface_record(surface: Surface) -> dict[str, Any]:
-    """Return what is worth keeping of a surface, as plain values."""
+    """Return the main numbers of a surface, as plain values."""
     grid = surface.grid
     lowest, highest = height_range(surface.heights)
     return {
@@ -213,7 +213,7 @@ def surface_record(surface: Surface) -> dict[str, Any]:
 
 
 def surface_facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, str]]:
-    """Return what is worth telling of a surface, line by line."""
+    """Return the main numbers of a surface, line by line."""
     cell = " x ".join(quantity("spacing", step) for step in surface.grid.spacing)
     missing = f"{surface.missing} ({surface.missing / surface.grid.size:.2%})" if surface.missing else "none"
     trend = "plane" if surface.grid.ndim == 2 else "slope"
@@ -229,14 +229,14 @@ def surface_facts(surface: Surface, record: dict[str, Any]) -> list[tuple[str, s
 
 
 def _scale(values: Any, unit: str, known: str) -> Scale:
-    """Return the unit that suits a column; one that the user chose stays."""
+    """Return the unit chosen by the user for a column, or a suitable one."""
     if unit != known:
         return Scale(1.0, unit)
     return scale(float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values))), unit)
 
 
 def closed_gap(gap: Any, depth: Any) -> Any:
-    """Return mean gaps with 0 for those that are mere rounding of the depth."""
+    """Return mean gaps, with 0 for values within rounding of the depth."""
     return np.where(np.abs(gap) <= _ROUNDING * np.abs(depth), 0.0, gap)
 
 

@@ -1,4 +1,4 @@
-"""Loading curves of surfaces that stick: force against depth, with jumps."""
+"""Loading curves of adhesive surfaces: force against depth, with jumps."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_curve import AdhesiveCurve
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 
 __all__ = ["jump_area", "jump_figure", "jump_loop", "pieces_of"]
@@ -21,18 +21,18 @@ _STYLES: dict[bool, Any] = {
     False: {"color": "#d55e00", "marker": "v", "markerfacecolor": "none", "label": "retreat"},
 }
 _JUMP: Any = {"color": "0.2", "linestyle": (0, (3, 2)), "linewidth": 1.0}
-_SEEN = 0.05  # of the picture's width or height, that a jump must span for its energy to be written beside it
-_OFF = 0.08  # of the picture's width: how far the line of a body that is pulled off is drawn
+_SEEN = 0.05  # of the width or height of the picture: smallest jump with its energy written beside it
+_OFF = 0.08  # of the width of the picture: length of the line of a body that is pulled off
 
 
 def jump_loop(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
-    """Draw force against depth on approach and retreat; jumps are dashed, large ones with the energy that they lost.
+    """Draw force against depth on approach and retreat; jumps are dashed, large jumps with their lost energy.
 
     Parameters
     ----------
     loop : AdhesiveCurve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def jump_area(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     ----------
     loop : AdhesiveCurve
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -109,9 +109,11 @@ def jump_area(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
     x = scale(float(np.abs(loop.depth[finite]).max(initial=0.0)), VARIABLES["depth"].unit)
     for way, style in _STYLES.items():
         along = loop.approach == way
-        line = np.flatnonzero((along | np.append(along[1:], False)) & finite)  # from where the path turned
+        line = np.flatnonzero(
+            (along | np.append(along[1:], False)) & finite
+        )  # from the turning point of the path
         if along[line].any():
-            # No line leads across a jump, or from one branch to the next of its way.
+            # No line crosses a jump, or connects two branches of the same direction.
             broken = np.flatnonzero(np.isin(line, loop.jumped) | (np.diff(line, prepend=line[0]) > 1))
             depth, area = (
                 np.insert(values[line], broken, np.nan) for values in (loop.depth, loop.contact_fraction)
@@ -166,7 +168,7 @@ def loop_words(loop: AdhesiveCurve) -> str:
 
 
 def pieces_of(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
-    """Return the pieces of a path between its jumps, as depths and forces, that go one way."""
+    """Return the pieces of a path between its jumps in one direction, as depths and forces."""
     pieces: list[list[tuple[float, float]]] = [[]]
     last: tuple[float, float] | None = None
     for k, here in enumerate(zip(loop.depth, loop.force, strict=True)):
@@ -174,7 +176,7 @@ def pieces_of(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
             pieces.append([])
         else:
             if not pieces[-1] and last is not None:
-                pieces[-1].append(last)  # where the path turned
+                pieces[-1].append(last)  # the turning point of the path
             for jump in (jump for jump, at in zip(loop.jumps, loop.jumped, strict=True) if at == k):
                 pieces[-1].append((jump.depth, jump.force_before))
                 pieces.append([(jump.depth_after, jump.force_after)])

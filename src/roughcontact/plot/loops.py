@@ -1,4 +1,4 @@
-"""Loops of loads, and the surface before and after them."""
+"""Pictures of loops of loads, and of the surface before and after them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from roughcontact.contact.flow import Flow
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes, readable_ticks
 from roughcontact.plot.maps import height_map
@@ -24,25 +24,25 @@ from roughcontact.validation import Array, numeric
 
 __all__ = ["bearing_curves", "depth_loop", "flattened_figure", "loop_figure", "stiffness_loop"]
 
-# First loading, unloading and reloading: colours that every eye tells apart, and marks where two lie on each other.
+# First loading, unloading and reloading: colours that are distinct for every reader, and different marks.
 _STYLES: dict[str, Any] = {
     "loading": {"color": "#0072b2", "marker": "o", "label": "first loading"},
     "unloading": {"color": "#d55e00", "marker": "v", "label": "unloading"},
     "reloading": {"color": "#009e73", "marker": "^", "markerfacecolor": "none", "label": "reloading"},
 }
 _BEFORE, _AFTER = "0.55", "#0072b2"
-_POINTS = 2000  # of a bearing curve: more are not seen
+_POINTS = 2000  # of a bearing curve: more are invisible
 
 
 @numeric
 def depth_loop(loop: Loop, ax: Axes | None = None) -> Axes:
-    """Draw force against depth along the loop, and the depth that stays.
+    """Draw force against depth along the loop, and the residual depth.
 
     Parameters
     ----------
     loop : Loop
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -75,13 +75,13 @@ def depth_loop(loop: Loop, ax: Axes | None = None) -> Axes:
 def stiffness_loop(loop: Loop, ax: Axes | None = None) -> Axes:
     """Draw the interfacial stiffness per area against the nominal pressure along the loop, both logarithmic.
 
-    The line is the stiffness of unloading from each load of first loading. What is infinite has no place on the axis.
+    The line is the stiffness of unloading from each load of first loading. Infinite values are left out.
 
     Parameters
     ----------
     loop : Loop
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -128,11 +128,11 @@ def bearing_curves(surface: Body, flow: Flow, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     surface : Surface or RadialProfile
-        As it was.
+        The original surface.
     flow : Flow
-        What has flowed, such as ``solution.flow``.
+        The flow, such as ``solution.flow``.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -161,7 +161,7 @@ def bearing_curves(surface: Body, flow: Flow, ax: Axes | None = None) -> Axes:
 
 
 def bearing_of(surface: Body) -> tuple[Array, Array]:
-    """Return the share of the area at or above each height, and the heights [m], from the highest down."""
+    """Return the part of the area at or above each height, and the heights [m], from the highest down."""
     heights = np.ravel(on_host(surface.heights))
     areas = np.broadcast_to(surface.grid.cell_area, surface.grid.shape).ravel()
     there = np.isfinite(heights)
@@ -204,9 +204,9 @@ def flattened_figure(surface: Body, flow: Flow) -> Figure:
     Parameters
     ----------
     surface : Surface or RadialProfile
-        As it was.
+        The original surface.
     flow : Flow
-        What has flowed, such as ``solution.flow``.
+        The flow, such as ``solution.flow``.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Maps of a surface and of one loaded state."""
+"""Maps of a surface and of a loaded state."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from matplotlib.colors import ListedColormap
 
 from roughcontact.contact.solution import Solution
 from roughcontact.grid import AnyGrid
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.marks import faint_spots
 from roughcontact.plot.drawing.raster import (
     Window,
@@ -34,7 +34,7 @@ from roughcontact.validation import Array, numeric
 __all__ = ["colour_limit", "contact_map", "height_map", "pressure_map"]
 
 _CONTACT = "#c8290b"
-_SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of a ring [points^2]
+_SPIKE, _RING = "#d55e00", 90  # a colour outside viridis, and the size of a ring [points^2]
 
 
 @numeric
@@ -42,17 +42,17 @@ _SPIKE, _RING = "#d55e00", 90  # a colour that viridis has not, and the size of 
 def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
     """Draw the heights of a surface, with a colour bar; points that were not measured are hatched.
 
-    Where a few heights far out would take half of the colours for themselves, these end before, and the bar says so.
-    Heights that differ by little of their size are given above one of them.
+    If a few heights far out would take half of the colours, the colours end before them, and the label of the bar gives
+    the range of the heights. Heights that differ by a small part of their size are shown above one of them.
 
     Parameters
     ----------
     surface : Surface
-        On a grid of two axes.
+        A surface on a grid of two axes.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     spikes : Spikes, optional
-        Such as ``roughcontact.find_spikes(surface)``: each is ringed.
+        Spikes to mark by rings, such as ``roughcontact.find_spikes(surface)``.
 
     Returns
     -------
@@ -88,14 +88,14 @@ def height_map(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | Non
 def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window | None = None) -> Axes:
     """Draw the pressure in colour over the heights in grey, with a colour bar.
 
-    Spots too small to be seen at this scale get a dot in the colour of their largest pressure.
+    Spots that are too small to see at this scale get a dot in the colour of their largest pressure.
 
     Parameters
     ----------
     solution : Solution
-        On a grid of two axes.
+        A surface on a grid of two axes.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     window : tuple of two slices, optional
         Rows and columns of the part to show.
 
@@ -140,18 +140,18 @@ def contact_map(
 ) -> Axes:
     """Draw the cells in contact over the heights in grey.
 
-    Spots too small to be seen at this scale are ringed, the larger the load the larger the ring.
+    Spots that are too small to see at this scale get a ring, whose size grows with the load.
 
     Parameters
     ----------
     solution : Solution
-        On a grid of two axes.
+        A surface on a grid of two axes.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     window : tuple of two slices, optional
         Rows and columns of the part to show.
     frame : tuple of two slices, optional
-        Rows and columns of a part to outline, which is shown elsewhere.
+        Rows and columns of a part to outline, which another picture shows.
 
     Returns
     -------
@@ -186,17 +186,17 @@ def contact_map(
 
 
 def colour_limit(pressures: Array) -> tuple[float, bool]:
-    """Return the upper end of the colours, and whether it cuts off some pressures."""
+    """Return the upper end of the colours, and whether some pressures lie above it."""
     if pressures.size == 0:
         return 1.0, False
-    # A few cells at the edges of rough spots carry many times what the others do; coloured up to their
-    # pressure, all the rest would be black.
+    # A few cells at the edges of rough spots carry many times the pressure of the others; if the colours went up to
+    # their pressure, all other cells would be black.
     usual, largest = float(np.quantile(pressures, 0.95)), float(pressures.max())
     return (usual, True) if largest > 1.5 * usual else (largest, False)
 
 
 def _backdrop(axes: Axes, solution: Solution, window: Window | None) -> None:
-    """Draw the heights in a light grey that no colour of a contact meets."""
+    """Draw the heights in light grey, distinct from the colours of a contact."""
     surface = solution.problem.surface
     if surface is not None:
         greys = ListedColormap(colormaps["gray"](np.linspace(0.6, 1.0, 128)))
@@ -212,5 +212,5 @@ def _marks(solution: Solution, cells: Window) -> tuple[Array, Array, Array, Arra
 
 
 def _steps(grid: AnyGrid) -> Array:
-    """Return what leads from rows and columns to places on the axes: the sides of a cell in their unit."""
+    """Return the sides of a cell in the unit of the axes, the factors from rows and columns to places."""
     return np.array(grid.spacing) * length_scale(grid).factor

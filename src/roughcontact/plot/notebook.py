@@ -50,7 +50,7 @@ __all__ = [
     "surface_html",
 ]
 
-_SHOWN = 30  # loads of a longer curve: the first and the last half of these
+_SHOWN = 30  # loads that are shown of a longer curve: half of them from its begin, half from its end
 _SIZE, _DPI = (4.6, 3.4), 96
 _LEFT = "text-align:left"
 
@@ -98,7 +98,7 @@ def loop_html(loop: Loop) -> str:
 
 
 def state_html(state: AdhesiveState | DetachmentState) -> str:
-    """Return the numbers of a state of surfaces that stick beside pressure and tension."""
+    """Return the numbers of a state of adhesive surfaces beside pressure and tension."""
     figure, axes = _figure()
     plot_state(state, axes)
     facts = detachment_state_facts(state) if isinstance(state, DetachmentState) else adhesive_facts(state)
@@ -114,7 +114,7 @@ def detachment_html(curve: DetachmentCurve) -> str:
 
 
 def adhesive_curve_html(loop: AdhesiveCurve) -> str:
-    """Return a table of the loads of surfaces that stick, and jumps and lost energy beside force against depth."""
+    """Return a table of the loads of adhesive surfaces, and jumps and lost energy beside force against depth."""
     figure, axes = _figure()
     jump_loop(loop, axes)
     law = law_facts(loop.adhesion, loop.modulus, loop.spacing, loop.summit_radius)

@@ -1,4 +1,4 @@
-"""What looks suspicious in a map that was measured, and the option of ``surface prepare`` that mends it."""
+"""Suspicious features of a measured map, and the option of ``surface prepare`` that corrects each."""
 
 from __future__ import annotations
 
@@ -24,25 +24,27 @@ if TYPE_CHECKING:
 
 __all__ = ["PreparationWarning", "preparation_warnings"]
 
-_FEW = 32  # cells along a side: fewer hold no decade of waves between a third of the side and two cells
-_LINES = 8  # fewer rows or columns have no statistics of the steps between them
-_WHOLE = 0.5  # share of a row that must be measured
+_FEW = (
+    32  # cells along a side: with fewer there is no decade of waves between a third of the side and two cells
+)
+_LINES = 8  # rows or columns at least for statistics of the steps between them
+_WHOLE = 0.5  # smallest measured part of a row
 
 
 @dataclass(frozen=True, slots=True)
 class PreparationWarning:
-    """What looks wrong, and the step of ``surface prepare`` that mends it.
+    """A suspicious feature of a map, and the step of ``surface prepare`` that corrects it.
 
     Parameters
     ----------
     kind : str
-        What it is, in a word or two.
+        Its name, in a word or two.
     words : str
-        What was found.
+        Its description.
     remedy : str
-        What to do about it, in the options of the command line.
+        The remedy, as options of the command line.
     step : tuple of str, optional
-        The option to begin with and its value; None where no option mends it.
+        The first option and its value; None if no option corrects it.
     """
 
     kind: str
@@ -55,7 +57,7 @@ class PreparationWarning:
 
 
 def preparation_warnings(surface: Surface) -> tuple[Spikes, list[PreparationWarning]]:
-    """Return the spikes of a surface, and all that is suspicious with what to do about it."""
+    """Return the spikes of a surface, and the warnings about it."""
     spikes = find_spikes(surface)
     clean = without_spikes(surface, spikes)
     found = [*_spikes(spikes), *_far(clean), *_trends(clean), *_steps(surface), *_cells(surface)]
@@ -71,7 +73,7 @@ def _spikes(spikes: Spikes) -> Iterator[PreparationWarning]:
 
 
 def _far(clean: Surface) -> Iterator[PreparationWarning]:
-    """Yield the heights that are far from nearly all without the tilt, above and below, if there are any."""
+    """Yield warnings about heights far from nearly all others without the tilt, above and below."""
     heights = clean.levelled("auto").heights
     for name, limit, sign in zip(("below", "above"), height_limits(heights), (-1, 1), strict=True):
         if far := int(np.count_nonzero(sign * heights > sign * limit)):
@@ -85,7 +87,7 @@ def _far(clean: Surface) -> Iterator[PreparationWarning]:
 
 
 def _trends(clean: Surface) -> Iterator[PreparationWarning]:
-    """Yield the plane and the quadratic form if they are higher than what is left without them."""
+    """Yield warnings about the plane and the quadratic form if they are larger than the remaining heights."""
     if all(clean.grid.periodic):
         return
     flat, tilt = _without(clean.heights, 1)
@@ -96,23 +98,23 @@ def _trends(clean: Surface) -> Iterator[PreparationWarning]:
         yield PreparationWarning("tilt", words, "--level plane", ("level", "plane"))
     if form > float(np.nanstd(rest)) > 0:
         words = f"the quadratic part has an rms height of {quantity('rms', form)}, more than the rest"
-        remedy = "--form 2, sphere or cylinder, for the roughness alone"
+        remedy = "--form 2, sphere or cylinder, for only the roughness"
         yield PreparationWarning("form", words, remedy, ("form", "2"))
 
 
 def _without(heights: Array, degree: int) -> tuple[Array, float]:
-    """Return heights less their least-squares polynomial, and its rms height over them."""
+    """Return the heights without their least-squares polynomial, and the rms height of the polynomial."""
     trend = polynomial_trend(heights, degree)
     return heights - trend, float(np.std(trend[~np.isnan(heights)]))
 
 
 def _steps(surface: Surface) -> Iterator[PreparationWarning]:
-    """Yield the largest step between two rows or columns, if it is not one of chance, and the larger side of it."""
+    """Yield a warning about the largest step between two rows or columns, if it is significant."""
     if surface.grid.ndim == 1:
         return
     for axis, name in enumerate(("rows", "columns")):
         differences = np.diff(surface.heights, axis=axis)
-        # Of rows that were hardly measured a median says little.
+        # The median of a row with few measured points is not reliable.
         known = (
             np.count_nonzero(~np.isnan(differences), axis=1 - axis) >= _WHOLE * surface.grid.shape[1 - axis]
         )
@@ -129,9 +131,7 @@ def _steps(surface: Surface) -> Iterator[PreparationWarning]:
             crop = f"{part},:" if axis == 0 else f":,{part}"
             step = quantity("heights", float(jumps[place]))
             words = f"{step} between {name} {place} and {place + 1}"
-            remedy = (
-                f"--crop {crop} keeps one side; --align {name} where each scan line has a height of its own"
-            )
+            remedy = f"--crop {crop} keeps one side; --align {name} if each scan line has its own height"
             yield PreparationWarning("step", words, remedy, ("crop", crop))
 
 

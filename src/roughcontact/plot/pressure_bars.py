@@ -1,4 +1,4 @@
-"""The distribution of the pressure as bars, up to where nearly all cells in contact lie."""
+"""The distribution of the pressure as bars, up to a pressure that nearly all cells do not exceed."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["PressureBars", "fewer", "pressure_bars"]
 
-_PART = 0.75  # of the axis of pressures, whose density falls off
-_EDGES = 0.1  # of the cells in contact, which may lie along the edges of spots
+_PART = 0.75  # of the axis of pressures, for the falling end of the density
+_EDGES = 0.1  # of the cells in contact: largest part that may lie along the edges of spots
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +43,7 @@ class PressureBars:
 
 
 def pressure_bars(solution: Solution, bins: int = 60) -> PressureBars:
-    """Return the bars of a solution on the host, in which some cell is in contact."""
+    """Return the bars of a solution on the host with at least one cell in contact."""
     pressures = solution.pressure[solution.contact]
     largest = float(pressures.max())
     end = (usual_range(np.append(0.0, pressures), _PART, _EDGES) or (0.0, largest))[1]
@@ -55,5 +55,5 @@ def pressure_bars(solution: Solution, bins: int = 60) -> PressureBars:
 
 
 def fewer(bins: int, values: Array) -> int:
-    """Return the number of bars: `bins`, or those of Rice's rule where these are fewer."""
+    """Return the number of bars: `bins`, or that of Rice's rule if it is smaller."""
     return min(bins, math.ceil(2 * math.cbrt(values.size)))

@@ -1,4 +1,4 @@
-"""Heights and pressure along a line."""
+"""Pictures of heights and pressure along a line."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.surface.in_memory import analysed_on_host
@@ -31,18 +31,18 @@ _FLAT = (7.0, 2.8)  # size of a picture of a line
 def profile_curve(
     surface: Surface, ax: Axes | None = None, *, row: int | None = None, spikes: Spikes | None = None
 ) -> Axes:
-    """Draw the heights along a row of a surface, or a profile; the curve is broken where points are missing.
+    """Draw the heights along a row of a surface, or a profile; the curve has gaps at missing points.
 
     Parameters
     ----------
     surface : Surface
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     row : int, optional
-        Row of the picture, counted from 0 at its top, or from -1 at its bottom; by default the middle one. A line
-        scan has none.
+        Row of the picture, counted from 0 at its top, or from -1 at its bottom; by default the middle row. A line scan
+        has no rows.
     spikes : Spikes, optional
-        Such as ``roughcontact.find_spikes(surface)``: the cells of those on the row are marked.
+        Spikes, such as ``roughcontact.find_spikes(surface)``; those on the row are marked.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def profile_curve(
     step = surface.grid.spacing[-1]
     places = (np.arange(heights.size) + 0.5) * step
     x = scale(heights.size * step, VARIABLES["lengths"].unit)
-    # One missing row says nothing about the unit of the picture.
+    # The unit follows from the whole surface, because a row may be missing.
     z = scale(float(np.nanmax(np.abs(surface.heights))), VARIABLES["heights"].unit)
     axes = axes_for(ax, _FLAT)
     axes.plot(places * x.factor, heights * z.factor, color=_LINE, linewidth=1.0)
@@ -96,9 +96,9 @@ def contact_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     solution : Solution
-        On a grid of one axis.
+        A solution on a grid of one axis.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -140,9 +140,9 @@ def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     solution : Solution
-        On a grid of one axis.
+        A solution on a grid of one axis.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 
+from roughcontact.labels.engineering_units import Scale, scale
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import Scale, scale
 from roughcontact.plot.drawing.ticks import TICK, label_axes, outer_axis, readable_ticks
 from roughcontact.surface.analysis.hurst import HurstFit
 from roughcontact.surface.analysis.power import PowerSpectrum
@@ -19,19 +19,23 @@ from roughcontact.validation import Array
 
 __all__ = ["SpectrumScales", "spectrum_axes", "spectrum_curve"]
 
-_POINTS, _LAW, _LIMIT = "#0072b2", "#d55e00", "0.3"  # blue and vermilion: every eye tells them apart
-_DRAWN = 40.0  # bins to a decade: more are a band of ink
-_ROOM = 2.0  # space beyond the lowest density of a logarithmic axis, as a factor
+_POINTS, _LAW, _LIMIT = (
+    "#0072b2",
+    "#d55e00",
+    "0.3",
+)  # blue and vermilion: distinct also for colour-blind readers
+_DRAWN = 40.0  # bins per decade: more would overlap
+_ROOM = 2.0  # factor of space below the lowest density on a logarithmic axis
 
 
 @dataclass(frozen=True, slots=True)
 class SpectrumScales:
-    """The units of a picture of spectra: multiply values in SI by these.
+    """The units of a picture of spectra, as factors of values in SI.
 
     Parameters
     ----------
     wavenumber : float
-        Radians per metre to radians per the unit of the wavelengths.
+        From radians per metre to radians per unit of the wavelengths.
     density : Scale
         Of C2D [m^4] or C1D [m^3].
     length : Scale
@@ -48,19 +52,19 @@ def spectrum_curve(
 ) -> Axes:
     """Draw a spectrum against the wavenumber, both logarithmic, with the wavelength on the upper axis.
 
-    Bins to be relied upon are drawn strongly, between their standard errors, the others faintly. Many bins are
-    averaged to forty a decade.
+    Reliable bins are drawn strongly, with the band of their standard errors, the others faintly. Many bins are averaged
+    to forty per decade.
 
     Parameters
     ----------
     spectrum : PowerSpectrum
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     law : HurstFit, optional
-        Such as `roughcontact.fit_spectrum` returns: drawn over the band that it was fitted in; vertical lines mark
-        where it ends.
+        A law such as that of `roughcontact.fit_spectrum`, drawn over the band of the fit; vertical lines mark the ends
+        of the band.
     label : str
-        Says in the legend where the spectrum comes from.
+        Label of the spectrum in the legend.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def spectrum_curve(
     """
     axes = axes_for(ax)
     shown = spectrum.rebinned(_DRAWN)
-    with_power = shown.density > 0  # a logarithmic axis has no place for zero
+    with_power = shown.density > 0  # zeros are left out: the axis is logarithmic
     wavelengths = shown.wavelength[with_power]
     scales = spectrum_axes(axes, shown.kind, wavelengths, shown.density[with_power])
     q, density = shown.wavenumber * scales.wavenumber, shown.density * scales.density.factor
@@ -87,7 +91,7 @@ def spectrum_curve(
     inside = (shown.wavenumber >= shown.q_min * (1 - 1e-9)) & (shown.wavenumber <= shown.q_max * (1 + 1e-9))
     axes.plot(q[with_power], density[with_power], ".", color="0.7", markersize=3, zorder=2)
     reliable = inside & with_power
-    # A bin of few waves may be known to less than its own size: half of it is as low as the band goes.
+    # The standard error of a bin with few waves may exceed its value: the band ends at half of the value.
     low = np.maximum(density - width, density / 2)
     axes.fill_between(
         q[reliable], low[reliable], (density + width)[reliable], color=_POINTS, alpha=0.2, linewidth=0
@@ -96,7 +100,7 @@ def spectrum_curve(
     axes.plot(q[reliable], density[reliable], ".-", label=label, **style)
     if law is not None:
         _draw_law(axes, law, scales)
-    # Last, since a limit that is set ends the fitting of the axis to what is drawn.
+    # Last, because a fixed limit stops the automatic scaling of the axis.
     axes.set_ylim(bottom=float(density[with_power].min()) / _ROOM)
     axes.legend(loc="lower left", fontsize=TICK, frameon=False)
     return axes
@@ -110,7 +114,7 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
     axes : Axes
     kind : {"C2D", "C1D"}
     wavelengths, densities : array
-        All that will be drawn [m; m^4 or m^3]; they choose the units.
+        All values that will be drawn [m; m^4 or m^3]; the units follow from them.
     """
     length = scale(math.sqrt(float(wavelengths.min()) * float(wavelengths.max())), "m")
     density = scale(float(densities.max()), {"C2D": "m4", "C1D": "m3"}[kind])
@@ -127,7 +131,7 @@ def spectrum_axes(axes: Axes, kind: str, wavelengths: Array, densities: Array) -
 
 def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
     ends = (law.rolloff, law.long_cutoff, law.short_cutoff)
-    # Corners belong among the points, so that a plateau ends where it ends.
+    # The corners are among the points, so that a plateau ends exactly there.
     corners = [2 * math.pi / w for w in ends if w is not None]
     q = np.unique(np.concatenate([np.geomspace(*law.band, 200), np.clip(corners, *law.band)]))
     values = law(q)
@@ -138,19 +142,19 @@ def _draw_law(axes: Axes, law: HurstFit, scales: SpectrumScales) -> None:
     for wavelength, name in zip(ends, ("roll-off", "long cut-off", "short cut-off"), strict=True):
         if wavelength is not None:
             text = f"{name} {wavelength * scales.length.factor:.3g} {scales.length.unit}"
-            # Where the spectrum leaves room: below it at its long waves, above it at its short ones.
+            # The spectrum leaves room below it at long waves, and above it at short waves.
             height, side = (0.98, "top") if name == "short cut-off" else (0.2, "bottom")
             _mark(axes, (2 * math.pi / wavelength * scales.wavenumber, height), text, va=side)
 
 
 def _mark(axes: Axes, place: tuple[float, float], words: str, **given: Any) -> None:
-    """Draw an upright line with words beside it, at a wavenumber and a part of the height of the axes."""
+    """Draw a vertical line with words beside it, at a wavenumber and a part of the height of the axes."""
     axes.axvline(place[0], color=_LIMIT, linewidth=0.9, linestyle=(0, (6, 3)), zorder=1)
     style: Any = {"rotation": 90, "fontsize": TICK, "color": _LIMIT} | given
     axes.annotate(words, place, (3, 0), axes.get_xaxis_transform(), "offset points", **style)
 
 
 def _other(value: npt.ArrayLike) -> Array:
-    """Return the wavelength of a wavenumber, and the other way round; 0 is asked for before anything is drawn."""
+    """Return the wavelength of a wavenumber, or the reverse; Matplotlib calls it with 0 before anything is drawn."""
     given = np.asarray(value, dtype=np.float64)
     return np.asarray(2 * np.pi / np.where(given == 0, np.finfo(float).tiny ** 0.5, given))

@@ -9,9 +9,9 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.evaluation.below import half_space_grid, loaded_part, ratio_of
 from roughcontact.halfspace.subsurface.fields_below import stress
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.material import Solid
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import colour_bar, length_scale
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.validation import numeric
@@ -30,22 +30,22 @@ def von_mises_section(
     row: int | None = None,
     deepest: float | None = None,
 ) -> Axes:
-    """Draw the equivalent stress of von Mises below a row of cells, and mark where it is largest there.
+    """Draw the equivalent stress of von Mises below a row of cells, and mark its maximum.
 
     A line along the top shows which cells are in contact.
 
     Parameters
     ----------
     solution : Solution
-        Of a half-space under a surface, with at least one cell in contact.
+        The solution for a half-space under a surface, with at least one cell in contact.
     solid : Solid or float
-        The body looked into, or its Poisson's ratio.
+        The body below the surface, or its Poisson's ratio.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
     row : int, optional
-        Index of the row; the one that holds the largest pressure without.
+        Index of the row; by default the row of the largest pressure.
     deepest : float, optional
-        Depth where the picture ends [m]; the extent of the contact without.
+        Depth at which the picture ends [m]; by default the extent of the contact.
 
     Returns
     -------
@@ -54,7 +54,8 @@ def von_mises_section(
     Raises
     ------
     ValueError
-        If the solution is not that of a half-space under a surface, nothing is in contact, or the row is not one.
+        If the solution is not that of a half-space under a surface, if nothing is in contact, or if there is no such
+        row.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A study in one picture: means with the band of their error, and what varies with a parameter."""
+"""A study in one picture: means with the band of their error, against force or against a parameter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from roughcontact.errors import InputError
-from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.labels.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.plot.ensemble import fitted_values, hollow_marks, mean_curves, shades
@@ -24,29 +24,29 @@ from roughcontact.validation import Array
 __all__ = ["study_figure"]
 
 _FORCES = ("dimensionless_force", "dimensionless_force_mean", "force", "force_mean")
-_LAW = "dimensionless_stiffness"  # the quantity whose power law there may be
-_WIDE = 16.0  # from this ratio on, values of a parameter stand on a logarithmic axis
-_APART = 0.006  # of the axis, between the marks of series
-_FEW = 7  # lines that one panel holds with a legend
+_LAW = "dimensionless_stiffness"  # the quantity that may have a power law
+_WIDE = 16.0  # ratio of the values of a parameter from which their axis is logarithmic
+_APART = 0.006  # of the axis: distance between the marks of series
+_FEW = 7  # lines at most in one panel with a legend
 _COLUMNS = 3  # of panels
 _VISIBLE = 0.01  # relative; closer curves coincide in a picture
-_MOST = 0.5  # of the samples: a mean counts as resolved where as many are
+_MOST = 0.5  # of the samples: resolved part from which a mean counts as resolved
 
 
 def study_figure(
     averaged: xarray.Dataset, quantity: str, along: str | None = None, *, at: str = ""
 ) -> Figure:
-    """Return the picture of one quantity of a study: against force with its laws, or against what varies.
+    """Return the picture of one quantity of a study: against force with its laws, or against a parameter.
 
     Parameters
     ----------
     averaged : Dataset
-        As `roughcontact.statistics.averages` makes it.
+        The result of `roughcontact.statistics.averages`.
     quantity : str
-        Along the loads, or without a dimension of its own.
+        A quantity along the loads, or without a dimension.
     along : str, optional
-        The parameter on the axis; with curves, the one that differs within a panel. By default the number with most
-        values; with curves, of the numbers that change them.
+        The parameter on the axis; with curves, the parameter that differs within a panel. By default the number with
+        the most values; with curves, only among the numbers that change them.
     at : str, optional
         The load of the averages in words, such as ``"1 MPa"``, for the title.
 
@@ -81,8 +81,10 @@ def study_figure(
     numbers = _numbers(averaged)
     if along is not None and along not in numbers:
         raise InputError(
-            f"{along!r} is no number that varies",
-            choose(along, tuple(numbers)) if numbers else "leave it out: no number varies",
+            f"{along!r} is not a number that varies",
+            choose(along, tuple(numbers))
+            if numbers
+            else "leave it out, because no parameter with numbers varies",
             "along",
         )
     averaged = _in_engineering_units(averaged, quantity)
@@ -96,7 +98,7 @@ def study_figure(
             f"{quantity!r} lies along {', '.join(map(str, points))}", "choose one along the loads, or none"
         )
     if chosen is None:
-        raise InputError(f"{quantity!r} is one number, and nothing varies", "take the command study table")
+        raise InputError(f"{quantity!r} is one number, and nothing varies", "use the command study table")
     figure = Figure(figsize=(5.6, 4.2), layout="constrained")
     axes = figure.subplots()
     _against(axes, averaged, quantity, chosen)
@@ -106,7 +108,7 @@ def study_figure(
 
 
 def _in_engineering_units(averaged: xarray.Dataset, quantity: str) -> xarray.Dataset:
-    """Return the averages with the drawn quantity and the forces in units that leave short numbers."""
+    """Return the averages with the drawn quantity and the forces in units with short numbers."""
 
     def scaled(name: str, largest: str) -> xarray.DataArray:
         values = averaged[name]
@@ -135,7 +137,7 @@ def _numbers(averaged: xarray.Dataset) -> dict[str, set[float]]:
 def _curves(
     averaged: xarray.Dataset, quantity: str, along: str | None, numbers: Mapping[str, set[float]]
 ) -> Figure:
-    """Return means against force, and beside them the exponents of their laws where there are some."""
+    """Return means against force, and beside them the exponents of their laws, if there are any."""
     force = next((name for name in _FORCES if name in averaged and "load" in averaged[name].dims), None)
     if force is None:
         raise InputError("the study has no forces along its loads", "choose a quantity without loads")
@@ -155,7 +157,7 @@ def _curves(
             _draw_laws(axes, lines.values())
         axes.set_title(words, fontsize=TICK)
         if axes is not places[0] and (legend := axes.get_legend()) is not None:
-            legend.remove()  # that of the first panel is the legend of all
+            legend.remove()  # the legend of the first panel serves all panels
     low, high = zip(*(axes.get_ylim() for axes in places[: len(panels)]), strict=True)
     for axes in places[: len(panels)]:
         axes.set_ylim(min(low), max(high))
@@ -186,15 +188,15 @@ def _are_apart(one: tuple[Array, Array], other: tuple[Array, Array]) -> bool:
     (x, y), (places, values) = one, other
     if not x.size or not places.size:
         return bool(x.size or places.size)
-    # Rounding must not part the ends of curves with equal forces.
+    # Rounding must not separate the ends of curves with equal forces.
     common = (x >= places[0] - _VISIBLE) & (x <= places[-1] + _VISIBLE)
     return not common.any() or bool(np.abs(np.interp(x, places, values) - y)[common].max() > _VISIBLE)
 
 
 def _panels(averaged: xarray.Dataset, along: str | None) -> tuple[dict[str, dict[str, xarray.Dataset]], str]:
-    """Return what each panel shows, by its title and the label of each line, and the title of the lines.
+    """Return the means of each panel, by its title and the label of each line, and the title of the lines.
 
-    Few lines share one panel. Of more, each panel has those that differ in one parameter.
+    A few lines share one panel. If there are more, each panel has the lines that differ in one parameter.
     """
     points, labels = list(combinations(averaged)), parameter_labels(averaged)
     counts = {name: len({parameters[name] for parameters, _ in points}) for name in labels}
@@ -211,7 +213,7 @@ def _panels(averaged: xarray.Dataset, along: str | None) -> tuple[dict[str, dict
 def _draw_means(
     axes: Axes, lines: Mapping[str, xarray.Dataset], title: str, force: str, quantity: str
 ) -> None:
-    """Draw the means of some combinations against force, a line each."""
+    """Draw the means of some combinations against force, a line for each."""
 
     def along_lines(name: str) -> xarray.DataArray:
         each = [point[name].reset_coords(drop=True) for point in lines.values()]
@@ -238,7 +240,7 @@ def _draw_laws(axes: Axes, points: Iterable[xarray.Dataset]) -> None:
 
 
 def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) -> None:
-    """Draw a number of every combination with its error against a parameter, one series for all else that varies."""
+    """Draw a number with its error against a parameter, one series for each combination of the other parameters."""
     series: dict[str, list[tuple[float, float, float, float, bool]]] = {}
     labels = parameter_labels(averaged)
     others = [name for name in labels if name != along]
@@ -284,7 +286,7 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
 
 
 def _with_limits(point: xarray.Dataset, quantity: str) -> tuple[float, float, float]:
-    """Return a number and the ends of its interval: of a law its own, of a mean a standard error on either side."""
+    """Return a number and the ends of its interval: that of the law, or a standard error on either side of a mean."""
     if f"{quantity}_low" in point:
         return tuple(point[name].item() for name in (quantity, f"{quantity}_low", f"{quantity}_high"))
     value, error = (point[f"{quantity}_{word}"].item() for word in ("mean", "standard_error"))

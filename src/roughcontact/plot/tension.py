@@ -1,4 +1,4 @@
-"""Pressure and tension of surfaces that stick."""
+"""Pictures of pressure and tension of adhesive surfaces."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.detachment_state import DetachmentState
+from roughcontact.labels.engineering_units import scale, written
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale, written
 from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, pooled, show
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.maps import colour_limit
@@ -31,9 +31,9 @@ def tension_map(state: State, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     state : AdhesiveState or DetachmentState
-        On a grid of two axes.
+        A state on a grid of two axes.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -56,13 +56,16 @@ def tension_map(state: State, ax: Axes | None = None) -> Axes:
     grid = state.problem.operator.grid
     cells, axes = part(grid, None), axes_for(ax)
     unit = VARIABLES["pressure"].unit
-    # As in other maps, a few cells at the edges of spots do not take the colours for themselves.
+    # As in other maps, the colours end before the pressure of a few cells at the edges of spots.
     highest, cut = colour_limit(state.pressure[state.pressure > 0])
     lowest = float(np.maximum(-state.pressure, 0.0).max()) or highest
     chosen = scale(max(highest, lowest), unit)
     measured = np.isfinite(state.problem.separation)
     values = np.where(measured, state.pressure * chosen.factor, np.nan)
-    most, least = pooled(values), -pooled(-values)  # of blocks of cells what is largest, pressure or tension
+    most, least = (
+        pooled(values),
+        -pooled(-values),
+    )  # the larger of pressure and tension of each block of cells
     if not measured.all():
         axes.patch.set(facecolor="white", edgecolor="0.55", hatch="//////")
     limits = (-lowest * chosen.factor, highest * chosen.factor)
@@ -76,14 +79,14 @@ def tension_map(state: State, ax: Axes | None = None) -> Axes:
 
 
 def tension_profile(state: State, ax: Axes | None = None) -> Axes:
-    """Draw the pressure along a line or over the radius of rings, tension below zero; contact is a bar at zero.
+    """Draw the pressure along a line or the radius of rings, tension below zero; contact is a bar at zero.
 
     Parameters
     ----------
     state : AdhesiveState or DetachmentState
-        On a grid of one axis.
+        A state on a grid of one axis.
     ax : Axes, optional
-        Axes to draw on; without, those of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
@@ -119,7 +122,7 @@ def tension_profile(state: State, ax: Axes | None = None) -> Axes:
 
 
 def state_figure(state: State) -> Figure:
-    """Return the pressure and tension of surfaces that stick, under force and depth.
+    """Return the pressure and tension of adhesive surfaces, with force and depth in the title.
 
     Parameters
     ----------

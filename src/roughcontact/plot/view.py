@@ -1,4 +1,4 @@
-"""A surface seen from aside."""
+"""A perspective view of a surface."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import scale
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.engineering_units import scale
 from roughcontact.plot.drawing.raster import length_scale
 from roughcontact.plot.drawing.ticks import LABEL, label_axes
 from roughcontact.surface.in_memory import analysed_on_host
@@ -22,23 +22,23 @@ from roughcontact.validation import numeric
 
 __all__ = ["surface_view"]
 
-_DRAWN = 200  # points along a side: more take long, and no page shows them
-_HEIGHT = 0.3  # of the box over its longer side: heights are drawn larger than they are
+_DRAWN = 200  # points along a side: more are slow to draw, and no page shows them
+_HEIGHT = 0.3  # of the box over its longer side: heights are enlarged
 
 
 @numeric
 @analysed_on_host
 def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = True) -> Axes3D:
-    """Draw a surface from aside, its heights enlarged to be seen; points that were not measured are left open.
+    """Draw a perspective view of a surface with enlarged heights; points that were not measured are left open.
 
     More than 200 points along a side are averaged over blocks first. The first row of the picture lies at the back.
 
     Parameters
     ----------
     surface : Surface
-        On a grid of two axes.
+        A surface on a grid of two axes.
     ax : Axes3D, optional
-        Axes to draw on, made with ``projection="3d"``; without, those of a new figure.
+        Axes to draw on, made with ``projection="3d"``; by default those of a new figure.
     frame : bool
         Whether to draw the box with its scales.
 
@@ -60,7 +60,7 @@ def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = Tr
     'height [nm]'
     """
     if surface.grid.ndim != 2:
-        raise InputError("a profile has no view from aside", "draw it with profile_curve")
+        raise InputError("a profile has no perspective view", "draw it with profile_curve")
     axes: Any = axes_for(ax, projection="3d")
     small = _reduced(surface)
     grid = small.grid
@@ -73,7 +73,7 @@ def surface_view(surface: Surface, ax: Axes3D | None = None, *, frame: bool = Tr
     # A flat surface has one colour, the middle one.
     level = (heights - low) / (high - low) if high > low else np.full(heights.shape, 0.5)
     colours = colormaps["viridis"](np.nan_to_num(level, nan=0.5))
-    # Slopes as they look in the box, so that light falls alike on tall and on flat surfaces.
+    # Slopes as drawn in the box, so that tall and flat surfaces are lit alike.
     tall = np.nan_to_num(level, nan=0.5) * _HEIGHT * max(grid.lengths)
     light = LightSource(azdeg=315, altdeg=45)
     shaded = light.shade_rgb(
@@ -91,7 +91,7 @@ def _reduced(surface: Surface) -> Surface:
     factors = tuple(-(-n // _DRAWN) for n in surface.grid.shape)
     if max(factors) == 1:
         return surface
-    # Blocks need not fit the period of a picture.
+    # Blocks need not fit the period of the surface.
     free = replace(surface, grid=replace(surface.grid, periodic=(False, False)))
     return free.averaged(factors)
 
@@ -101,7 +101,7 @@ def _box(
 ) -> None:
     high, wide = (side * length[0] for side in surface.grid.lengths)
     low, top, unit = z
-    # Row 0 at the back, as it is at the top of a map.
+    # Row 0 is at the back, as it is at the top of a map.
     axes.set(xlim=(0.0, wide), ylim=(high, 0.0))
     if top > low:
         axes.set_zlim(low, top)

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.evaluation.conduction import Conductors
+    from roughcontact.labels.engineering_units import Scale
     from roughcontact.labels.note import Note
-    from roughcontact.plot.drawing.engineering_units import Scale
     from roughcontact.recipe.elastic_jobs import CurveJob
     from roughcontact.solver.loads import Loads
     from roughcontact.statistics.power_law import PowerLaw

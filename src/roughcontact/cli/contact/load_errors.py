@@ -11,7 +11,7 @@ import typer
 from roughcontact.cli.messages import note
 from roughcontact.cli.report import print_facts, print_table, quantity
 from roughcontact.errors import placed
-from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.labels.engineering_units import Scale, scale
 from roughcontact.recipe.recipe_fields import value_of
 
 if TYPE_CHECKING:

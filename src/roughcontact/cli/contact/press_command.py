@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from roughcontact.contact.solution import Solution
     from roughcontact.evaluation.error_budget import ErrorBudget
-    from roughcontact.plot.drawing.engineering_units import Scale
+    from roughcontact.labels.engineering_units import Scale
 
 __all__ = ["EXAMPLES", "press"]
 
@@ -108,7 +108,7 @@ def _control(job: PressJob) -> str:
 
 def _unloaded(job: PressJob) -> str:
     """Return the load, and the larger load before it."""
-    from roughcontact.plot.drawing.engineering_units import written
+    from roughcontact.labels.engineering_units import written
 
     [(name, (first, last))] = job.loads().items()
     unit = kinds_of(job.contact.profile)[name.removesuffix("s")].unit

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from roughcontact.recipe.recipe_fields import value_of
 
 if TYPE_CHECKING:
-    from roughcontact.plot.drawing.engineering_units import Scale
+    from roughcontact.labels.engineering_units import Scale
     from roughcontact.recipe.outputs import Units
 
 __all__ = ["units_of_job"]
@@ -21,7 +21,7 @@ _UNITS = {
 
 def units_of_job(units: Units) -> dict[str, Scale]:
     """Return the units that were asked for, by column."""
-    from roughcontact.plot.drawing.engineering_units import Scale
+    from roughcontact.labels.engineering_units import Scale
 
     return {
         column: Scale(1 / value_of(units, name), text.strip())

@@ -14,7 +14,7 @@ from roughcontact.cli.report import emit, print_facts
 from roughcontact.cli.study.study_command import FOLDER, dataset_writer, own_cases, require_results
 from roughcontact.errors import InputError, placed
 from roughcontact.files.quantity import FORCE, PRESSURE, has_unit, parse, parse_number
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.recipe.recipe_fields import check, described, value_of
 

@@ -23,7 +23,7 @@ from roughcontact.cli.study.averages_command import (
     resolved_in,
 )
 from roughcontact.cli.study.study_command import FOLDER, own_cases
-from roughcontact.plot.drawing.engineering_units import scale
+from roughcontact.labels.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
 from roughcontact.recipe.texts import choose
 

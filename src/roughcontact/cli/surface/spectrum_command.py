@@ -17,7 +17,7 @@ from roughcontact.cli.report import emit, print_facts, quantity, size_of
 from roughcontact.cli.run_memory import require_memory
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import LENGTH
-from roughcontact.plot.drawing.engineering_units import written
+from roughcontact.labels.engineering_units import written
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.recipe_fields import check, described, value_of

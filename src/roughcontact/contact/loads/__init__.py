@@ -1,1 +1,1 @@
-"""Choosing loads: the range that a grid resolves, the search for it, and what loads that are named will give."""
+"""Choosing loads: the range that a grid resolves, the search for it, and the outlook of given loads."""

@@ -14,24 +14,24 @@ from roughcontact.solver.control import Force
 
 __all__ = ["NEAR", "with_ends"]
 
-NEAR = 0.01  # of a limit, or of the force, an end is found
-GUESSED = 4  # loads for an end by interpolation; those after them halve, as where a level jumps
+NEAR = 0.01  # of a limit, or of the force: precision of an end
+GUESSED = 4  # loads for an end by interpolation, then by bisection, which a jump of a level requires
 MOST = 12  # loads for an end
 
 Level = Literal["stiff", "resolved", "ended"]
 
 
 def with_ends(search: LoadSearch) -> LoadSearch:
-    """Return a search whose range begins and ends at its limits: to a hundredth of these, or of the force.
+    """Return a search whose range begins and ends at its limits, to a hundredth of them.
 
-    Of the force where a level jumps across its limit, as contact at the border does.
+    The precision is a hundredth of the force if a level jumps across its limit, as contact at the border does.
     """
     search = _nearer(_nearer(search, "ended"), "resolved")
     return _nearer(search, "stiff") if search.lowest < search.spots_from else search
 
 
 def _nearer(search: LoadSearch, level: Level) -> LoadSearch:
-    """Return a search with more loads, where a level first reaches its limit."""
+    """Return a search with more loads near the force at which a level first reaches its limit."""
     loads = search.loads
     at = next((place for place, load in enumerate(loads) if getattr(load, level) >= 1), 0)
     if not at:  # nowhere, or from the first load on
@@ -55,13 +55,13 @@ def _nearer(search: LoadSearch, level: Level) -> LoadSearch:
 
 
 def _is_near(light: SearchedLoad, heavy: SearchedLoad, level: Level) -> bool:
-    """Return whether the load on the side of the range is near its end: the lighter one at the end, else the other."""
+    """Return whether the load inside the range is near its end: the lighter load at the upper end, or the heavier."""
     off = 1 - light.ended if level == "ended" else getattr(heavy, level) - 1
     return bool(off <= NEAR or heavy.force <= (1 + NEAR) * light.force)
 
 
 def _part(light: SearchedLoad, heavy: SearchedLoad, level: Level) -> float:
-    """Return the part of the way, in the logarithm of the force, to half of what is near, on the side of the range."""
+    """Return the part of the way, in the logarithm of the force, to a level half of `NEAR` inside the range."""
     low, high = getattr(light, level), getattr(heavy, level)
     if not 0 < low < high < math.inf:
         return 0.5

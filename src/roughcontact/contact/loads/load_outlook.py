@@ -1,4 +1,4 @@
-"""How many of the loads that someone names the grid resolves, before they are pressed."""
+"""The number of given loads that the grid resolves, estimated before they are computed."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ __all__ = ["LoadOutlook", "load_outlook"]
 
 @dataclass(frozen=True, slots=True)
 class LoadOutlook:
-    """How many loads the grid resolves.
+    """The number of loads that the grid resolves.
 
     Attributes
     ----------
     count : int
         Number of loads.
     below : int
-        How many are so small that the cells set the stiffness.
+        Number of loads so small that the stiffness depends on the cells.
     above : int
-        How many bring the map so near full contact that its size sets it.
+        Number of loads so near full contact that the stiffness depends on the size of the map.
     """
 
     count: int
@@ -39,7 +39,7 @@ class LoadOutlook:
 
     @property
     def resolved(self) -> int:
-        """How many lie between."""
+        """Number of loads in between."""
         return self.count - self.below - self.above
 
 
@@ -49,23 +49,23 @@ def load_outlook(
     loads: Loads,
     operator: Operator | None = None,
 ) -> LoadOutlook:
-    """Return how many loads of a curve will be resolved, from a few of them.
+    """Return the number of loads of a curve that will be resolved, from the solutions of a few of them.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m].
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     loads : Loads
         Strictly increasing forces or nominal pressures.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid.
+        A body other than the half-space on the surface's grid.
 
     Returns
     -------
     LoadOutlook
-        Of elastic bodies, by the limits of `Curve.resolved`.
+        For elastic bodies, by the limits of `Curve.resolved`.
 
     Raises
     ------
@@ -74,9 +74,10 @@ def load_outlook(
 
     Notes
     -----
-    The stiffness rises with the load, so that halving the list finds both limits. A map of more than 128 cells a side
-    is pressed on blocks of cells first: where these are resolved, so are the cells; only else the map itself is
-    pressed, by a load under which little of it touches. How near full contact it is, the blocks say.
+    The stiffness rises with the load, so that bisection of the list finds both limits. A map of more than 128 cells per
+    side is pressed on blocks of cells first: if a load is resolved on blocks, it is resolved on cells. Only if it is
+    not, the map itself is pressed, by a load under which little of it is in contact. The distance to full contact
+    follows from the blocks.
 
     Examples
     --------
@@ -104,7 +105,7 @@ def load_outlook(
 
 
 def _first(reached: Callable[[Control], bool], controls: Sequence[Control]) -> int:
-    """Return how many loads come before the first that has reached a limit, which all after it have."""
+    """Return the number of loads before the first one that reaches a limit; all loads after it reach it."""
     if not controls or not reached(controls[-1]):
         return len(controls)
     return bisect_left(controls, True, key=reached)
@@ -115,5 +116,5 @@ def _pressed(problem: ContactProblem, control: Control) -> Solution:
 
 
 def _nearly_full(solution: Solution) -> bool:
-    """Return whether the contact is beyond the upper limit of what is resolved."""
+    """Return whether the contact is beyond the upper limit of resolved loads."""
     return solution.resolved_from_below and not solution.resolved

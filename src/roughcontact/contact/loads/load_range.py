@@ -1,4 +1,4 @@
-"""Which loads suit a surface: between which forces the grid resolves it, and why the range ends there."""
+"""Loads that suit a surface: the range of forces that the grid resolves, and the reasons for its ends."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffnes
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
 from roughcontact.materials import Modulus, as_modulus
@@ -32,9 +33,9 @@ __all__ = ["LoadRange", "load_range"]
 
 FORCES = 24
 FORCES_BELOW = 4  # of these below the range, within a decade
-DIGITS = 3  # of the forces: fewer than those in which machines agree on the stiffness by far
+DIGITS = 3  # of the forces: far fewer than the digits of the stiffness on which machines agree
 STEEP = 0.6  # rms slope: asperities then bear about 0.4 of it times E*, half of what ends elasticity here
-ON_LINES = (3e-2, 3.0)  # over E* h: a line contact knows no summits that carry all
+ON_LINES = (3e-2, 3.0)  # over E* h: on a line, no single summit carries all of the load
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,16 +46,18 @@ class LoadRange:
     ----------
     kind : SurfaceKind
     single_feature : bool
-        Whether the largest spot carries more than half where the contact is as stiff as twenty cells.
+        Whether the largest spot carries more than half of the force when the contact is as stiff as twenty cells.
     forces : array, shape (n,)
-        Forces for a curve [N], increasing; those in the range are even in ln k and ln A, each over its own range.
+        Forces for a curve [N], increasing; those in the range are evenly spaced in the sum of ln k and ln A, each
+        relative to its range.
     lowest, highest : float
-        The range that the grid resolves [N]; on a line what is suggested [N/m]. Not above each other where there is
-        none.
+        The range that the grid resolves [N]; on a line the suggested range [N/m]. If there is none, `highest` is not
+        above `lowest`.
     reasons : tuple of str
-        What sets its two ends: the limit that is reached there, or the search, which goes from 1e-7 to 1e4 of E* h L.
+        The limit that is reached at each of its two ends; or the end of the search, which goes from 1e-7 to 1e4 of E* h
+        L.
     notes : tuple of str
-        What a reader should know, in sentences: with the remedy where the range is short.
+        Limits of the range, in sentences, with a remedy if it is short.
     """
 
     kind: SurfaceKind
@@ -67,7 +70,7 @@ class LoadRange:
 
     @property
     def below(self) -> int:
-        """How many forces lie below the range."""
+        """Number of forces below the range."""
         return int(np.count_nonzero(self.forces < self.lowest * (1 - 10.0 ** (1 - DIGITS))))
 
 
@@ -80,38 +83,39 @@ def load_range(
     operator: Operator | None = None,
     hardness: Hardness | None = None,
 ) -> LoadRange:
-    """Return the loads that suit a surface: it is pressed by a few, first on larger cells.
+    """Return the loads that suit a surface; the surface is pressed by a few loads, first on larger cells.
 
-    From below the range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force,
-    has sixteen cells (if that leaves less than a decade: where it is as stiff, with a note). It ends with the first
-    of: 0.9 of the full-contact stiffness; on nominally flat and periodic maps half of the area in contact; on maps
-    with form contact at the border, beyond which the body goes on; a mean pressure in contact of half the reduced
-    modulus or, under a hardness, half of the force that it bears. Both ends are solved for, to a hundredth of these
-    limits, or of the force where a limit is passed in a jump. What flows is in contact too: under a hardness the
-    stiffness here is that of unloading. On a line contact it is 0.03 to 3 of E* h.
+    The range begins where the contact is as stiff as twenty cells and its mean spot, weighted by force, has sixteen
+    cells. If that leaves less than a decade, only the first condition holds, and there is a note. The range ends with
+    the first of: 0.9 of the full-contact stiffness; half of the area in contact (on nominally flat and periodic maps);
+    contact at the border (on maps with form, whose body continues beyond it); a mean pressure in contact of half the
+    reduced modulus or, under a hardness, half of the largest force that the map can carry. Both ends are solved for, to
+    a hundredth of these limits, or of the force if a limit is passed in a jump. Under a hardness the stiffness here is
+    that of unloading, because cells that flow are in contact too. For a line contact the range is 0.03 to 3 of E* h.
 
     Parameters
     ----------
     surface : Surface or RadialProfile
         Heights [m], see `press`.
     modulus : float, Solid, Material, str, or a pair of bodies
-        Reduced modulus E* [Pa], or what it follows from.
+        Reduced modulus E* [Pa], or the bodies that it follows from.
     count : int
         Number of forces.
     operator : Operator, optional
-        Another body than the half-space on the surface's grid.
+        A body other than the half-space on the surface's grid.
     hardness : float, array, function, Material or str, optional
         Pressure that no cell exceeds [Pa].
 
     Returns
     -------
     LoadRange
-        Forces rounded to three digits, so that machines whose last digits differ hardly ever suggest other ones.
+        Forces are rounded to three digits, so that machines whose last digits differ almost always suggest the same
+        forces.
 
     Raises
     ------
     ValueError
-        If the surface is flat, so that its rms height h gives no scale, or `count` is below 1.
+        If the surface is flat, so that its rms height h is no scale, or `count` is below 1.
 
     Examples
     --------
@@ -126,7 +130,7 @@ def load_range(
     whole(count, "count, the number of forces,")
     grid = grid_of(surface)
     if not surface.rms > 0:
-        raise InputError("a flat surface gives forces no scale", "name the forces, depths or pressures")
+        raise InputError("a flat surface has no scale of forces", "name the forces, depths or pressures")
     geometry = Geometry.of(grid) if operator is None else geometry_of(operator)
     length = 1.0 if geometry is Geometry.LINE else length_scale(geometry, grid.lengths)
     scale = as_modulus(modulus) * surface.rms * length
@@ -135,14 +139,14 @@ def load_range(
         low, high = (part * scale for part in ON_LINES)
         ends = (f"{ON_LINES[0]:g} E* h", f"{ON_LINES[1]:g} E* h")
         return LoadRange(kind, False, np.geomspace(low, high, count), low, high, ends, ())
-    first = Force(SEARCHED[0] * scale)  # of the search; a soft body may not bear much more
+    first = Force(SEARCHED[0] * scale)  # of the search; a body of low hardness may not carry much more
     problem = make_problem(surface, modulus, first, operator, tolerance=1e-8, hardness=hardness)
     with task("Finding the loads that suit the surface"):
         return _loads(with_ends(find_range(problem, kind, scale)), count, surface)
 
 
 def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
-    """Return the forces: some below the range, and the others even in ln k and ln A."""
+    """Return the forces: some below the range, the others evenly spaced in ln k and ln A."""
     low, high = search.lowest, search.highest
     reasons = (search.start, search.reason or "the largest force of the search")
     if low < high:
@@ -157,7 +161,7 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
 
 
 def _even(search: LoadSearch, low: float, high: float, count: int) -> Array:
-    """Return the forces of a range that are even in the sum of ln k and ln A, each over its own range."""
+    """Return the forces of a range, evenly spaced in the sum of ln k and ln A, each relative to its range."""
     force, way = np.log(search.column("force")), 0.0
     for quantity in (search.column("stiffness"), search.column("area")):
         rising = np.log(np.maximum.accumulate(quantity))
@@ -167,7 +171,7 @@ def _even(search: LoadSearch, low: float, high: float, count: int) -> Array:
 
 
 def _distinct(forces: Array, count: int) -> Array:
-    """Return forces of few digits, increasing, as many as are wanted: the widest gaps are halved."""
+    """Return `count` increasing forces of few digits: the widest intervals are halved until there are enough."""
 
     def rounded(values: Array) -> Array:
         return np.unique(np.array([float(f"{value:.{DIGITS - 1}e}") for value in values]))
@@ -183,11 +187,11 @@ def _distinct(forces: Array, count: int) -> Array:
 
 
 def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
-    """Yield what a reader should know of the range."""
+    """Yield the notes on the range."""
     low, high, force_unit = search.lowest, search.highest, unit_of("force", search.problem.geometry)
     if search.single_feature:
         end = search.shared_from
-        until = "over the whole range" if end is None else f"up to {end:.3g} {force_unit}"
+        until = "over the whole range" if end is None else f"up to {written(end, force_unit)}"
         yield Note(
             Rank.DOUBTFUL,
             f"The map stands on one feature: the largest spot carries more than half of the force {until}. If it does "
@@ -195,14 +199,14 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
         )
     if low < high and low < search.spots_from:
         where = (
-            f"below {search.spots_from:.3g} {force_unit}"
+            f"below {written(search.spots_from, force_unit)}"
             if search.spots_from <= high
             else "over the whole range"
         )
         yield Note(
             Rank.DOUBTFUL,
             f"Spots have fewer than {SPOT_CELLS} cells {where}: contact area and pressure are those of the grid there, "
-            "the stiffness hardly; for them take a finer map.",
+            "the stiffness almost not. Take a finer map if you need area or pressure.",
         )
     if low < high and high >= DECADE * low:
         return
@@ -222,10 +226,10 @@ def _notes(search: LoadSearch, forces: Array, surface: Body) -> Iterator[Note]:
 
 
 def _remedy(search: LoadSearch, surface: Body) -> str:
-    """Return what to do where the range is short."""
+    """Return the remedy for a short range."""
     if isinstance(surface, Surface) and surface.grid.ndim == 2 and is_numpy(surface.heights):
         if (spikes := find_spikes(surface)).count:
-            return f"{spikes} may carry the load; remove what is faulty (despiked, --despike)"
+            return f"{spikes} may carry the load; remove those that are faulty (despiked, --despike)"
         if (slope := _slope(surface)) > STEEP and "reduced modulus" in search.reason:
             return (
                 f"with an rms slope of {slope:.2g} the surface is so steep that elasticity ends at first touch; give a "

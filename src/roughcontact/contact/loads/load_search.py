@@ -1,7 +1,7 @@
 """The search for the range of loads that a grid resolves.
 
-A pilot on at most 128 x 128 blocks of cells, each as high as its highest cell, finds roughly where it begins; a path of
-few loads on the full grid then goes through it.
+A pilot search on at most 128 x 128 blocks of cells, each as high as its highest cell, finds roughly where the range
+begins; then a few loads on the full grid go through the range.
 """
 
 from __future__ import annotations
@@ -42,17 +42,17 @@ __all__ = [
     "pilot_of",
 ]
 
-SPOT_CELLS = 16  # cells of the mean spot, weighted by force: twenty lone cells resolve nothing
-AREA_SHARE = 0.5  # of the nominal area in contact: beyond, the interfaces of flat maps are nearly closed
-STRAINED = 0.5  # of the reduced modulus: mean pressure in contact beyond which small strains are none
-ON_ONE_FEATURE = 0.5  # of the force on the largest spot where the contact is as stiff as twenty cells
-PILOT_CELLS = 128  # to a side of the pilot
+SPOT_CELLS = 16  # cells of the mean spot, weighted by force: twenty separate cells resolve nothing
+AREA_SHARE = 0.5  # of the nominal area in contact: beyond, the interface of a flat map is nearly closed
+STRAINED = 0.5  # of the reduced modulus: mean pressure in contact beyond which strains are not small
+ON_ONE_FEATURE = 0.5  # of the force on the largest spot when the contact is as stiff as twenty cells
+PILOT_CELLS = 128  # per side of the pilot
 STEPS_PER_DECADE = 4  # of force, in the search
-SEARCHED = (1e-7, 1e4)  # of E* h L: forces that the search goes through
+SEARCHED = (1e-7, 1e4)  # of E* h L: range of forces of the search
 
 
 class SurfaceKind(Enum):
-    """What a map is to a contact."""
+    """The kind of a map: its upper limits depend on it."""
 
     PERIODIC = "periodic"
     FLAT = "nominally flat"
@@ -63,8 +63,8 @@ class SurfaceKind(Enum):
     def of(cls, surface: Body) -> SurfaceKind:
         """Return the kind of a surface.
 
-        Nominally flat: the least-squares quadratic form, beyond its plane, has a smaller rms height than what is left
-        without both. A radial profile, and one axis of a map that is periodic along the other, are with form.
+        A map is nominally flat if its least-squares quadratic form, without its plane, has a smaller rms height than
+        the heights without both. Radial profiles, and maps that are periodic along one axis only, are with form.
         """
         grid = surface.grid
         if all(grid.periodic):
@@ -80,22 +80,22 @@ class SurfaceKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class SearchedLoad:
-    """What one load of the search says; its levels are one where a limit is reached, and more beyond.
+    """One load of the search. Its levels are 1 at a limit, and larger beyond it.
 
     Attributes
     ----------
     force, stiffness, area : float
         [N], [N/m], [m^2].
     share : float
-        The part of the force on the largest spot.
+        Part of the force on the largest spot.
     stiff : float
-        Level of the stiffness: one at that of twenty cells.
+        Level of the stiffness: 1 at the stiffness of twenty cells.
     resolved : float
-        The lower of this and of the level of the mean spot, weighted by force: one at sixteen cells.
+        The lower of `stiff` and of the level of the mean spot, weighted by force, which is 1 at sixteen cells.
     ended : float
-        The highest level of what ends the range; contact at the border has none but zero or infinity.
+        The highest level of the upper limits; for contact at the border it is either zero or infinity.
     reason : str
-        What ends the range here; nothing if it goes on.
+        The limit that ends the range here; empty if the range goes on.
     """
 
     force: float
@@ -109,10 +109,10 @@ class SearchedLoad:
 
     @classmethod
     def of(cls, solution: Solution, kind: SurfaceKind, lighter: Iterable[SearchedLoad]) -> SearchedLoad:
-        """Return what a load says, after the lighter ones of the search."""
+        """Return the levels of a solution, after the lighter loads of the search."""
         problem = solution.problem
         share, cells = _largest_spot(solution)
-        stiffness = solution.flattened.stiffness  # what flows is in contact too
+        stiffness = solution.flattened.stiffness  # cells that flow are in contact too
         stiff = stiffness / (CELLS * cell_stiffness(problem.operator))
         spots = cells / SPOT_CELLS if problem.geometry is Geometry.SURFACE else math.inf
         shares = [load.share for load in lighter if load.stiff >= 1] + ([share] if stiff >= 1 else [])
@@ -126,7 +126,7 @@ class SearchedLoad:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LoadSearch:
-    """What a few rising loads say; the last is the first beyond the range, if one is."""
+    """A few rising loads; the last is the first one beyond the range, if the range ends."""
 
     problem: ContactProblem
     kind: SurfaceKind
@@ -134,25 +134,25 @@ class LoadSearch:
 
     @property
     def reason(self) -> str:
-        """What ends the range; nothing if the search does."""
+        """The limit that ends the range; empty if the search ends first."""
         return self.loads[-1].reason
 
     @property
     def lowest(self) -> float:
-        """The force [N] at which the range begins; without any the last of the search.
+        """The force [N] at which the range begins; the last force of the search if it does not begin.
 
-        With spots of sixteen cells, unless less than a decade is left: then where it is as stiff as twenty cells.
+        It begins with spots of sixteen cells, or, if that leaves less than a decade, at the stiffness of twenty cells.
         """
         return self.spots_from if self.highest >= DECADE * self.spots_from else self._least("stiff")
 
     @property
     def spots_from(self) -> float:
-        """The least force with spots of sixteen cells in a contact as stiff as twenty [N]; without any the last."""
+        """The smallest force [N] with spots of sixteen cells in a contact as stiff as twenty; or the last force."""
         return self._least("resolved")
 
     @property
     def start(self) -> str:
-        """What sets where the range begins."""
+        """The limit at which the range begins."""
         if self.loads[-1].stiff < 1:
             return f"{CELLS} cells, which no load reaches before the range ends"
         if self.lowest == self.loads[0].force:
@@ -164,17 +164,17 @@ class LoadSearch:
 
     @property
     def highest(self) -> float:
-        """The last force of the range, before that of its end."""
+        """The last force within the range."""
         return self.loads[-2 if self.reason and len(self.loads) > 1 else -1].force
 
     @property
     def single_feature(self) -> bool:
-        """Whether the largest spot carries more than half where the contact is as stiff as twenty cells."""
+        """Whether the largest spot carries more than half of the force when the contact is as stiff as twenty cells."""
         return next((load.share > ON_ONE_FEATURE for load in self.loads if load.stiff >= 1), False)
 
     @property
     def shared_from(self) -> float | None:
-        """From where the largest spot carries less than half [N], if it does so in the range."""
+        """The force [N] from which the largest spot carries less than half, if it lies in the range."""
         light = (load.force for load in self.loads if load.stiff >= 1 and load.share < ON_ONE_FEATURE)
         return next(light, None)
 
@@ -186,7 +186,7 @@ class LoadSearch:
 def search_upwards(
     problem: ContactProblem, kind: SurfaceKind, start: float, most: float, above: LoadSearch | None = None
 ) -> LoadSearch:
-    """Press by ever larger forces until the range ends, or the loads of an earlier search follow."""
+    """Press by ever larger forces until the range ends, or until the loads of an earlier search continue."""
     steps = round(STEPS_PER_DECADE * math.log10(most / start)) + (above is None)
     controls: list[Control] = [Force(start * 10 ** (k / STEPS_PER_DECADE)) for k in range(steps)]
     loads: list[SearchedLoad] = []
@@ -212,14 +212,14 @@ def _largest_spot(solution: Solution) -> tuple[float, float]:
 
 
 def _force_carried(solution: Solution) -> float:
-    """Return the force under which half of the map would bear the hardness of the contact [N]."""
+    """Return the force [N] at which half of the map would carry the hardness of the contact."""
     problem, measure = solution.problem, solution.problem.measure
     hardness = bearing_force(measure, solution.contact, problem.spec)
     return AREA_SHARE * measure.total(problem.measured) * hardness / solution.contact_area
 
 
 def _ends(solution: Solution, kind: SurfaceKind, *, on_one_feature: bool) -> Iterator[tuple[float, str]]:
-    """Yield what may end a range, and its level at a load: from one on it does."""
+    """Yield the upper limits of a range, each with its level at a load; a level of 1 or more ends the range."""
     problem = solution.problem
     full = FULL_CONTACT_SHARE * full_contact_stiffness(problem)
     yield solution.flattened.stiffness / full, f"{FULL_CONTACT_SHARE:g} of the full-contact stiffness"
@@ -230,7 +230,7 @@ def _ends(solution: Solution, kind: SurfaceKind, *, on_one_feature: bool) -> Ite
     if problem.plastic:
         yield (
             solution.force / _force_carried(solution),
-            f"{AREA_SHARE:g} of the force that the hardness bears",
+            f"{AREA_SHARE:g} of the force that the hardness can carry",
         )
     elif problem.geometry is not Geometry.FOUNDATION and not on_one_feature:
         pressure = solution.force / solution.contact_area
@@ -241,10 +241,12 @@ def _ends(solution: Solution, kind: SurfaceKind, *, on_one_feature: bool) -> Ite
 
 
 def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> LoadSearch:
-    """Return rising loads that go beyond both ends of the range, as far as forces of about a scale [N] do."""
+    """Return rising loads beyond both ends of the range, within the searched multiples of `scale` [N]."""
     start, most = (part * scale for part in SEARCHED)
     pilot = pilot_of(problem)
-    if pilot is not None:  # from a tenth of the force at which so rough a map is as stiff as twenty cells
+    if (
+        pilot is not None
+    ):  # from a tenth of the force at which so rough a map reaches the stiffness of twenty cells
         few, rough = CELLS * cell_stiffness(problem.operator), search_upwards(pilot, kind, start, most)
         stiff = (load.force for load in rough.loads if load.stiffness >= few)
         start = max(start, next(stiff, rough.highest) / 10)
@@ -255,7 +257,7 @@ def find_range(problem: ContactProblem, kind: SurfaceKind, scale: float) -> Load
 
 
 def pilot_of(problem: ContactProblem) -> ContactProblem | None:
-    """Return the problem on larger cells, as high as the highest of each block; None where the map is small."""
+    """Return the problem on blocks of cells, each as high as its highest cell; None if the map is small."""
     shape = problem.separation.shape
     factors = tuple(-(-n // PILOT_CELLS) for n in shape)
     if max(factors) == 1 or not is_numpy(problem.separation):

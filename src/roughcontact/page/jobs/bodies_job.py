@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from roughcontact.labels.engineering_units import written
 from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.server.page_request import PageRequest, Send
-from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.job_calls import Call, performed
 from roughcontact.recipe.jobs import known_names

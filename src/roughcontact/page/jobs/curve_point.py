@@ -28,7 +28,7 @@ _GEOMETRIES = {None: Geometry.SURFACE, "line": Geometry.LINE, "winkler": Geometr
 
 def columns_of(job: Any) -> list[dict[str, str]]:
     """Return the quantities of a point of the curve of a job, with the words and units of pictures."""
-    from roughcontact.plot.drawing.engineering_units import pretty
+    from roughcontact.labels.engineering_units import pretty
 
     shown = (*_SHOWN, *_conducted(job)) if isinstance(job, CurveJob) else _STICKING
     units = {each.name: pretty(each.unit_on(_GEOMETRIES[job.contact.profile])) for each in shown}

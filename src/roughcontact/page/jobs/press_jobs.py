@@ -22,7 +22,7 @@ __all__ = ["cut", "press"]
 
 def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send the maps of pressure and gap, then numbers, notes and the distribution of the pressure."""
-    from roughcontact.plot.drawing.engineering_units import pretty, written
+    from roughcontact.labels.engineering_units import pretty, written
     from roughcontact.plot.facts import solution_facts
     from roughcontact.plot.pressure_bars import pressure_bars
 
@@ -75,7 +75,7 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
     """Send one row or column: the surface before the load and under it, and the pressure."""
     import numpy as np
 
-    from roughcontact.plot.drawing.engineering_units import pretty
+    from roughcontact.labels.engineering_units import pretty
 
     solution = cache.solution(request.job)
     problem = solution.problem

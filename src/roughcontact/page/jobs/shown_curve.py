@@ -130,8 +130,8 @@ def _of_detachment(curve: DetachmentCurve) -> ShownCurve:
 
 
 def _of_state(state: AdhesiveState) -> ShownCurve:
+    from roughcontact.labels.engineering_units import pretty
     from roughcontact.plot.adhesive_facts import adhesive_facts
-    from roughcontact.plot.drawing.engineering_units import pretty
     from roughcontact.plot.tension import state_figure
 
     unit = pretty(unit_of("pressure", state.geometry))

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.labelled import plain_values
 from roughcontact.page.jobs.session_cache import SessionCache
 from roughcontact.page.refusal import on_the_page
 from roughcontact.page.server.page_request import PageRequest, Send, send_map
-from roughcontact.plot.drawing.engineering_units import written
 from roughcontact.plot.facts import surface_facts, surface_record
 from roughcontact.recipe.source import File
 

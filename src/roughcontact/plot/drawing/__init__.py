@@ -1,1 +1,1 @@
-"""What pictures share: axes, ticks, units, marks, rasters."""
+"""Parts of pictures: axes, ticks, units, marks, rasters."""

@@ -1,4 +1,4 @@
-"""Axes to draw on: the caller's own, or those of a new figure."""
+"""Axes to draw on: those of the caller, or those of a new figure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["axes_for"]
 def axes_for(ax: Axes | None, size: tuple[float, float] = (5.6, 4.2), **kind: Any) -> Axes:
     """Return `ax`, or the axes of a new figure of pyplot, which notebooks show and ``pyplot.show()`` finds.
 
-    Only here is pyplot, with the figures that it keeps, ever called: whole figures are nobody's but the caller's.
+    Only this function calls pyplot, which keeps its figures; whole figures belong only to the caller.
     """
     if ax is not None:
         return ax

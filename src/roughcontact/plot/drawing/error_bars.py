@@ -1,4 +1,4 @@
-"""Errors of loads in a picture: bars, and what other maps of the surface would give in words."""
+"""Errors of loads in a picture: bars, and the expected difference of other maps in words."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughcontact.evaluation.error_budget import ErrorBudget
-from roughcontact.plot.drawing.engineering_units import Scale, written
+from roughcontact.labels.engineering_units import Scale, written
 from roughcontact.plot.drawing.ticks import TICK
 
 __all__ = ["Errors", "error_bars", "sampling_lines"]
@@ -18,9 +18,9 @@ __all__ = ["Errors", "error_bars", "sampling_lines"]
 Errors = Mapping[float, ErrorBudget]
 """The errors of loads, by their force [N]."""
 
-_COLOUR = "#0072b2"  # of the points
-_ROOM = 1.05  # beyond the end of a bar, as a factor
-_FARTHEST = 3.0  # end of a bar that is shown, over its value: a bar may go down to zero
+_COLOUR = "#0072b2"  # that of the points
+_ROOM = 1.05  # factor of space beyond the end of a bar
+_FARTHEST = 3.0  # largest ratio of the value to the shown end of a bar, because a bar may go down to zero
 
 
 def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, Scale]) -> None:
@@ -34,14 +34,14 @@ def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, S
             place, height = force * x.factor, number.value * y.factor
             reach = number.error * y.factor
             axes.errorbar([place], [height], yerr=[reach], **style)
-            style["label"] = None  # one line of a legend for all
+            style["label"] = None  # one line in the legend for all
             low = min(low, max(height - reach, height / _FARTHEST) / _ROOM)
             high = max(high, min(height + reach, height * _FARTHEST) * _ROOM)
     axes.set_ylim(low, high)
 
 
 def sampling_lines(figure: Figure, errors: Errors) -> None:
-    """Write below a figure, for each load, how much another map of the surface would differ."""
+    """Write the expected difference of another map below a figure, for each load."""
     lines = [
         f"at {written(force, 'N')}, {budget.sampling}" for force, budget in errors.items() if budget.sampling
     ]

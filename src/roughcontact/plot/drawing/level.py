@@ -1,4 +1,4 @@
-"""A level across the axes, with words on it where nothing else is drawn."""
+"""A horizontal line across the axes, with words on it at a free place."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from roughcontact.validation import Array
 
 __all__ = ["free_place", "level"]
 
-_PLACES = {"left": 0.01, "center": 0.5, "right": 0.99}  # of words, along the level
-_WIDE, _HIGH, _NEAR = 0.27, 0.06, 0.015  # of the axes: width and height of words, and of a point beside them
-_FINE = 60  # points of a straight piece of a line
+_PLACES = {"left": 0.01, "center": 0.5, "right": 0.99}  # of words, along the line
+_WIDE, _HIGH, _NEAR = 0.27, 0.06, 0.015  # of the axes: width and height of words, and size of a point
+_FINE = 60  # points on a straight piece of a line
 _ORDER = (*product(("right", "left", "center"), ("bottom",)), *product(("right", "left", "center"), ("top",)))
 
 
 def level(axes: Axes, value: float, words: str = "", style: Any = "--", **given: Any) -> None:
-    """Draw a level across the axes, with words above its left end, or as the keywords `ha` and `va` align them."""
+    """Draw a horizontal line across the axes, with words above its left end, or aligned by `ha` and `va`."""
     axes.axhline(value, color="0.35", linewidth=0.9, linestyle=style, zorder=1)
     aligned = {"ha": "left", "va": "bottom"} | given
     above = 2 if aligned["va"] == "bottom" else -3
@@ -30,9 +30,9 @@ def level(axes: Axes, value: float, words: str = "", style: Any = "--", **given:
 
 
 def free_place(axes: Axes, value: float, first: tuple[str, str] | None = None) -> dict[str, str]:
-    """Return how words on a level are aligned to have nothing under them that is drawn already, or least of it.
+    """Return the alignment of words on a horizontal line that covers the least of what is drawn already.
 
-    `first` is taken where it is as good as any other.
+    `first` is chosen if no other alignment covers less.
     """
     x, y = _drawn(axes)
     above = y - float((axes.transData + axes.transAxes.inverted()).transform((1.0, value))[1])
@@ -49,8 +49,8 @@ def free_place(axes: Axes, value: float, first: tuple[str, str] | None = None) -
 
 
 def _drawn(axes: Axes) -> tuple[Array, Array]:
-    """Return points on all that is drawn, markers and lines, as parts of the axes."""
-    axes.get_xlim(), axes.get_ylim()  # which settles limits that are still to follow from what is drawn
+    """Return points on all markers and lines, as parts of the axes."""
+    axes.get_xlim(), axes.get_ylim()  # reading the limits updates them
     points = []
     for line in axes.lines:
         corners = line.get_transform().transform(line.get_xydata())

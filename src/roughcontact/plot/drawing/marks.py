@@ -1,4 +1,4 @@
-"""Contact too small to be seen: which spots need a mark, and which part of the map is worth showing large."""
+"""Contact that is too small to see: the spots that need a mark, and the part of the map to enlarge."""
 
 from __future__ import annotations
 
@@ -15,21 +15,20 @@ from roughcontact.validation import Array, Mask
 __all__ = ["contact_window", "faint_spots"]
 
 
-_FAINT = 0.02  # a smaller share of the cells in contact is lost on the page
-_NARROW = 0.01  # a spot narrower than this share of the side cannot be distinguished from dust
-_NEAR = 0.03  # marks closer than this share of the side would run into one another
+_FAINT = 0.02  # a smaller part of the map in contact is invisible on the page
+_NARROW = 0.01  # a spot narrower than this part of the side looks like dust
+_NEAR = 0.03  # marks closer than this part of the side would overlap
 _MARKS = 100  # more marks would hide what they mark
-_LARGE = 1 / 6  # share of the side that is shown large where contact is spread out
-_LEAST = 12  # cells along a side, below which a map says nothing
+_LARGE = 1 / 6  # enlarged part of the side if contact is spread out
+_LEAST = 12  # smallest number of cells along a side of an enlarged part
 _BLOCKS = 128
 
 
 def faint_spots(solution: Solution, window: Window) -> tuple[Array, Array]:
-    """Return the spots that cannot be seen when `window` fills the picture: numbers from 0, and cells.
+    """Return the spots that are invisible if `window` fills the picture: numbers from 0, and cells.
 
-    The cell is that of the largest pressure, shape ``(n, 2)``: row, column. Of neighbours the one of
-    the largest load stands for all; next to a spot that is seen none is needed. None at all where
-    contact is plain to see.
+    The cell is that of the largest pressure, shape ``(n, 2)``: row, column. Among neighbours, only the spot with the
+    largest load gets a mark; spots beside a visible one get none. If contact is easy to see, there are no marks.
     """
     contact = solution.contact[window]
     none = np.zeros(0, dtype=int), np.zeros((0, 2), dtype=int)
@@ -43,12 +42,11 @@ def faint_spots(solution: Solution, window: Window) -> tuple[Array, Array]:
     if narrow.size == 0:
         return none
     narrow = narrow[np.argsort(-spots.loads[narrow], kind="stable")]
-    # The cell of the largest pressure lies in its spot; the centre of a spot that goes round the edge of
-    # a periodic map does not.
+    # The cell of the largest pressure lies in its spot; the centre of a spot across the edge of a periodic map may not.
     cells = np.array(ndimage.maximum_position(solution.pressure[window], labels, narrow + 1))
 
-    # Neighbours are found by squares of the map: one mark a square, and none in or beside the square of
-    # a spot that is seen.
+    # Neighbours are found by squares of the map: one mark for each square, and none in or beside the square of a
+    # visible spot.
     side = max(1.0, _NEAR * max(contact.shape))
     seen = np.argwhere(np.isin(labels, present[wide] + 1))
     taken = np.zeros([int(n / side) + 1 for n in contact.shape], dtype=bool)
@@ -63,10 +61,10 @@ def faint_spots(solution: Solution, window: Window) -> tuple[Array, Array]:
 
 
 def contact_window(solution: Solution) -> Window | None:
-    """Return the cells about the contact that are worth showing large, or None where the map serves.
+    """Return the cells around the contact to enlarge, or None if the whole map is good enough.
 
-    All of the contact where it keeps to less than half of each side; where it is spread out and too
-    faint to be seen, the part that carries the most load. It has the proportions of the map.
+    The window is that of the whole contact if it extends over less than half of each side. If the contact is spread out
+    and too faint to see, it is the part that carries the most load. The window has the proportions of the map.
     """
     contact = solution.contact
     if not contact.any():
@@ -86,7 +84,7 @@ def contact_window(solution: Solution) -> Window | None:
 
 
 def _surroundings(contact: Mask, window: Window) -> tuple[list[float], float]:
-    """Return the centre of the contact in `window`, and which share of the map shows it with a margin."""
+    """Return the centre of the contact in `window`, and the part of the map that shows it with a margin."""
     spans = [np.flatnonzero(contact[window].any(axis=axis)) for axis in (1, 0)]
     centre = [cells.start + (s[0] + s[-1] + 1) / 2 for cells, s in zip(window, spans, strict=True)]
     share = max(float(s[-1] - s[0] + 1) / n for s, n in zip(spans, contact.shape, strict=True))
@@ -94,7 +92,7 @@ def _surroundings(contact: Mask, window: Window) -> tuple[list[float], float]:
 
 
 def _window(shape: tuple[int, ...], centre: Sequence[float], share: float) -> Window:
-    """Return the cells about `centre` (row, column), `share` of each side long, moved to lie on the map."""
+    """Return the cells around `centre` (row, column), `share` of each side long, moved to lie on the map."""
     sizes = [min(n, max(math.ceil(share * n), _LEAST)) for n in shape]
     first = [min(max(round(c - s / 2), 0), n - s) for c, s, n in zip(centre, sizes, shape, strict=True)]
     y, x = (slice(start, start + size) for start, size in zip(first, sizes, strict=True))
@@ -102,7 +100,7 @@ def _window(shape: tuple[int, ...], centre: Sequence[float], share: float) -> Wi
 
 
 def _smaller(window: Window, shape: tuple[int, ...]) -> Window | None:
-    """Return the window, or None where it is hardly smaller than the map."""
+    """Return the window, or None if it is almost as large as the map."""
     shares = [(cells.stop - cells.start) / n for cells, n in zip(window, shape, strict=True)]
     return window if min(shares) <= 1 / 2 else None
 
@@ -114,7 +112,7 @@ def _heaviest(pressure: Array, share: float) -> list[float]:
     blocks = pressure
     for axis, stride in enumerate(strides):
         blocks = np.add.reduceat(blocks, np.arange(0, blocks.shape[axis], stride), axis=axis)
-    # A bell, not a box: its maximum lies at the middle of the load and not at any place that holds it.
+    # A Gaussian has its maximum at the middle of the load; that of a box would not be unique.
     smooth = ndimage.gaussian_filter(blocks, [share * n / 4 for n in blocks.shape], mode="constant")
     peak = np.unravel_index(int(np.argmax(smooth)), smooth.shape)
     return [(int(block) + 0.5) * stride for block, stride in zip(peak, strides, strict=True)]

@@ -1,4 +1,4 @@
-"""Parameters of a study as columns, legends and notes name them: in units that leave short numbers."""
+"""Names and values of the parameters of a study for columns, legends and notes, in units with short numbers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from roughcontact.plot.drawing.engineering_units import Scale, scale
+from roughcontact.labels.engineering_units import Scale, scale
 
 if TYPE_CHECKING:
     import xarray
@@ -22,7 +22,7 @@ class ParameterLabel:
     ----------
     name : str
     scale : Scale
-        For its numbers.
+        The unit of its values.
     """
 
     name: str

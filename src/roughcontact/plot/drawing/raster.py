@@ -1,4 +1,4 @@
-"""Arrays as pictures: where the cells lie on the axes, in which unit, and with which colour bar."""
+"""Arrays as pictures: the places of cells on the axes, their unit, and colour bars."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from matplotlib.image import AxesImage
 
 from roughcontact.errors import InputError
 from roughcontact.grid import AnyGrid
+from roughcontact.labels.engineering_units import Scale, scale, written
 from roughcontact.labels.variables import VARIABLES
-from roughcontact.plot.drawing.engineering_units import Scale, scale, written
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.plot.drawing.usual_range import usual_range
 from roughcontact.validation import Array
@@ -33,12 +33,10 @@ __all__ = [
 Window = tuple[slice, slice]
 Colours = Colormap | str
 
-# More cells than this along a side are pooled before drawing: no page shows them, and a renderer that
-# leaves out some rows could leave out the contact.
+# More cells than this along a side are pooled before drawing: no page shows them, and a renderer that drops rows could
+# drop the contact.
 _DRAWN = 1024
-_ALIKE = (
-    0.05  # of their size, that heights differ by: as numbers they would differ in their last digits alone
-)
+_ALIKE = 0.05  # of their size: heights that differ by less are drawn above a datum
 
 
 def part(grid: AnyGrid, window: Window | None) -> Window:
@@ -47,7 +45,7 @@ def part(grid: AnyGrid, window: Window | None) -> Window:
     Raises
     ------
     ValueError
-        If the grid has one axis: there is no map of it.
+        If the grid has one axis.
     """
     if grid.ndim != 2:
         raise InputError("a map shows a surface of two axes", "draw the profile of a line or of rings")
@@ -60,7 +58,7 @@ def length_scale(grid: AnyGrid) -> Scale:
 
 
 def extent(grid: AnyGrid, window: Window) -> tuple[float, float, float, float]:
-    """Return the edges of `window` on the axes: left, right, bottom, top; row 0 is on top."""
+    """Return the edges of `window` on the axes: left, right, bottom, top; row 0 is at the top."""
     factor = length_scale(grid).factor
     (y0, y1), (x0, x1) = (
         (cells.start * step * factor, cells.stop * step * factor)
@@ -70,7 +68,7 @@ def extent(grid: AnyGrid, window: Window) -> tuple[float, float, float, float]:
 
 
 def box(axes: Axes, across: tuple[float, float], upright: tuple[float, float], **style: Any) -> None:
-    """Draw a rectangle between two places along each axis."""
+    """Draw a rectangle from its limits along each axis."""
     (left, right), (low, high) = across, upright
     axes.plot((left, right, right, left, left), (low, low, high, high, low), **style)
 
@@ -78,11 +76,11 @@ def box(axes: Axes, across: tuple[float, float], upright: tuple[float, float], *
 def show(
     axes: Axes, values: Array, grid: AnyGrid, window: Window, colours: Colours, limits: tuple[float, float]
 ) -> AxesImage:
-    """Draw `values`, the cells of `window`, each cell as it is; NaN stays transparent."""
+    """Draw `values`, the cells of `window`, without interpolation; NaN stays transparent."""
     values = pooled(values)
     rows, columns = values.shape
     left, right, bottom, top = extent(grid, window)
-    # Pooling rounds the number of blocks up: the picture may reach over the edge, the axes do not.
+    # Pooling rounds the number of blocks up, so the image may extend beyond the edge; the axes do not.
     stride = [-(-(cells.stop - cells.start) // n) for cells, n in zip(window, (rows, columns), strict=True)]
     high = (bottom - top) * rows * stride[0] / (window[0].stop - window[0].start)
     wide = (right - left) * columns * stride[1] / (window[1].stop - window[1].start)
@@ -97,7 +95,7 @@ def show(
 
 
 def pooled(values: Array) -> Array:
-    """Return at most 1024 rows and columns, each the largest of its block; NaN counts only where alone."""
+    """Return the largest value of each block, with at most 1024 rows and columns; NaN only if all are NaN."""
     for axis in (0, 1):
         stride = -(-values.shape[axis] // _DRAWN)
         if stride > 1:
@@ -108,9 +106,9 @@ def pooled(values: Array) -> Array:
 def heights_image(
     axes: Axes, heights: Array, grid: AnyGrid, window: Window | None, colours: Colours
 ) -> tuple[AxesImage, str, bool]:
-    """Draw heights, hatched where missing; return the image, its words, and whether colours end before heights.
+    """Draw heights, hatched where missing; return the image, its label, and whether heights exceed the colours.
 
-    Heights that differ by little of their size are drawn above one of them, which the words name.
+    Heights that differ by a small part of their size are drawn above one of them, which the label contains.
     """
     window = part(grid, window)
     inside = heights[window]
@@ -134,7 +132,7 @@ def heights_image(
 def colour_bar(
     axes: Axes, image: AxesImage, label: str, extend: Literal["neither", "max", "both"] = "neither"
 ) -> None:
-    """Put a colour bar beside the map, as high as the map itself; pointed where values go on beyond its colours."""
+    """Put a colour bar beside the map, of the same height; its ends are pointed if values lie beyond its colours."""
     bar = Colorbar(axes.inset_axes((1.03, 0.0, 0.045, 1.0)), image, extend=extend)
     bar.set_label(label, fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)

@@ -1,4 +1,4 @@
-"""Labels and ticks of axes: enough numbers to read by, few enough to stand apart."""
+"""Labels and ticks of axes: enough numbers to read values, few enough not to overlap."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ __all__ = ["LABEL", "TICK", "label_axes", "outer_axis", "readable_ticks"]
 
 LABEL, TICK = 9, 8  # sizes of text [points]
 
-_DECADES = 100.0  # from this ratio on, powers of ten are enough
-_STEPS = 5.0  # below it, not even 1, 2 and 5 times a power of ten are sure to occur twice
+_DECADES = 100.0  # ratio from which powers of ten are enough
+_STEPS = 5.0  # ratio below which an axis may have fewer than two of 1, 2 and 5 times a power of ten
 
 
 def readable_ticks(axis: Axis, ratio: float) -> None:
@@ -30,7 +30,7 @@ def readable_ticks(axis: Axis, ratio: float) -> None:
 
 
 def label_axes(axes: Axes, x: str, y: str, *, grid: bool = False) -> None:
-    """Write the names of both axes, in the size of all pictures; with `grid` lines at the larger ticks."""
+    """Write the names of both axes in the text size of all pictures; with `grid`, draw lines at the major ticks."""
     axes.set_xlabel(x, fontsize=LABEL)
     axes.set_ylabel(y, fontsize=LABEL)
     axes.tick_params(labelsize=TICK, which="both")
@@ -40,7 +40,7 @@ def label_axes(axes: Axes, x: str, y: str, *, grid: bool = False) -> None:
 
 
 def outer_axis(axes: Axes, side: Literal["right", "top"], name: str, functions: Any) -> Any:
-    """Return a second axis on the right or on top; two `functions` lead from the numbers of the first to its own."""
+    """Return a second axis on the right or at the top; `functions` convert from the first axis and back."""
     outer: Any
     if side == "right":
         outer = axes.secondary_yaxis(side, functions=functions)

@@ -1,4 +1,4 @@
-"""Where an axis or a scale of colours ends that a few values far out would leave largely empty."""
+"""The ends of an axis or a colour scale without a few values far out, which would leave it mostly empty."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from roughcontact.validation import Array
 
 __all__ = ["usual_range"]
 
-_TAILS = (0.005, 0.995)  # quantiles of what is left
-_ROOM = 0.05  # beyond these, of what they span
+_TAILS = (0.005, 0.995)  # quantiles of the remaining values
+_ROOM = 0.05  # part of their range that is added at both ends
 
 
 def usual_range(values: Array, share: float = 0.5, few: float = 0.02) -> tuple[float, float] | None:
-    """Return the lowest and the highest of finite values without those far out; None where that is all or nearly so.
+    """Return the range of finite values without those far out; None if it is nearly the whole range.
 
-    Nearly so is more than a `share` of the range. More than a `few` of the values, pits or peaks, are not far out.
+    Nearly the whole means more than a `share` of it. If pits or peaks are more than a `few` of the values, they are not
+    far out.
     """
     whole = float(values.min()), float(values.max())
     low, high = (float(end) for end in np.quantile(without_far(values, few), _TAILS))

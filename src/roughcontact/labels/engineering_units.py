@@ -1,4 +1,4 @@
-"""Engineering units for pictures: the power of ten that leaves numbers a person can read."""
+"""Engineering units: prefixes with which numbers are easy to read."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Scale:
     factor : float
         Numbers in `unit` over those in SI.
     unit : str
-        As it is printed.
+        The unit as it is printed.
 
     Examples
     --------
@@ -35,35 +35,35 @@ class Scale:
 
 
 def scale(largest: float, unit: str) -> Scale:
-    """Return the scale that brings `largest`, in the SI unit `unit`, between 1 and 1000.
+    """Return the scale in which `largest`, in the SI unit `unit`, lies between 1 and 1000.
 
-    The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and counts as often as
-    that unit does (``"m2"`` becomes µm², a factor of 1e12, ``"m-2"`` 1/µm²). A prefix of an area is a million times
-    the next: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length; energies
-    alone go below pico. A stiffness per area is in N/µm/mm² (MPa/µm).
+    The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and is raised to the power of that unit
+    (``"m2"`` becomes µm², a factor of 1e12, ``"m-2"`` 1/µm²). Neighbouring prefixes of areas differ by a factor of a
+    million: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length; only
+    energies go below pico. A stiffness per area is in N/µm/mm² (MPa/µm).
     """
-    if unit == "Pa m-1":  # the unit of machine design, whatever the number
+    if unit == "Pa m-1":  # always the unit of machine design
         return Scale(1e-12, "N/µm/mm²")
     first = unit.split()[0] if unit else ""
     found = re.search(r"-?\d+$", first)
     power = int(found.group()) if found else 1
     exponent = 0
     if math.isfinite(largest) and largest > 0 and first not in ("", "1"):
-        lowest = -2 * (abs(power) - 1)  # decade where the numbers begin
-        # The hair keeps 1e-6 m, which floating point may put just below, at 1 µm.
+        lowest = -2 * (abs(power) - 1)  # decade in which the numbers begin
+        # The small factor keeps 1e-6 m, which rounding may put just below, at 1 µm.
         decades = math.log10(largest * (1 + 1e-9)) - lowest
         exponent = 3 * math.floor(decades / (3 * abs(power))) * (1 if power > 0 else -1)
     highest = 3 if first.startswith("m") else 12
     smallest = -18 if first == "J" else -12
     exponent = min(max(exponent, smallest), highest)
-    # A division by an exact power of ten rounds once.
+    # A division by an exact power of ten rounds only once.
     shift = -exponent * power
     factor = 10.0**shift if shift >= 0 else 1 / 10.0**-shift
     return Scale(factor, pretty(f"{_PREFIXES[exponent]}{unit}"))
 
 
 def pretty(unit: str) -> str:
-    """Return a unit of the table as it is written in print: ``"N m-1"`` as N/m, ``"m2"`` as m², ``"m-2"`` as 1/m²."""
+    """Return a unit of the table as it is printed: ``"N m-1"`` as N/m, ``"m2"`` as m², ``"m-2"`` as 1/m²."""
     if unit in ("", "1"):
         return ""
     over = [part.replace("-1", "").replace("-", "") for part in unit.split() if "-" in part]
@@ -81,6 +81,6 @@ def written(value: float, unit: str, digits: int = 3) -> str:
     rounded = float(f"{value:.{digits}g}")
     chosen = scale(abs(rounded), unit)
     number = float(f"{rounded * chosen.factor:.{digits}g}")
-    # No prefix serves what is beyond them all; there powers of ten are shorter than zeros.
+    # Beyond all prefixes, powers of ten are shorter than zeros.
     text = f"{number:.0f}" if 10**digits <= abs(number) < 1e6 else f"{number:g}"
     return f"{text} {chosen.unit}".rstrip()
