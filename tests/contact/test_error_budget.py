@@ -10,7 +10,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
-from roughcontact.evaluation.error_notes import REMEDIES, notes_on_sources
+from roughcontact.evaluation.error_notes import REMEDIES, note_on_size, notes_on_sources
 from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.surface.finest_waves import is_rough_to_cells
@@ -95,10 +95,17 @@ def test_under_a_depth_the_force_has_an_error():
     assert names == [name for name in NUMBERS if name != "depth"]
 
 
-def test_levelling_is_a_choice_of_free_flat_maps_alone():
+def test_levelling_is_a_choice_of_flat_maps_that_do_not_repeat_themselves():
     periodic = rc.error_budget(pressed(rough(periodic=True, short_cutoff=SMOOTH)))
     assert [source.name for source in periodic.sources] == ["grid", "short cut-off", "sampling"]
     assert not any("Levelling" in note for note in periodic.notes)
+    # A quarter of a surface does not close at its border, and its waves are twice as long as its sides.
+    whole = rc.self_affine(rc.Grid((96, 96), 1e-6, periodic=True), 0.8, 1e-7, 2, short_cutoff=SMOOTH)
+    taken = rc.Surface(whole.heights[:48, :48], rc.Grid((48, 48), 1e-6, periodic=True))
+    budget = rc.error_budget(pressed(taken))
+    assert [source.name for source in budget.sources] == ["grid", "short cut-off", "levelling", "sampling"]
+    change = pressed(taken.levelled("quadratic")).mean_gap - pressed(taken).mean_gap
+    assert budget["mean_gap"].parts[2] == pytest.approx(change, rel=1e-6)
     ball = rough() + rc.shapes.paraboloid(rc.Grid((48, 48), 64e-6 / 48), radius=2e-4)
     form = rc.error_budget(pressed(ball))
     assert [source.name for source in form.sources] == ["grid", "short cut-off"]
@@ -133,6 +140,28 @@ def test_missing_cells_and_narrow_maps_are_judged_by_what_is_measured():
     assert is_rough_to_cells(rc.Surface(rough(48).heights[:4], rc.Grid((4, 48), 1e-6)))
     for nothing in (np.zeros((8, 8)), rough(48).heights[:4, :4], np.arange(64.0).reshape(8, 8)):
         assert not is_rough_to_cells(rc.Surface(nothing, rc.Grid(nothing.shape, 1.0)))
+
+
+@pytest.mark.parametrize(
+    ("bias", "percent"),
+    [(0.47, "+47"), (-0.21, "-21"), (0.19, ""), (-0.19, ""), (math.inf, ""), (math.nan, "")],
+)
+def test_a_map_whose_quarters_are_much_stiffer_per_area_is_small_for_its_load(bias, percent):
+    """At full contact K is infinite, and so is, or nothing, the difference of the quarters."""
+    notes = list(note_on_size({"interfacial_stiffness_per_area": bias, "contact_fraction": 0.5}))
+    assert len(notes) == bool(percent)
+    assert all(f"K/A0 of its quarters differs by {percent} %" in note for note in notes)
+    assert not list(note_on_size({}))
+
+
+def test_the_note_on_the_size_of_the_map_is_among_those_of_its_budget():
+    """Quarters of a map with few spots are stiffer per area; at a higher pressure the same map is large enough."""
+    solid = rough(periodic=True, hurst=0.3, rolloff=64e-6)
+    for pressure in (1e6, 2e7):
+        budget = rc.error_budget(pressed(solid, pressure=pressure))
+        bias = budget.bias_of_size["interfacial_stiffness_per_area"]
+        told = [note for note in budget.notes if note.startswith("The map is small for this load")]
+        assert (pressure == 1e6) == (bias > 0.2) == bool(told)
 
 
 def test_one_source_that_is_nearly_all_of_an_error_is_named():

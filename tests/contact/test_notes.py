@@ -73,6 +73,19 @@ def test_what_makes_a_number_wrong_comes_first_and_the_edge_last():
     assert ranks == [Rank.WRONG, Rank.DOUBTFUL, Rank.DOUBTFUL, Rank.USUAL, Rank.USUAL]
 
 
+def test_a_periodic_map_that_does_not_close_is_doubtful():
+    """Heights that rise by 1e-3 a row step back by 15e-3 at the border; as a free map they have no border to close."""
+    heights = np.repeat(1e-3 * np.arange(16.0), 16).reshape(16, 16)
+    found = {}
+    for repeats in (True, False):
+        solution = rc.press(rc.Surface(heights, rc.Grid((16, 16), 1.0, periodic=repeats)), 1.0, force=0.1)
+        found[repeats] = [note for note in notes_on(solution) if "does not close" in note.text]
+    assert found[False] == []
+    (note,) = found[True]
+    assert note.rank == Rank.DOUBTFUL
+    assert "heights step by 0.015 m from one edge to the opposite one, 15 times as much" in note.text
+
+
 def test_notes_are_ordered_by_rank_then_as_they_are_made_and_stand_once():
     made = [Note(Rank.USUAL, "d"), Note(Rank.LIMITED, "b"), Note(Rank.WRONG, "a"), Note(Rank.LIMITED, "c")]
     assert in_order([*made, *made]) == ("a", "b", "c", "d")

@@ -107,7 +107,10 @@ def test_each_panel_of_a_figure_shows_its_quantity_with_law_and_theories(oblong)
 
 def test_the_units_of_a_figure_are_those_of_each_panel(oblong):
     chosen = {"nominal_pressure": Scale(1e-5, "bar"), "mean_gap": Scale(1e10, "Å")}
+    chosen["interfacial_stiffness_per_area"] = Scale(1e-12, "N/um/mm^2")  # as it is typed
     figure = areal_figure(oblong, units=chosen)
+    label, _ = OF_PRESSURE["interfacial_stiffness_per_area"]  # as it is printed without a named unit
+    assert label in [axes.get_ylabel() for axes in figure.axes]
     assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure [bar]"] * 3
     assert figure.axes[2].get_ylabel() == "mean gap [Å]"
 

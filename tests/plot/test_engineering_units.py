@@ -79,6 +79,11 @@ def test_values_are_written_for_people(value, unit, text):
         ("N m-2", "N/m²"),
         ("1", ""),
         ("m2 K W-1", "m²·K/W"),
+        ("N/um/mm^2", "N/µm/mm²"),
+        ("MPa/um", "MPa/µm"),
+        ("uN/mm**3", "µN/mm³"),
+        ("N/µm/mm²", "N/µm/mm²"),
+        ("GPa", "GPa"),
     ],
 )
 def test_units_are_written_as_in_print(unit, text):

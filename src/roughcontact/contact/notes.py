@@ -16,7 +16,9 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.materials import MATERIALS
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
+from roughcontact.surface.border_step import open_border
 from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
+from roughcontact.surface.surface import Surface
 
 __all__ = ["notes_on"]
 
@@ -143,3 +145,10 @@ def _of_input(solution: Solution) -> Iterator[Note]:
                 f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all, and {carry} {borne:.0%} of "
                 f"the force. If they are faults of the measurement, remove them by masked(above={above:.6g}).",
             )
+    if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := open_border(surface)):
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The periodic map does not close: heights step by {step.height:.3g} m from one edge to the opposite one, "
+            f"{step.ratio:.2g} times as much as between neighbouring cells. If the surface does not repeat itself, "
+            "press it as free too and compare.",
+        )

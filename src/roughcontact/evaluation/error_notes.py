@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 from roughcontact.evaluation.error_budget import ErrorSource, QuotedNumber
 from roughcontact.labels.variables import VARIABLES
 
-__all__ = ["notes_on_sources"]
+__all__ = ["note_on_size", "notes_on_sources"]
 
 ALL = 0.9  # of an error, from one source
 LARGE = 0.1  # of a number: smaller errors get no note
+SMALL = 0.2  # of K/A0, from the map to its quarters: a map that is small for its load
 REMEDIES = MappingProxyType(
     {
         "grid": "The cells are too large for this load: take a finer map.",
@@ -25,6 +26,16 @@ REMEDIES = MappingProxyType(
     }
 )
 OTHERWISE = ("_per_area", "_fraction")  # endings of names: other numbers over the area
+
+
+def note_on_size(bias_of_size: Mapping[str, float]) -> Iterator[str]:
+    """Yield a sentence where the stiffness per area of the quarters shows that the map is small for its load."""
+    bias = bias_of_size.get("interfacial_stiffness_per_area", 0.0)
+    if SMALL < abs(bias) < math.inf:
+        yield (
+            f"The map is small for this load: K/A0 of its quarters differs by {100 * bias:+.0f} %. A larger map or "
+            "several maps would show the stiffness of the joint."
+        )
 
 
 def notes_on_sources(numbers: Sequence[QuotedNumber], sources: Sequence[ErrorSource]) -> list[str]:

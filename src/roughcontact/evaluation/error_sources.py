@@ -16,7 +16,7 @@ from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
-from roughcontact.evaluation.error_notes import notes_on_sources
+from roughcontact.evaluation.error_notes import note_on_size, notes_on_sources
 from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table
 from roughcontact.evaluation.other_maps import sampling_of
 from roughcontact.halfspace.operators.geometry import Geometry
@@ -24,6 +24,7 @@ from roughcontact.halfspace.operators.operator import capabilities
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Force
+from roughcontact.surface.border_step import open_border
 from roughcontact.surface.finest_waves import is_rough_to_cells
 from roughcontact.surface.preparation.filters import require_cells
 from roughcontact.surface.preparation.halving import halved
@@ -47,10 +48,10 @@ SAME = 1e-9  # relative difference up to which two loads or spacings are equal
 def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None) -> ErrorBudget:
     """Return the errors of the numbers of a pressed map, or of the means of several patches.
 
-    The load is computed again on half as many cells, on the map without its short waves, and, if the map is free and
-    nominally flat, without its quadratic form; the changes of a number are its parts. They are not corrections: each is
-    the sensitivity of the number to a property of the map that is unknown. Four quarters of the map show how much
-    another map would differ.
+    The load is computed again on half as many cells, on the map without its short waves, and, if the map is nominally
+    flat and free, or periodic without closing at its border, without its quadratic form; the changes of a number are
+    its parts. They are not corrections: each is the sensitivity of the number to a property of the map that is
+    unknown. Four quarters of the map show how much another map would differ.
 
     Parameters
     ----------
@@ -116,7 +117,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     otherwise: list[Callable[[Surface], Surface]] = [halved]
     sources.append(ErrorSource("short cut-off", "bias", cut))
     otherwise.append(lambda surface: surface.filtered(short_cutoff=shortest))
-    kinds = {SurfaceKind.of(surface) for surface in surfaces}
+    kinds = {_kind_of(surface) for surface in surfaces}
     notes = []
     if kinds == {SurfaceKind.FLAT}:
         sources.append(ErrorSource("levelling", "bias", "without the least-squares quadratic"))
@@ -160,8 +161,13 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
         for name, value, part in zip(NUMBERS, values.mean(axis=1), np.transpose(parts), strict=True)
         if name != prescribed
     )
-    notes += notes_on_sources(numbers, sources)
+    notes += [*notes_on_sources(numbers, sources), *note_on_size(bias_of_size)]
     return ErrorBudget(numbers, tuple(sources), tuple(notes), bias_of_size)
+
+
+def _kind_of(surface: Surface) -> SurfaceKind:
+    """Return the kind of a map: a periodic one that does not close is nominally flat, since it is called periodic."""
+    return SurfaceKind.FLAT if open_border(surface) else SurfaceKind.of(surface)
 
 
 def _of_highest_point(prescribed: str) -> str:

@@ -63,7 +63,8 @@ def scale(largest: float, unit: str) -> Scale:
 
 
 def pretty(unit: str) -> str:
-    """Return a unit of the table as it is printed: ``"N m-1"`` as N/m, ``"m2"`` as m², ``"m-2"`` as 1/m²."""
+    """Return a unit as it is written in print: ``"N m-1"`` as N/m, ``"m-2"`` as 1/m², ``"N/um/mm^2"`` as N/µm/mm²."""
+    unit = re.sub(r"\bu(?=[A-Za-z])", "µ", unit.replace("**", "").replace("^", ""))
     if unit in ("", "1"):
         return ""
     over = [part.replace("-1", "").replace("-", "") for part in unit.split() if "-" in part]

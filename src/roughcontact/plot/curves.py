@@ -18,7 +18,7 @@ from matplotlib.axes import Axes
 from roughcontact.contact.compare import Law
 from roughcontact.contact.curve import Curve
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.engineering_units import Scale, scale
+from roughcontact.labels.engineering_units import Scale, pretty, scale
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.error_bars import Errors, error_bars
@@ -308,7 +308,9 @@ def _draw_points(
     """
     loads, values = numbers
     x, y = (
-        given or scale(float(np.max(each, initial=0.0, where=np.isfinite(each))), unit)
+        Scale(given.factor, pretty(given.unit))
+        if given
+        else scale(float(np.max(each, initial=0.0, where=np.isfinite(each))), unit)
         for each, (_, unit), given in zip(numbers, words, units, strict=True)
     )
     axes.set(xscale="log", yscale="log")

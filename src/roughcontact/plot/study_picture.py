@@ -255,6 +255,7 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
     wide = places.min() > 0 and places.max() >= _WIDE * places.min()
     if wide:
         axes.set_xscale("log")
+    middle = (len(series) - 1) / 2
     step = 0.0 if wide else _APART * float(np.ptp(places))
     attributes = averaged[quantity if quantity in averaged else f"{quantity}_mean"].attrs
     for k, ((label, rows), colour) in enumerate(zip(series.items(), shades(len(series)), strict=True)):
@@ -262,7 +263,7 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
         values = {quantity: y, f"{quantity}_low": low, f"{quantity}_high": high, "resolved": resolved == 1}
         data = {n: (along, v, attributes) for n, v in values.items()}
         fits = xarray.Dataset(data, {along: (along, chosen.factor * x, {"units": chosen.unit})})
-        style: dict[str, Any] = {"label": label, "colour": colour, "shift": step * k}
+        style: dict[str, Any] = {"label": label, "colour": colour, "shift": step * (k - middle)}
         fitted_values(fits, quantity, axes, along=along, resolved=fits["resolved"], **style)
     axes.set_title(
         "95 % intervals" if f"{quantity}_low" in averaged else "means and their standard errors",
