@@ -1,7 +1,7 @@
-"""What went wrong as one JSON object, for programs that asked for JSON.
+"""An error as one JSON object, for programs that asked for JSON.
 
-It goes to standard output, where the answer would have been: whoever asked for one JSON object finds exactly one there,
-and tells answer and error apart by the key ``error`` or by the exit status. Standard error holds the line for people.
+It goes to standard output in place of the answer, so that a program finds exactly one JSON object there. The key
+``error`` and the exit status distinguish error and answer. Standard error contains the line for people.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ def emit_error(
     message : str
         What is wrong.
     status : int
-        With which the program ends.
+        The exit status of the program.
     remedy : str, optional
         What to do about it.
     place : str, optional
         Which option, argument or file it concerns.
     beside : mapping
-        What is known all the same.
+        Facts that are known despite the error.
     """
     record = {
         "kind": kind,
