@@ -165,9 +165,8 @@ def _cache() -> _Facts:
     if not kept:
         yield (
             _PROBLEM,
-            f"machine code cannot be kept in {folder}, so that each process compiles it again: make "
-            f"{place} a folder that "
-            "only you can write to",
+            f"machine code cannot be kept in {folder}, so that each process compiles it again: make {place} "
+            "a folder that only you can write to",
         )
 
 

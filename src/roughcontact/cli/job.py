@@ -31,7 +31,7 @@ _STATED = {
     "SLURM_STEP_NUM_TASKS": "SLURM_PROCID",
 }
 _TOGETHER = (["press"], ["curve"], ["surface", "make"])
-_PATIENCE = 5.0  # [s] within which every process meets an error that all have
+_PATIENCE = 5.0  # [s] for all processes to meet an error that they have in common
 _TURN = 0.02  # [s] between two checks of this
 
 

@@ -87,9 +87,7 @@ def late_group(
                 yield from [(words, each.help or "")] if inside is None else inside(words)
 
         def shell_complete(self, ctx: Any, incomplete: str) -> Any:
-            ctx.command = (
-                self._summarised()
-            )  # typer reads names and summaries from the command of the context
+            ctx.command = self._summarised()  # typer reads names and summaries from it
             return ctx.command.shell_complete(ctx, incomplete)
 
         def _summarised(self) -> TyperGroup:

@@ -146,8 +146,7 @@ class Conduction:
     TITLE: ClassVar = "Conduction"
     resistivity: str | None = described(
         "Electrical resistivity of both bodies, or two values for the two bodies: numbers or names of "
-        "materials such as "
-        "copper,gold. The resistance of the contact is computed.",
+        "materials such as copper,gold. The resistance of the contact is computed.",
         "17nohm*m[,...]",
         read=_of_both(_RESISTIVITY, "resistivity"),
         names=METALS,

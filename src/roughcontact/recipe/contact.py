@@ -22,9 +22,8 @@ class Contact:
     TITLE: ClassVar = "Contact"
     profile: str | None = described(
         "Model of a profile: line, a line contact that is uniform across the profile (forces per length, "
-        "such as 10N/mm), or "
-        "winkler, the springs of the method of dimensionality reduction. Required for profiles, because "
-        "results differ.",
+        "such as 10N/mm), or winkler, the springs of the method of dimensionality reduction. Required for "
+        "profiles, because results differ.",
         read=Choice(("line", "winkler")),
         needs_whole=True,
     )

@@ -115,8 +115,7 @@ class InterfaceTables:
     TITLE: ClassVar = "Tables"
     table: str | None = described(
         "Write tables of pressure, stiffness and area against gap, per nominal area, for other programs: "
-        "csv, abaqus (SI), "
-        "abaqus-mm (mm, N, MPa), lammps.",
+        "csv, abaqus (SI), abaqus-mm (mm, N, MPa), lammps.",
         "abaqus,lammps,...",
         read=Names("table", TABLES),
         needs_whole=True,

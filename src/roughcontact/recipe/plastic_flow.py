@@ -14,7 +14,7 @@ from roughcontact.recipe.texts import METALS, Choice
 __all__ = ["AfterLoad", "LoopOfLoads", "yields_at"]
 
 _HARDNESS = described(
-    "Hardness of the softer body, the largest pressure of a cell (perfectly plastic); or the name of its material.",
+    "Hardness of the softer body: the largest pressure of a cell, or the name of the material.",
     "2GPa",
     read=hardness_of,
     names=METALS,

@@ -169,7 +169,7 @@ def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
     if spec is None:
         if not isinstance(value, hint):
             classes = " or ".join(each.__name__ for each in get_args(hint) or (hint,))
-            raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+            raise refused(value, f"not a `{name}` of a recipe", f"give a {classes}", name)
         return
     if type(value) is type(declared.default) and value == declared.default:
         return

@@ -68,8 +68,7 @@ class SpecifiedJoint:
     )
     slope: str | None = described(
         "Mean absolute slope m of a profile, of both faces or of each: 0.80 times the rms slope of a "
-        "profile (Rdq), 0.56 "
-        "times that of a surface (Sdq).",
+        "profile (Rdq), 0.56 times that of a surface (Sdq).",
         "0.12",
         read=_MEAN_SLOPE,
         everyday=True,

@@ -64,7 +64,7 @@ def run(
     >>> summary.done, summary.left
     (2, 0)
     >>> rc.study.run(study.with_samples(3), "few", on_result=lambda result: print("one more case")).done
-    a case more
+    one more case
     3
     """
     start = time.monotonic()

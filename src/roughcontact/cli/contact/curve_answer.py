@@ -293,9 +293,8 @@ class CurveAnswer:
         if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
             yield Note(
                 Rank.USUAL,
-                "K/A0 is that of the interface only; k of a free patch contains the compliance of the "
-                "body under it: it is "
-                "in N/m only, never per area (docs/concepts/joints.md)",
+                "K/A0 is that of the interface only; k of a free patch contains the compliance of the body "
+                "under it: it is in N/m only, never per area (docs/concepts/joints.md)",
             )
 
     def _figure(self) -> Figure:

@@ -55,8 +55,7 @@ FILE = option("File to write: .nc or .csv.", "FILE", default=...)
 PICTURE = option("Picture to write: .png, .pdf or .svg.", "FILE", default=...)
 QUANTITY = option(
     "Quantity to draw (default: stiffness over E* L, with its power laws; with --at the interfacial "
-    "stiffness per area; "
-    "otherwise the first quantity that differs between samples).",
+    "stiffness per area; otherwise the first quantity that differs between samples).",
     "NAME",
 )
 ALONG = option(

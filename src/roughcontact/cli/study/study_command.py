@@ -210,9 +210,7 @@ def _is_unresolved(folder: Path) -> bool:
             record = row.record
             if record is None:
                 continue
-            if "resolved" not in record or bool(
-                record["resolved"].any()
-            ):  # all records of a case have the same fields
+            if "resolved" not in record or bool(record["resolved"].any()):  # as in all records of a case
                 return False
             found = True
     return found

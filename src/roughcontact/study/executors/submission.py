@@ -158,9 +158,7 @@ class _Submission:
         while True:
             try:
                 answer: bytes | str = future.result(timeout=MOMENT)
-            except (
-                TimeoutError
-            ):  # the worker died before the result was fetched: the task is being computed again
+            except TimeoutError:  # the worker died before the result was fetched: the task is computed again
                 self._look()
             except CancelledError as error:
                 raise WorkersError(*GONE) from error

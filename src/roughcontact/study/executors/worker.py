@@ -70,9 +70,9 @@ def require_cluster(module: str, name: str) -> None:
 def cannot_load(reason: str) -> WorkersError:
     """Return the error of a worker that cannot load what it was sent."""
     return WorkersError(
-        f"a worker cannot load its task ({reason}); put the case into a module that the workers can "
-        "import, rather than "
-        "into the script or notebook that runs the study, and install the same versions on all machines"
+        f"a worker cannot load its task ({reason}); put the case into a module that the workers can import, "
+        "rather than into the script or notebook that runs the study, and install the same versions on all "
+        "machines"
     )
 
 
