@@ -252,7 +252,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
             ("plot", "STUDY", "--out", "a.png", "--along", "points"),
             "'points' is no number that varies; choose",
         ),
-        (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
+        (("table", "STUDY", "--window", "1"), "--window: '1' is not a window; write two forces"),
         (("table", "STUDY", "--window", "2:1"), "a window goes from a force to a larger one"),
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
         (

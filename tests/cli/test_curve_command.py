@@ -303,11 +303,11 @@ def test_units_are_those_of_the_user(invoke, rough, tmp_path):
 @pytest.mark.parametrize(
     ("option", "unit", "message"),
     [
-        ("--unit-stiffness", "N/um", "'N/um' is no unit of a stiffness per area; give one such as N/um/mm^2"),
-        ("--unit-stiffness", "2MPa/mm", "is no unit of a stiffness per area"),
-        ("--unit-stiffness", "", "is no unit of a stiffness per area"),
-        ("--unit-pressure", "mm", "'mm' is no unit of a pressure; give one such as MPa"),
-        ("--unit-pressure", "degC", "is no unit of a pressure"),
+        ("--unit-stiffness", "N/um", "'N/um' is not a unit of a stiffness per area; give one such as N/um/mm^2"),
+        ("--unit-stiffness", "2MPa/mm", "is not a unit of a stiffness per area"),
+        ("--unit-stiffness", "", "is not a unit of a stiffness per area"),
+        ("--unit-pressure", "mm", "'mm' is not a unit of a pressure; give one such as MPa"),
+        ("--unit-pressure", "degC", "is not a unit of a pressure"),
     ],
 )
 def test_units_that_are_none_are_refused_before_the_work(invoke, rough, option, unit, message):

@@ -131,7 +131,7 @@ def test_a_wrong_answer_is_a_problem(checked):
     status, found = checked("""print('{"depth error": 0.5, "stiffness error": 0.001, "residual": NaN}')""")
     assert (status, found["check"]["sphere beside Hertz"]) == (MISSED, "WRONG")
     assert found["problems"] == [
-        "the check fails: depth error and residual of a pressed sphere beyond what is right"
+        "the check fails: depth error and residual of a pressed sphere outside the tolerance"
     ]
 
 

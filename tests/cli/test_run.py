@@ -141,10 +141,10 @@ def test_what_is_no_job_is_refused():
     Path("list.json").write_text("[1]", encoding="utf-8")
     assert "list.json: it holds no result" in ran("list.json", status=2).stderr
     Path("old.json").write_text('{"force": [1.0]}', encoding="utf-8")
-    assert "old.json: it carries no recipe" in ran("old.json", status=2).stderr
+    assert "old.json: it contains no recipe" in ran("old.json", status=2).stderr
     assert "none.toml: it cannot be opened" in ran("none.toml", status=2).stderr
     written(JOB.replace("forces", "force"))
-    assert "Error: recipe.loads.force: there is no 'force' here" in ran("job.toml", status=2).stderr
+    assert "Error: recipe.loads.force: unknown field 'force'" in ran("job.toml", status=2).stderr
 
 
 def test_another_file_under_the_name_is_refused():
@@ -187,7 +187,7 @@ def test_a_folder_stands_for_the_result_in_it():
     assert "same numbers" in ran("job").stderr
     Path("empty").mkdir()
     assert "empty holds no result of a job" in ran("empty", status=2).stderr
-    assert "curve.csv: it is no job and no result" in ran("job/curve.csv", status=2).stderr
+    assert "curve.csv: it is neither a job nor a result" in ran("job/curve.csv", status=2).stderr
 
 
 def test_a_program_reads_what_differs():

@@ -113,7 +113,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         (["none.toml"], "none.toml: it cannot be opened (No such file or directory)"),
         (
             ["job.toml", "--vary", "preparation.level"],
-            "--vary: 'preparation.level' names no field and values",
+            "--vary: 'preparation.level' is not a field with values",
         ),
         (["job.toml", "--vary", "preparation.level="], "write preparation.level=plane,quadratic"),
         (["job.toml", "--vary", "=plane"], "names no field and values"),
@@ -123,7 +123,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8"],
-            "table.source.hurst: the Hurst exponent lies between -1 and 3, not at '9'",
+            "table.source.hurst: the Hurst exponent must lie between -1 and 3, not at '9'",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],
@@ -133,7 +133,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
             ["job.toml", "--vary", "hurst=0.5"],
             "--vary: the job has no field 'hurst'; did you mean source.hurst",
         ),
-        (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose from source."),
+        (["job.toml", "--vary", "source=x"], "--vary: source is not a single value; choose from source."),
         (["job.toml", "--vary", "source.seed=1,2"], "leave seed out"),
         (["job.toml", "--vary", "source.points=16,16"], "a case comes twice"),
         (["maps/press.toml", "--samples", "2"], "--samples: the source of this job is not random"),

@@ -96,7 +96,7 @@ def test_a_table_says_what_it_holds():
         (TWO, "persson", {}, "give `hurst` and one of"),
         (TWO, "power-law", {}, "needs the size of the joint: choose from persson, gw"),
         (TWO, "cgp", {}, "needs the size of the joint"),
-        (TWO, "hurtz", {}, "is not known: choose of"),
+        (TWO, "hurtz", {}, "is not known: choose from"),
         (TWO, "cmy", {"hardness": None}, "give the `hardness` of the softer body"),
         (1.2e-6, "cmy", {}, "give rc.specified"),
         (TWO, "cmy", {"conductivities": (0.0, math.inf, 1.0)}, "are not two numbers"),

@@ -154,7 +154,7 @@ def test_conductivities_as_people_write_them(text):
 def test_a_force_per_length_without_a_profile_is_met_with_the_remedy():
     with pytest.raises(InputError) as refused:
         rising_loads("1N/mm:10N/mm:3", FORCE)
-    assert refused.value.remedy == "say that it is a profile by `profile`, or write a force such as 10N"
+    assert refused.value.remedy == "give `profile` for a profile, or write a force such as 10N"
     with pytest.raises(InputError) as refused:
         rising_loads("1K", FORCE)
     assert refused.value.remedy == "write a force such as 10N"

@@ -85,7 +85,7 @@ _VERBOSITY = {
         rich_help_panel="Answer",
     ),
     "quiet": option(
-        "On standard error print only errors and notes on wrong numbers; no progress, no remarks.",
+        "Print only errors and notes on wrong numbers on standard error; no progress, no remarks.",
         None,
         *("-q", "--quiet"),
         default=False,

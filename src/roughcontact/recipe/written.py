@@ -107,7 +107,7 @@ def _part(kind: Any, values: Any) -> Any:
             if name not in known:
                 near = difflib.get_close_matches(str(name), known, 1)
                 remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
-                raise InputError(f"there is no {name!r} here", remedy, str(name))
+                raise InputError(f"unknown field {name!r}", remedy, str(name))
             made[name] = _value(name, hints[name], value)
         except InputError as error:
             mistakes += every(error)
