@@ -231,7 +231,10 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
-        ((*STICKS, "--law", "sharp"), "--law: 'sharp' is not one of the choices; choose from exponential, dugdale"),
+        (
+            (*STICKS, "--law", "sharp"),
+            "--law: 'sharp' is not one of the choices; choose from exponential, dugdale",
+        ),
     ],
 )
 def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
@@ -253,7 +256,7 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
             ("adhesion", "press", *STICKS),
             "--depth, --mean-gap is given; give one, such as --force 10mN",
         ),
-        (("press", "--depth", "-5nm"), "the depth counts from first touch"),
+        (("press", "--depth", "-5nm"), "the depth is measured from first touch"),
         (
             ("adhesion", "curve", *STICKS),
             "none of --depths, --forces, --pressures, --mean-gaps is given; give one, such as --depths",
@@ -261,9 +264,9 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
         (("adhesion", "loop", *STICKS), "--depth: this option must be given"),
         (
             ("adhesion", "loop", "--depth", "1nm", "--points", "1", *STICKS),
-            "--points: the number of steps is a whole number from 2 to 10000",
+            "--points: the number of steps must be a whole number from 2 to 10000",
         ),
-        (("adhesion", "curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is no range"),
+        (("adhesion", "curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is not a range"),
         (("adhesion", "curve", "--depths", ",", *STICKS), "holds no load"),
         (("adhesion", "curve", "--depths", "1nm:2nm:1", *STICKS), "from 2 to 100000 loads, not 1"),
         (("curve", "--depths", "-1nm,2nm"), "every load must be positive"),

@@ -109,7 +109,7 @@ PRESS_OPTIONS = {
         "--force: '1kg' is not a force; write a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
-    "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
+    "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth is measured from first touch"),
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
     "no load": (
         changed(force=None),

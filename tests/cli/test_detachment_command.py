@@ -132,7 +132,7 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
             "--depths and --forces exclude each other",
         ),
         (("--depth", "10nm", "--depths", "20nm"), "press to that depth, or begin with"),
-        (("--depth", "10nm", "--depths", "-5nm,5nm"), "must fall"),
+        (("--depth", "10nm", "--depths", "-5nm,5nm"), "must decrease"),
         (("--depth", "0nm"), "nothing is in contact"),
     ],
 )

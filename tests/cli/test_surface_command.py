@@ -109,7 +109,7 @@ def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
         (("--size", "0mm"), "--size: a side length must be positive"),
         (("--points", "0"), "--points: '0' is not a number of points"),
         (("--long-cutoff", "1um"), "no wave"),
-        (("--rms-band", "1mm"), "--rms-band: '1mm' is no band"),
+        (("--rms-band", "1mm"), "--rms-band: '1mm' is not a band"),
         (("--rms-band", "1mm:0um"), "--rms-band: a wavelength must be positive"),
         (("--rms-band", "1mm:1um"), "only waves longer"),
         (("--nodal", "--periodic"), "nodal repeats the first row"),

@@ -134,7 +134,7 @@ def test_prepare_does_nothing_unasked(invoke, holed, tmp_path):
     out = tmp_path / "same.npz"
     answer = invoke("surface", "prepare", holed, out)
     assert answer.exit_code == 0
-    assert "no step is asked for" in answer.stderr
+    assert "no step is given" in answer.stderr
     np.testing.assert_array_equal(rc.read(out).heights, rc.read(holed).heights)
     assert "12" in answer.stdout  # the missing points
 
@@ -245,7 +245,7 @@ def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
         (("--downsample", "0"), "from 1 up"),
         (("--downsample", "90"), "leaves less than two"),
         (("--alias",), "belongs to --downsample"),
-        (("--average", "-3"), "--average: the number of cells is a whole number from 1 up"),
+        (("--average", "-3"), "--average: the number of cells must be a whole number from 1 up"),
         (("--average", "65"), "leaves less than two"),
         (("--tip", "2"), "a radius of 2 m is too large for a tip; write it with its unit, such as 2um"),
         (("--tip", "0um"), "--tip: the radius of a tip must be positive"),
@@ -376,7 +376,7 @@ def test_prepare_refuses_what_is_no_mask(invoke, spiky, tmp_path, text, words):
 def test_the_help_of_mask_begins_with_heights(invoke):
     shown = " ".join(invoke("surface", "prepare", "--help-all").stdout.replace("│", " ").split())
     assert "--mask above=3um " in shown
-    assert -1 < shown.find("heights beyond") < shown.find("box= or")
+    assert -1 < shown.find("heights above") < shown.find("box= or")
 
 
 @pytest.mark.parametrize("kind", ["missing", "filled"])

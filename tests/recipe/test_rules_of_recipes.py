@@ -43,7 +43,7 @@ RULES = [
     (smallest("press") | {"job": None}, "job", "no job is named", [smallest(job) for job in JOBS]),
     ({"name": "hurst", "case": "curve"}, "job", "this is a study, not a job", [smallest("curve")]),
     (smallest("press") | {"job": ["press"]}, "job", "no job ['press']", [smallest("press")]),
-    (with_parts("press", loads={"force": "1N"}), "loads", "no 'loads' here", [smallest("press")]),
+    (with_parts("press", loads={"force": "1N"}), "loads", "unknown field 'loads'", [smallest("press")]),
     (with_parts("press", load=None), "load", "load is missing", [smallest("press")]),
     (with_parts("press", source=None), "source", "source is missing", [smallest("press")]),
     (with_parts("press", bodies="steel"), "bodies", "'steel' is not a table of fields", [smallest("press")]),
@@ -81,7 +81,7 @@ RULES = [
     (
         with_parts("press", contact={"operator": "fft"}),
         "contact.operator",
-        "no 'operator' here",
+        "unknown field 'operator'",
         [with_parts("press", contact=PROFILE)],
     ),
     (
@@ -417,8 +417,8 @@ def test_a_file_that_changed_is_refused(tmp_path, monkeypatch):
 # TOML that is wrong by itself, or holds values of kinds that only TOML has.
 PRESS = "job = 'press'\n[source]\nfile = 'part.x3p'\n[bodies]\nmodulus = 1e9\n"
 FILES = [
-    ("[load]\nforce = 10 N", "it is no TOML", None),
-    ("job = 'press'\njob = 'press'", "it is no TOML", None),
+    ("[load]\nforce = 10 N", "it is not valid TOML", None),
+    ("job = 'press'\njob = 'press'", "it is not valid TOML", None),
     (f"{PRESS}[load]\nforce = nan", "'nan' does not start", "load.force"),
     (
         f"{PRESS}[load]\nforce = 1979-05-27",

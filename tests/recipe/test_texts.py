@@ -103,8 +103,8 @@ def test_a_comma_list_keeps_its_loads():
         ("1N:2N:2.5", "from:to:count"),
         ("1N:2N:1", "from 2 to"),
         ("1N:2N:1000000000", "from 2 to"),
-        ("2N:1N:5", "rises from above zero"),
-        ("0:1N:5", "rises from above zero"),
+        ("2N:1N:5", "must increase from a positive load"),
+        ("0:1N:5", "must increase from a positive load"),
         ("1N:2Pa:5", "is not a force"),
     ],
 )

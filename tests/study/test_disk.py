@@ -85,10 +85,7 @@ def test_a_read_only_disk_can_be_read_and_is_said_to_be_one(found):
     assert found["readable"] == found["kept"]
     for told in (found["read-only"], found["nothing to write"]):
         assert "Read-only file system" in told
-        assert (
-            "change its permissions, or copy it elsewhere and resume there; stored cases are safe"
-            in told
-        )
+        assert "change its permissions, or copy it elsewhere and resume there; stored cases are safe" in told
 
 
 @pytest.mark.skipif(

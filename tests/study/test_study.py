@@ -138,7 +138,10 @@ def test_the_room_opens_at_its_public_names():
             {"case": "nowhere.at_all:CASE"},
             "no module nowhere is found; run in the folder that contains nowhere",
         ),
-        ({"case": "study.nowhere:CASE"}, "no module study.nowhere is found; run in the folder that contains study"),
+        (
+            {"case": "study.nowhere:CASE"},
+            "no module study.nowhere is found; run in the folder that contains study",
+        ),
         ({"case": "study.trial:CAS"}, "study.trial has no Case named 'CAS'"),
         ({"case": "study.trial:NO_CASE"}, "study.trial has no Case named 'NO_CASE'"),
         ({"case": "study.trial.CASE"}, "there is no case 'study.trial.CASE'"),

@@ -1,7 +1,7 @@
 """The processes of an MPI job, which work as one program: rank 0 prints and writes.
 
-A launcher (mpiexec, srun) sets their number in the environment. With several processes, `press`, `curve` and `surface
-make` divide the rows of one surface among them; other commands raise an error.
+A launcher (mpiexec, srun) sets their number in the environment. With several processes, `surface make`, `press` and
+`curve` divide the rows of one surface among them; other commands raise an error.
 """
 
 from __future__ import annotations

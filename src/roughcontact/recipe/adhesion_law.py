@@ -55,7 +55,7 @@ class AdhesionLaw:
         everyday=True,
     )
     law: str = described(
-        "Law by which the attraction decreases with the gap.",
+        "Decrease of the attraction with the gap.",
         read=Choice(LAWS),
         default="exponential",
         everyday=True,

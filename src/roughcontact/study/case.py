@@ -1,7 +1,7 @@
 """A case: the computation of one sample of a study, a pure function of its parameters and a random generator.
 
-Parameters are numbers in SI, or text with a unit: a model with a field ``size: Length`` accepts ``1e-3`` and ``"1
-mm"``, and stores 0.001 for both.
+Parameters are numbers in SI, or text with a unit: a model with a field ``size: Length`` accepts
+``"1 mm"`` and ``1e-3``, and stores 0.001 for both.
 """
 
 from __future__ import annotations

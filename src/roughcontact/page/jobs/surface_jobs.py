@@ -65,9 +65,7 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": [
-                on_the_page(line) for line in warned if "despiked()" not in line
-            ],  # `study` reports it
+            "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # in `study`
             "raw": {"lengths": raw.grid.lengths, "shape": raw.grid.shape},
             **request.statement,
         }
