@@ -24,9 +24,9 @@ JOB = ("press", "FILE", "--force", "1N", "--modulus", "1GPa")
         ((*JOB, "--format", "gif"), "--format: 'gif' is not one of the choices; choose from png, pdf, svg"),
         ((*JOB, "--progress", "bars"), "--progress: 'bars' is not one of the choices; choose from auto, json, none"),
         ((*JOB, "-q", "-v"), "--quiet and --verbose exclude each other: give one of them"),
-        (("serve", "--port", "80"), "--port: a port must be a whole number from 1024 to 65535, not '80'; give one such"),
+        (("serve", "--port", "80"), "--port: a port must be a whole number from 1024 to 65535, not '80'"),
         (("study", "run", "s.toml", "--workers", "0"), "--workers: the number of workers must be a whole number"),
-        (("study", "run", "s.toml", "--executor", "gpu"), "--executor: 'gpu' is not one of the choices; choose from serial"),
+        (("study", "run", "s.toml", "--executor", "gpu"), "--executor: 'gpu' is not one of the choices"),
         (("study", "from", "j.toml", "--out", "s.toml", "--samples", "0"), "--samples: the number of samples must"),
     ],
 )  # fmt: skip
