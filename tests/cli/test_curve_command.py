@@ -447,8 +447,10 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     # Nothing is computed then; the notes on the stored loads are those that were given, in their order.
     stored = invoke(*words).stderr.splitlines()
     assert "4 of 4 loads of the same recipe are in" in "".join(stored)
-    kept_notes = [line for line in stored if "loads are in" not in line]
-    assert kept_notes == [line for line in again.stderr.splitlines() if "loads are in" not in line]
+    kept_notes = [line for line in stored if "loads of the same recipe are in" not in line]
+    assert kept_notes == [
+        line for line in again.stderr.splitlines() if "loads of the same recipe are in" not in line
+    ]
     record = json.loads((tmp_path / "out" / "curve.json").read_text())
     assert record["note_ranks"][0] == "wrong"
     assert len(record["note_ranks"]) == len(record["notes"])
