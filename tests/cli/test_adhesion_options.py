@@ -104,7 +104,7 @@ def test_one_folder_holds_the_files_of_all_commands(invoke, rough, tmp_path):
     for name in ("adhesive_loop.nc", "detachment.nc"):
         told = invoke("conductance", tmp_path / name, "--resistivity", "17nohm*m")
         assert told.exit_code == 2
-        assert f"{name} holds a path of surfaces that stick, whose conductance is not computed" in told.stderr
+        assert f"{name} holds a path of adhesive states, whose conductance is not computed" in told.stderr
     assert invoke("conductance", tmp_path, "--resistivity", "17nohm*m").exit_code == 0
 
 
@@ -192,7 +192,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     monkeypatch.setattr(adhesive_loading, "states_under", interrupted)
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--out", tmp_path / "out")
     assert answer.exit_code == 130
-    assert "stopped: 2 of 3 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
+    assert "stopped: 2 of 3 loads are kept; an adhesive path cannot be resumed" in answer.stderr
     assert len(rc.read_adhesive_curve(tmp_path / "out" / "adhesive_curve.nc")) == 2
     loop = ("--depth", "50nm", "--points", "4", "--out", tmp_path / "loop")
     answer = invoke("adhesion", "loop", rough, *MODULUS, *STICKS, *loop)
@@ -231,7 +231,10 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
-        ((*STICKS, "--law", "sharp"), "--law: there is no 'sharp' here; choose from exponential, dugdale"),
+        (
+            (*STICKS, "--law", "sharp"),
+            "--law: 'sharp' is not one of the choices; choose from exponential, dugdale",
+        ),
     ],
 )
 def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
@@ -253,7 +256,7 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
             ("adhesion", "press", *STICKS),
             "--depth, --mean-gap is given; give one, such as --force 10mN",
         ),
-        (("press", "--depth", "-5nm"), "the depth counts from first touch"),
+        (("press", "--depth", "-5nm"), "the depth is measured from first touch"),
         (
             ("adhesion", "curve", *STICKS),
             "none of --depths, --forces, --pressures, --mean-gaps is given; give one, such as --depths",
@@ -261,9 +264,9 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
         (("adhesion", "loop", *STICKS), "--depth: this option must be given"),
         (
             ("adhesion", "loop", "--depth", "1nm", "--points", "1", *STICKS),
-            "--points: the number of steps is a whole number from 2 to 10000",
+            "--points: the number of steps must be a whole number from 2 to 10000",
         ),
-        (("adhesion", "curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is no range"),
+        (("adhesion", "curve", "--depths", "1nm:2nm", *STICKS), "'1nm:2nm' is not a range"),
         (("adhesion", "curve", "--depths", ",", *STICKS), "holds no load"),
         (("adhesion", "curve", "--depths", "1nm:2nm:1", *STICKS), "from 2 to 100000 loads, not 1"),
         (("curve", "--depths", "-1nm,2nm"), "every load must be positive"),

@@ -252,8 +252,8 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
             ("plot", "STUDY", "--out", "a.png", "--along", "points"),
             "'points' is not a number that varies; choose",
         ),
-        (("table", "STUDY", "--window", "1"), "--window: '1' is no window; write two forces"),
-        (("table", "STUDY", "--window", "2:1"), "a window goes from a force to a larger one"),
+        (("table", "STUDY", "--window", "1"), "--window: '1' is not a window; write two forces"),
+        (("table", "STUDY", "--window", "2:1"), "must be smaller than the second; exchange the two"),
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
         (
             ("table", "STUDY", "--at", "2"),
@@ -275,7 +275,7 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         ),
         (
             ("table", "STUDY", "--quantity", "stiffness"),
-            "stiffness lies along load; choose a load by --at, such as --at 1MPa",
+            "stiffness depends on load; choose a load by --at, such as --at 1MPa",
         ),
     ],
 )

@@ -109,7 +109,7 @@ PRESS_OPTIONS = {
         "--force: '1kg' is not a force; write a force such as 10N",
     ),
     "no number": (changed(force="much"), "--force: 'much' does not start with a number"),
-    "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth counts from first touch"),
+    "negative depth": (changed(force=None, depth="-1um"), "--depth: the depth is measured from first touch"),
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
     "no load": (
         changed(force=None),
@@ -135,7 +135,7 @@ PRESS_OPTIONS = {
     ),
     "Poisson's ratio": (
         changed(modulus=None, young="1GPa", poisson="0.7"),
-        "--poisson: Poisson's ratio lies between",
+        "--poisson: Poisson's ratio must lie between",
     ),
     "decimal comma": (
         changed(modulus=None, young="1GPa", poisson="0,3"),
@@ -147,8 +147,8 @@ PRESS_OPTIONS = {
     "size of zero": (changed(size="0mm"), "--size: a side length must be positive"),
     "unit that is none": (changed(unit="second"), "unit 'second' is not a known unit of length"),
     "unknown channel": (changed(channel="colour"), "no channel 'colour'"),
-    "loose tolerance": (changed(tolerance="1"), "--tolerance: the tolerance lies between"),
-    "tight tolerance": (changed(tolerance="0"), "the tolerance lies between"),
+    "loose tolerance": (changed(tolerance="1"), "--tolerance: the tolerance must lie between"),
+    "tight tolerance": (changed(tolerance="0"), "the tolerance must lie between"),
     "no tolerance": (changed(tolerance="small"), "--tolerance: 'small' is not a number"),
 }
 

@@ -149,7 +149,7 @@ def shell(tmp_path):
 
     def run(words, *lines, **variables):
         if shutil.which(words[0]) is None:
-            pytest.skip(f"there is no {words[0]} here")
+            pytest.skip(f"{words[0]} is not one of the choices")
         path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
         environment = os.environ | {"HOME": str(home), "PATH": path, **variables}
         command = [*words, "-c", "\n".join(lines)]

@@ -303,11 +303,15 @@ def test_units_are_those_of_the_user(invoke, rough, tmp_path):
 @pytest.mark.parametrize(
     ("option", "unit", "message"),
     [
-        ("--unit-stiffness", "N/um", "'N/um' is no unit of a stiffness per area; give one such as N/um/mm^2"),
-        ("--unit-stiffness", "2MPa/mm", "is no unit of a stiffness per area"),
-        ("--unit-stiffness", "", "is no unit of a stiffness per area"),
-        ("--unit-pressure", "mm", "'mm' is no unit of a pressure; give one such as MPa"),
-        ("--unit-pressure", "degC", "is no unit of a pressure"),
+        (
+            "--unit-stiffness",
+            "N/um",
+            "'N/um' is not a unit of a stiffness per area; give one such as N/um/mm^2",
+        ),
+        ("--unit-stiffness", "2MPa/mm", "is not a unit of a stiffness per area"),
+        ("--unit-stiffness", "", "is not a unit of a stiffness per area"),
+        ("--unit-pressure", "mm", "'mm' is not a unit of a pressure; give one such as MPa"),
+        ("--unit-pressure", "degC", "is not a unit of a pressure"),
     ],
 )
 def test_units_that_are_none_are_refused_before_the_work(invoke, rough, option, unit, message):
@@ -436,15 +440,17 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     monkeypatch.setattr(loading, "solutions_along", whole)
     again = invoke(*words)
     assert again.exit_code == 0, again.stderr
-    assert "2 of 4 loads are in" in again.stderr
+    assert "2 of 4 loads of the same recipe are in" in again.stderr
     whole_curve = rc.read_curve(tmp_path / "out" / "curve.nc")
     assert whole_curve.depth[:2].tolist() == kept.depth.tolist()
     np.testing.assert_allclose(whole_curve.force, [1e-6, 2e-6, 4e-6, 8e-6])
     # Nothing is computed then; the notes on the stored loads are those that were given, in their order.
     stored = invoke(*words).stderr.splitlines()
-    assert "4 of 4 loads are in" in "".join(stored)
-    kept_notes = [line for line in stored if "loads are in" not in line]
-    assert kept_notes == [line for line in again.stderr.splitlines() if "loads are in" not in line]
+    assert "4 of 4 loads of the same recipe are in" in "".join(stored)
+    kept_notes = [line for line in stored if "loads of the same recipe are in" not in line]
+    assert kept_notes == [
+        line for line in again.stderr.splitlines() if "loads of the same recipe are in" not in line
+    ]
     record = json.loads((tmp_path / "out" / "curve.json").read_text())
     assert record["note_ranks"][0] == "wrong"
     assert len(record["note_ranks"]) == len(record["notes"])
@@ -527,14 +533,14 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--loop",), "--loop is about what flows under a hardness, which is not given; give --hardness"),
+        (("--loop",), "--loop needs a hardness, which is not given; give --hardness"),
         (
             ("--flow", "raised"),
-            "--flow is about what flows under a hardness, which is not given; give --hardness",
+            "--flow needs a hardness, which is not given; give --hardness",
         ),
-        (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop goes by forces or pressures"),
+        (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop needs forces or pressures"),
         (("--flow", "raised", "--hardness", "1GPa", "--errors"), "--flow is raised: leave out one of them"),
-        (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow goes by forces"),
+        (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow needs forces"),
     ],
 )
 def test_a_loop_that_makes_no_sense_is_refused(invoke, rough, given, says):

@@ -93,7 +93,7 @@ def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, 
     words = ("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING, "--out", tmp_path / "out")
     answer = invoke(*words)
     assert answer.exit_code == 130
-    assert "stopped: 1 of 4 loads are kept; a path of surfaces that stick cannot be resumed" in answer.stderr
+    assert "stopped: 1 of 4 loads are kept; an adhesive path cannot be resumed" in answer.stderr
     assert len(rc.read_detachment_curve(tmp_path / "out" / "detachment.nc")) == 1
 
 
@@ -132,7 +132,7 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
             "--depths and --forces exclude each other",
         ),
         (("--depth", "10nm", "--depths", "20nm"), "press to that depth, or begin with"),
-        (("--depth", "10nm", "--depths", "-5nm,5nm"), "must fall"),
+        (("--depth", "10nm", "--depths", "-5nm,5nm"), "must decrease"),
         (("--depth", "0nm"), "nothing is in contact"),
     ],
 )

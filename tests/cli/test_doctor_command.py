@@ -131,7 +131,7 @@ def test_a_wrong_answer_is_a_problem(checked):
     status, found = checked("""print('{"depth error": 0.5, "stiffness error": 0.001, "residual": NaN}')""")
     assert (status, found["check"]["sphere beside Hertz"]) == (MISSED, "WRONG")
     assert found["problems"] == [
-        "the check fails: depth error and residual of a pressed sphere beyond what is right"
+        "the check fails: depth error and residual of a pressed sphere outside the tolerance"
     ]
 
 
@@ -161,7 +161,7 @@ def test_a_cache_that_others_can_write_to_is_a_problem(invoke, quick, monkeypatc
     found = json.loads(invoke("doctor", "--json").stdout)
     told = found["cache of machine code"]
     assert told == {"folder": str(folder), "holds": "1 files, 2.0 MB", "writable": kept}
-    assert any("is not kept in" in each for each in found["problems"]) != kept
+    assert any("cannot be kept in" in each for each in found["problems"]) != kept
 
 
 @pytest.mark.parametrize(("stated", "machine_code"), [("off", "nothing: "), ("z80", None)])

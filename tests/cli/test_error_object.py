@@ -89,15 +89,15 @@ hurts = 0.8
         (
             ("surface", "make", "a.npz", *MADE, "--hurst", "9"),
             "usage",
-            "the Hurst exponent lies between -1 and 3",
+            "the Hurst exponent must lie between -1 and 3",
             "give a number such as 0.8",
             "--hurst",
         ),
         (
             ("surface", "make", "a.npz", *MADE, "--seed", "x"),
-            *("usage", "the seed is a whole number from 0 up, not 'x'", "give one such as 2", "--seed"),
+            *("usage", "the seed must be a whole number from 0 up, not 'x'", "give one such as 2", "--seed"),
         ),
-        (("conductance", "FILE"), "usage", "a conductance follows", "give --resistivity", None),
+        (("conductance", "FILE"), "usage", "a conductance needs", "give --resistivity", None),
         (("study", "run", "none.toml"), "study", "none.toml: No such file", "name the file of a study", None),
         (("study", "run", "wrong.toml"), "study", "no parameter 'hurts'", None, "parameters.hurts"),
         (
@@ -111,24 +111,24 @@ hurts = 0.8
             ("study", "export", "nowhere", "--out", "a.nc"),
             "store",
             "nowhere",
-            "name the folder that",
+            "name the folder of",
             "folder",
         ),
         (
             ("study", "average", "nowhere", "--out", "a.nc"),
             "store",
             "nowhere",
-            "name the folder that",
+            "name the folder of",
             "folder",
         ),
         (
             ("study", "plot", "nowhere", "--out", "a.png"),
             "store",
             "nowhere",
-            "name the folder that",
+            "name the folder of",
             "folder",
         ),
-        (("study", "table", "nowhere"), "store", "nowhere", "name the folder that", "folder"),
+        (("study", "table", "nowhere"), "store", "nowhere", "name the folder of", "folder"),
     ],
 )
 def test_each_command_answers_with_an_error(

@@ -126,14 +126,14 @@ def test_fields_of_a_recipe_become_options(made):
     ("words", "message"),
     [
         (("a.txt",), "Error: --length: none of --length, --width is given; give one, such as --length 2"),
-        (("a.txt", "--length", "x"), "Error: --length: the length is a whole number from 1 up, not 'x'"),
+        (("a.txt", "--length", "x"), "Error: --length: the length must be a whole number from 1 up, not 'x'"),
         (
             ("a.txt", "--width", "1", "--names", "ann"),
             "Error: --names belongs to --length, which is not given",
         ),
         (
             ("a.txt", "--length", "1", "--kind-of", "squar"),
-            "Error: --kind-of: there is no 'squar' here; did you mean",
+            "Error: --kind-of: 'squar' is not one of the choices; did you mean",
         ),
         (("a.txt", "--length", "1", "--size", "wide"), "Error: --size: 'wide' does not start with a number"),
         (("a.txt", "--length", "1", "--hidden", "x"), "--hidden"),

@@ -291,7 +291,7 @@ def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
         ),
         (("--materials", "steel,aluminium,copper"), "does not name two bodies"),
         (("--materials", "steel,cheese"), "no material named 'cheese'; there are steel"),
-        (("--materials", "steel,110GPa"), "'110GPa' is no name"),
+        (("--materials", "steel,110GPa"), "'110GPa' is not a name"),
         (("--materials", "rigid,rigid"), "one of the two bodies must be elastic"),
         (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
         (
@@ -470,11 +470,11 @@ def test_an_elastic_contact_of_named_metals_names_the_options_of_flow(invoke, ro
     [
         (
             ("--after", "2N"),
-            "--after is about what flows under a hardness, which is not given; give --hardness",
+            "--after needs a hardness, which is not given; give --hardness",
         ),
         (
             ("--flow", "raised"),
-            "--flow is about what flows under a hardness, which is not given; give --hardness",
+            "--flow needs a hardness, which is not given; give --hardness",
         ),
         (("--after", "1N", "--hardness", "1GPa"), "--after 1N is not larger than the force"),
         (("--after", "1MPa", "--hardness", "1GPa"), "--after"),

@@ -53,7 +53,7 @@ def test_a_source_without_options_is_left_to_its_recipe(invoke, here):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--print", "json"), "--print: there is no 'json' here; choose from toml, command, python"),
+        (("--print", "json"), "--print: 'json' is not one of the choices; choose from toml, command, python"),
         (("--print", "toml", "--json"), "--print and --json exclude each other: give one of them"),
     ],
 )

@@ -103,10 +103,10 @@ def test_a_map_is_no_profile(invoke, rough):
         (
             "press",
             ("winkler", "--force", "1N", "--hardness", "2GPa"),
-            "--hardness is a pressure, and springs",
+            "--hardness is a pressure, but springs",
         ),
-        ("press", ("line", "--force", "1N/m", "--theory", "persson", "--out", "o"), "--theory is about"),
-        ("curve", ("line", "--resistivity", "17nohm*m"), "a line contact has no conductance of its own"),
+        ("press", ("line", "--force", "1N/m", "--theory", "persson", "--out", "o"), "--theory predicts"),
+        ("curve", ("line", "--resistivity", "17nohm*m"), "the conductance of a line contact is undetermined"),
         ("curve", ("winkler", "--resistivity", "17nohm*m"), "give --of total"),
         ("curve", ("winkler", "--unit-pressure", "MPa"), "--unit-pressure are per area"),
         ("curve", ("line", "--forces", "1N/m:2N/m"), "write from:to:count, such as 1mN/m:1N/m:100"),

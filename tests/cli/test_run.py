@@ -77,13 +77,13 @@ def test_loads_that_are_stored_are_kept(monkeypatch):
     before = record()
     written(count=5)  # of which three are those of before
     told = ran("job.toml").stderr
-    assert "3 of 5 loads are in job already" in told
+    assert "3 of 5 loads of the same recipe are in job already" in told
     after = record()
     assert after["depth"][::2] == before["depth"]
     assert after["depth"] == sorted(after["depth"])
     assert len(after["depth"]) == 5
     whole = ran("job.toml").stderr
-    assert "5 of 5 loads are in job already" in whole
+    assert "5 of 5 loads of the same recipe are in job already" in whole
     assert record()["depth"] == after["depth"]
 
 
@@ -128,7 +128,7 @@ def test_one_load_that_is_stored_is_not_pressed_again():
     written(text)
     ran("job.toml")
     told = ran("job.toml", "--json")
-    assert "job holds the answer of this job already" in told.stderr
+    assert "job already holds the answer of this job" in told.stderr
     assert json.loads(told.stdout) == record("job/press.json")
     assert "same numbers" in ran("job/press.json").stderr
     written(text.replace("100N", "200N"))
@@ -137,14 +137,14 @@ def test_one_load_that_is_stored_is_not_pressed_again():
 
 def test_what_is_no_job_is_refused():
     Path("job.toml").write_text("format = [", encoding="utf-8")
-    assert "job.toml: it is no TOML" in ran("job.toml", status=2).stderr
+    assert "job.toml: it is not valid TOML" in ran("job.toml", status=2).stderr
     Path("list.json").write_text("[1]", encoding="utf-8")
     assert "list.json: it holds no result" in ran("list.json", status=2).stderr
     Path("old.json").write_text('{"force": [1.0]}', encoding="utf-8")
-    assert "old.json: it carries no recipe" in ran("old.json", status=2).stderr
+    assert "old.json: it contains no recipe" in ran("old.json", status=2).stderr
     assert "none.toml: it cannot be opened" in ran("none.toml", status=2).stderr
     written(JOB.replace("forces", "force"))
-    assert "Error: recipe.loads.force: there is no 'force' here" in ran("job.toml", status=2).stderr
+    assert "Error: recipe.loads.force: unknown field 'force'" in ran("job.toml", status=2).stderr
 
 
 def test_another_file_under_the_name_is_refused():
@@ -187,7 +187,7 @@ def test_a_folder_stands_for_the_result_in_it():
     assert "same numbers" in ran("job").stderr
     Path("empty").mkdir()
     assert "empty holds no result of a job" in ran("empty", status=2).stderr
-    assert "curve.csv: it is no job and no result" in ran("job/curve.csv", status=2).stderr
+    assert "curve.csv: it is neither a job nor a result" in ran("job/curve.csv", status=2).stderr
 
 
 def test_a_program_reads_what_differs():

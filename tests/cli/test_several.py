@@ -86,4 +86,4 @@ def test_ctrl_c_ends_with_the_files_that_are_done(invoke, maps, monkeypatch):
 def test_other_commands_take_one_file(invoke, maps):
     answer = invoke("press", "rough.npz", "other.npz", "--force", "1N", "--modulus", "1GPa")
     assert answer.exit_code == 2
-    assert "there is no place for 'other.npz'" in answer.stderr
+    assert "unexpected argument 'other.npz'" in answer.stderr

@@ -95,7 +95,10 @@ def test_failed_cases_are_listed_and_tried_again(invoke, here, monkeypatch):
     with_failures(here)
     answer = run(invoke, "tried.toml")
     assert answer.exit_code == 1
-    assert "Note: 6 cases failed; why says: roughcontact study status tried --failed" in answer.stderr
+    assert (
+        "Note: 6 cases failed; list their errors by: roughcontact study status tried --failed"
+        in answer.stderr
+    )
     listed = invoke("study", "status", "tried", "--failed").stdout
     assert listed.count("ArithmeticError: no contact") == 6
     assert "sample 2, hurst = 0.2, size = 0.001" in listed
@@ -130,18 +133,21 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
     ("arguments", "complaint"),
     [
         (["run", "none.toml"], "none.toml: No such file or directory; name the file of a study"),
-        (["run", "."], "there is no study.toml in .: name the folder that a study was run in"),
+        (["run", "."], "there is no study.toml in .: name the folder of the results of a study"),
         (["run", "bad.toml"], "bad.toml: sample: there is no 'sample': did you mean 'samples'?"),
-        (["run", "tried.toml", "--scheduler", "tcp://a:1"], "--scheduler: only --executor dask has one"),
+        (
+            ["run", "tried.toml", "--scheduler", "tcp://a:1"],
+            "--scheduler: only --executor dask has a scheduler",
+        ),
         (
             ["run", "tried.toml", "--executor", "serial", "--workers", "2"],
             "--workers: --executor serial computes one",
         ),
         (
             ["run", "tried.toml", "--executor", "dask", "--scheduler", "a", "--workers", "2"],
-            "leave out one of the two",
+            "leave out --workers or --scheduler",
         ),
-        (["run", "tried.toml", "--out", "tried.toml"], "it cannot be made: File exists"),
+        (["run", "tried.toml", "--out", "tried.toml"], "cannot be created: File exists"),
         (["status", "nowhere"], "nowhere: there is no study.toml in it; name the folder"),
         (["export", "nowhere", "--out", "a.nc"], "there is no study.toml in it"),
         (
@@ -152,7 +158,7 @@ def test_a_study_file_in_its_results_means_these_results(invoke, here):
         (["add", "nowhere", "--samples", "3"], "nowhere: No such file or directory"),
         (
             ["add", "nowhere", "--samples", "0"],
-            "--samples: the number of samples is a whole number from 1 up",
+            "--samples: the number of samples must be a whole number from 1 up",
         ),
     ],
 )
@@ -170,22 +176,25 @@ def test_what_a_folder_refuses_is_told(invoke, here):
     refused = run(invoke, "tried", "--out", "other")
     assert "tried is the folder of the results itself; leave out --out" in refused.stderr
     assert (
-        "the study has 3 already; give more, not 3"
+        "the study already has 3 samples; give more, not 3"
         in invoke("study", "add", "tried", "--samples", "3").stderr
     )
     (here / "tried.toml").write_text(TEXT.replace("samples = 3", "samples = 3\nseed = 1"))
     refused = run(invoke, "tried.toml")
     assert refused.exit_code == 2
-    assert "Error: tried: it holds a study with the seed 0, not 1; choose another folder" in refused.stderr
+    assert (
+        "Error: tried: it holds results of a study with the seed 0, not 1; choose another folder"
+        in refused.stderr
+    )
     with Store.open("tried", Study.read("tried/study.toml")):
         refused = run(invoke, "tried")
         assert refused.exit_code == 2
-        assert "another process is running a study in this folder; wait for its end" in refused.stderr
+        assert "another process is running a study in this folder; wait until it ends" in refused.stderr
         assert invoke("study", "status", "tried").exit_code == 0
     with sqlite3.connect("tried/cases.sqlite") as database:
         database.execute("PRAGMA user_version = 9")
     database.close()
-    assert "of version 9, and this roughcontact knows version 1" in invoke("study", "status", "tried").stderr
+    assert "has version 9, but this roughcontact reads version 1" in invoke("study", "status", "tried").stderr
 
 
 def test_a_study_without_results_is_not_exported(invoke, here):

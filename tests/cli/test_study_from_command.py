@@ -55,7 +55,7 @@ def test_a_study_of_a_job_runs(invoke, here):
     )
     assert answer.exit_code == 0
     assert "cases   12 (4 combinations, 3 samples of each)" in answer.stdout
-    assert "Note: each sample draws random phases of its own" in answer.stderr
+    assert "Note: each sample draws different random phases" in answer.stderr
     assert "Note: to compute them: roughcontact study run levels.toml" in answer.stderr
     written = tomllib.loads((here / "levels.toml").read_text())
     assert "seed" not in written["parameters"]["source"]
@@ -113,17 +113,17 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         (["none.toml"], "none.toml: it cannot be opened (No such file or directory)"),
         (
             ["job.toml", "--vary", "preparation.level"],
-            "--vary: 'preparation.level' names no field and values",
+            "--vary: 'preparation.level' is not a field with values",
         ),
         (["job.toml", "--vary", "preparation.level="], "write preparation.level=plane,quadratic"),
-        (["job.toml", "--vary", "=plane"], "names no field and values"),
+        (["job.toml", "--vary", "=plane"], "is not a field with values"),
         (
             ["job.toml", "--vary", "preparation.level=plane", "--vary", "preparation.level=mean"],
             "--vary: preparation.level is given twice; name all of its values in one --vary",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8"],
-            "table.source.hurst: the Hurst exponent lies between -1 and 3, not at '9'",
+            "table.source.hurst: the Hurst exponent must lie between -1 and 3, not at '9'",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],
@@ -133,9 +133,9 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
             ["job.toml", "--vary", "hurst=0.5"],
             "--vary: the job has no field 'hurst'; did you mean source.hurst",
         ),
-        (["job.toml", "--vary", "source=x"], "--vary: source is no single value; choose from source."),
+        (["job.toml", "--vary", "source=x"], "--vary: source is not a single value; choose from source."),
         (["job.toml", "--vary", "source.seed=1,2"], "leave seed out"),
-        (["job.toml", "--vary", "source.points=16,16"], "a case comes twice"),
+        (["job.toml", "--vary", "source.points=16,16"], "a case appears twice"),
         (["maps/press.toml", "--samples", "2"], "--samples: the source of this job is not random"),
         (["maps/press.toml", "--vary", "source.file=no.npz"], "no.npz: No such file"),
     ],

@@ -94,22 +94,22 @@ def test_the_recipe_is_kept_and_shown(invoke, tmp_path):
         assert line in table.stdout
     # The extremes are told in the units of the roughness.
     assert re.search(r"heights +-\d\S* (nm|µm) to \d\S* (nm|µm)\n", table.stdout)
-    assert f"Note: {path} was there before and is replaced" in invoke(*words).stderr
+    assert f"Note: {path} exists and is replaced" in invoke(*words).stderr
 
 
 @pytest.mark.parametrize(
     ("changed", "complaint"),
     [
         (("--hurst", "0,8"), "--hurst: '0,8' holds a comma"),
-        (("--seed", "-1"), "--seed: the seed is a whole number from 0 up, not '-1'"),
-        (("--seed", "1.5"), "--seed: the seed is a whole number from 0 up, not '1.5'"),
-        (("--hurst", "4"), "--hurst: the Hurst exponent lies between -1 and 3"),
+        (("--seed", "-1"), "--seed: the seed must be a whole number from 0 up, not '-1'"),
+        (("--seed", "1.5"), "--seed: the seed must be a whole number from 0 up, not '1.5'"),
+        (("--hurst", "4"), "--hurst: the Hurst exponent must lie between -1 and 3"),
         (("--rms", "0um"), "--rms: the rms height must be positive"),
         (("--rms", "1N"), "--rms: '1N' is not a length"),
         (("--size", "0mm"), "--size: a side length must be positive"),
-        (("--points", "0"), "--points: '0' is no number of points"),
+        (("--points", "0"), "--points: '0' is not a number of points"),
         (("--long-cutoff", "1um"), "no wave"),
-        (("--rms-band", "1mm"), "--rms-band: '1mm' is no band"),
+        (("--rms-band", "1mm"), "--rms-band: '1mm' is not a band"),
         (("--rms-band", "1mm:0um"), "--rms-band: a wavelength must be positive"),
         (("--rms-band", "1mm:1um"), "only waves longer"),
         (("--nodal", "--periodic"), "nodal repeats the first row"),

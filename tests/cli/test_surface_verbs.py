@@ -134,7 +134,7 @@ def test_prepare_does_nothing_unasked(invoke, holed, tmp_path):
     out = tmp_path / "same.npz"
     answer = invoke("surface", "prepare", holed, out)
     assert answer.exit_code == 0
-    assert "no step is asked for" in answer.stderr
+    assert "no step is given" in answer.stderr
     np.testing.assert_array_equal(rc.read(out).heights, rc.read(holed).heights)
     assert "12" in answer.stdout  # the missing points
 
@@ -245,15 +245,15 @@ def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
         (("--downsample", "0"), "from 1 up"),
         (("--downsample", "90"), "leaves less than two"),
         (("--alias",), "belongs to --downsample"),
-        (("--average", "-3"), "--average: the number of cells is a whole number from 1 up"),
+        (("--average", "-3"), "--average: the number of cells must be a whole number from 1 up"),
         (("--average", "65"), "leaves less than two"),
-        (("--tip", "2"), "a radius of 2 m is no tip; write it with its unit, such as 2um"),
+        (("--tip", "2"), "a radius of 2 m is too large for a tip; write it with its unit, such as 2um"),
         (("--tip", "0um"), "--tip: the radius of a tip must be positive"),
         (("--tip", "1N"), "--tip: '1N' is not a length"),
         (("--tip-shape", "sphere"), "--tip-shape belongs to --tip"),
         (("--share", "0.1"), "--share belongs to --window"),
         (("--window", "hann", "--share", "0.1"), "--share belongs to a Tukey window: give --window tukey"),
-        (("--window", "tukey", "--share", "1.5"), "lies between 0 and 1, not at '1.5'"),
+        (("--window", "tukey", "--share", "1.5"), "must lie between 0 and 1, not at '1.5'"),
         (("--crop", "1:5"), "--crop: a crop needs one slice an axis, 2 in all, not 1; give rows and columns"),
     ],
 )
@@ -361,8 +361,8 @@ def test_prepare_despikes_and_masks_in_its_order(invoke, spiky, tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("circle=0:5,0:5", "--mask: 'circle=0:5,0:5' is no region"),
-        ("box=1-5,3", "--mask: '1-5,3' is no part of a map"),
+        ("circle=0:5,0:5", "--mask: 'circle=0:5,0:5' is not a region"),
+        ("box=1-5,3", "--mask: '1-5,3' is not a part of a map"),
         ("ellipse=0:5", "2 in all, not 1; give rows and columns"),
         ("above=3N", "--mask: '3N' is not a length"),
         ("above=-1m", "leaves no measured point"),
@@ -376,7 +376,7 @@ def test_prepare_refuses_what_is_no_mask(invoke, spiky, tmp_path, text, words):
 def test_the_help_of_mask_begins_with_heights(invoke):
     shown = " ".join(invoke("surface", "prepare", "--help-all").stdout.replace("│", " ").split())
     assert "--mask above=3um " in shown
-    assert -1 < shown.find("heights beyond") < shown.find("box= or")
+    assert -1 < shown.find("heights above") < shown.find("box= or")
 
 
 @pytest.mark.parametrize("kind", ["missing", "filled"])

@@ -46,7 +46,7 @@ def test_the_conductance_of_two_faces_is_printed(run):
         JOINT.replace("--conductivity aluminium,stainless-steel", "--resistivity 17nohm*m,copper")
     )
     assert "electrical resistivities   1.7e-08 and 1.678e-08 ohm m" in electrical.stdout
-    assert "in vacuum: gas in the gap, films and radiation are not in it" in answer.stdout
+    assert "in vacuum: gas in the gap, films and radiation are not included" in answer.stdout
     rows = [line.split() for line in answer.stdout.splitlines() if line.strip().startswith("cmy")]
     # By hand, 1.25 k m/sigma (P/H)^0.95 in kW/m2/K: 4.982, 22.98, 44.40.
     assert [row[-1] for row in rows] == ["4.982", "22.98", "44.4"]
@@ -87,7 +87,7 @@ def test_what_a_theory_does_not_say_is_a_dash(run):
         "theory --sigma 1um --slope 0.1 --modulus 57GPa --hardness 1GPa --theory cmy --pressures 1MPa,1GPa"
     )
     assert answer.stdout.splitlines()[-1].split() == ["cmy", "1", "-", "-"]
-    assert "Note: -: the theory does not say" in answer.stderr
+    assert "Note: -: the theory does not predict this quantity" in answer.stderr
 
 
 @pytest.mark.parametrize(

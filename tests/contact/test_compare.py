@@ -79,7 +79,7 @@ def test_a_law_of_the_users_own_stands_beside_a_curve(curve):
 
 
 def test_a_name_is_no_theory(curve):
-    with pytest.raises(ValueError, match="a theory is wanted"):
+    with pytest.raises(ValueError, match="compare takes a theory"):
         curve.compare("persson")
 
 

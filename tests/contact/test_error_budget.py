@@ -109,7 +109,7 @@ def test_levelling_is_a_choice_of_flat_maps_that_do_not_repeat_themselves():
     ball = rough() + rc.shapes.paraboloid(rc.Grid((48, 48), 64e-6 / 48), radius=2e-4)
     form = rc.error_budget(pressed(ball))
     assert [source.name for source in form.sources] == ["grid", "short cut-off"]
-    assert "belongs to the body" in form.notes[0]
+    assert "taken for the body itself" in form.notes[0]
 
 
 @pytest.mark.parametrize("periodic", [True, False])

@@ -198,7 +198,7 @@ def test_a_tab_drops_so_much_and_no_more(server, tmp_path, monkeypatch):
     session = begun(server)
     found = asked(server, *(put(session, body=[b"x" * 600]) for _ in range(3)))
     assert [each.status for each in found] == [200, 200, 413]
-    assert "load the page again" in found[-1].json["message"]
+    assert "reload the page" in found[-1].json["message"]
     assert len(left_in(tmp_path)) == 2
 
 

@@ -205,7 +205,7 @@ def test_a_port_that_is_taken_is_named():
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        assert refused("--port", str(port)).startswith(f"Error: --port: port {port} cannot be had")
+        assert refused("--port", str(port)).startswith(f"Error: --port: port {port} is not available")
 
 
 def test_ports_and_files_that_there_are_not_are_named():

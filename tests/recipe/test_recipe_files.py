@@ -60,7 +60,7 @@ def test_a_field_is_known_by_its_dotted_name():
     assert field_at(plain, "bodies.modulus").read("1 GPa") == 1e9
     for name, words in (
         ("source.hirst", "no field 'source.hirst': did you mean source.hurst"),
-        ("source", "no single value"),
+        ("source", "not a single value"),
     ):
         with pytest.raises(rc.InputError, match=words):
             field_at(plain, name)

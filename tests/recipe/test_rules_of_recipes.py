@@ -41,16 +41,16 @@ RULES = [
     (smallest("press") | {"format": 2}, "format", "the recipe has the format 2", [smallest("press")]),
     (smallest("press") | {"job": "pres"}, "job", "no job 'pres'", [smallest(job) for job in JOBS]),
     (smallest("press") | {"job": None}, "job", "no job is named", [smallest(job) for job in JOBS]),
-    ({"name": "hurst", "case": "curve"}, "job", "this is a study, and no job", [smallest("curve")]),
+    ({"name": "hurst", "case": "curve"}, "job", "this is a study, not a job", [smallest("curve")]),
     (smallest("press") | {"job": ["press"]}, "job", "no job ['press']", [smallest("press")]),
-    (with_parts("press", loads={"force": "1N"}), "loads", "no 'loads' here", [smallest("press")]),
+    (with_parts("press", loads={"force": "1N"}), "loads", "unknown field 'loads'", [smallest("press")]),
     (with_parts("press", load=None), "load", "load is missing", [smallest("press")]),
     (with_parts("press", source=None), "source", "source is missing", [smallest("press")]),
-    (with_parts("press", bodies="steel"), "bodies", "'steel' is no table of fields", [smallest("press")]),
+    (with_parts("press", bodies="steel"), "bodies", "'steel' is not a table of fields", [smallest("press")]),
     (
         with_parts("press", source="part.x3p"),
         "source",
-        "'part.x3p' is no table of fields",
+        "'part.x3p' is not a table of fields",
         [smallest("press")],
     ),
     (
@@ -75,13 +75,13 @@ RULES = [
     (
         with_parts("surface", "combined", source={"upper": None}),
         "source.upper",
-        "None is no table of fields",
+        "None is not a table of fields",
         [smallest("surface", "combined")],
     ),
     (
         with_parts("press", contact={"operator": "fft"}),
         "contact.operator",
-        "no 'operator' here",
+        "unknown field 'operator'",
         [with_parts("press", contact=PROFILE)],
     ),
     (
@@ -387,7 +387,7 @@ def test_a_surface_of_python_has_the_name_of_its_heights():
     ],
 )
 def test_functions_operators_and_surfaces_of_python_are_refused_with_a_word(made, place):
-    with pytest.raises(InputError, match=r"is neither a text nor a number|is no `\w+` of a recipe") as met:
+    with pytest.raises(InputError, match=r"is neither a text nor a number|is not a `\w+` of a recipe") as met:
         made()
     assert met.value.place == place
     assert met.value.remedy
@@ -417,8 +417,8 @@ def test_a_file_that_changed_is_refused(tmp_path, monkeypatch):
 # TOML that is wrong by itself, or holds values of kinds that only TOML has.
 PRESS = "job = 'press'\n[source]\nfile = 'part.x3p'\n[bodies]\nmodulus = 1e9\n"
 FILES = [
-    ("[load]\nforce = 10 N", "it is no TOML", None),
-    ("job = 'press'\njob = 'press'", "it is no TOML", None),
+    ("[load]\nforce = 10 N", "it is not valid TOML", None),
+    ("job = 'press'\njob = 'press'", "it is not valid TOML", None),
     (f"{PRESS}[load]\nforce = nan", "'nan' does not start", "load.force"),
     (
         f"{PRESS}[load]\nforce = 1979-05-27",

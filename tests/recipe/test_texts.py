@@ -103,8 +103,8 @@ def test_a_comma_list_keeps_its_loads():
         ("1N:2N:2.5", "from:to:count"),
         ("1N:2N:1", "from 2 to"),
         ("1N:2N:1000000000", "from 2 to"),
-        ("2N:1N:5", "rises from above zero"),
-        ("0:1N:5", "rises from above zero"),
+        ("2N:1N:5", "must increase from a positive load"),
+        ("0:1N:5", "must increase from a positive load"),
         ("1N:2Pa:5", "is not a force"),
     ],
 )
@@ -154,7 +154,7 @@ def test_conductivities_as_people_write_them(text):
 def test_a_force_per_length_without_a_profile_is_met_with_the_remedy():
     with pytest.raises(InputError) as refused:
         rising_loads("1N/mm:10N/mm:3", FORCE)
-    assert refused.value.remedy == "say that it is a profile by `profile`, or write a force such as 10N"
+    assert refused.value.remedy == "give `profile` for a profile, or write a force such as 10N"
     with pytest.raises(InputError) as refused:
         rising_loads("1K", FORCE)
     assert refused.value.remedy == "write a force such as 10N"

@@ -19,12 +19,12 @@ $ {CURVE} --forces ''
 > {CURVE} --forces 1mN,2mN
 
 $ {CURVE} --forces 1mN:2mN
-! '1mN:2mN' is no range; write from:to:count, such as 1mN:1N:100
+! '1mN:2mN' is not a range; write from:to:count, such as 1mN:1N:100
 > {CURVE} --forces 1mN:2mN:3
 > {CURVE} --forces 1mN:1N:100
 
 $ {CURVE} --forces 2mN:1mN:3
-! rises from above zero in equal ratios, unlike '2mN:1mN:3'; write one such as 1mN:1N:100
+! must increase from a positive load, unlike '2mN:1mN:3'; write one such as 1mN:1N:100
 > {CURVE} --forces 1mN:1N:100
 > {CURVE} --forces 1mN:2mN:3
 
@@ -33,7 +33,7 @@ $ {CURVE} --forces 1mN:2mN:1
 > {CURVE} --forces 1mN:2mN:2
 
 $ {CURVE} --forces 2mN,1mN
-! the loads must increase from one to the next, not as in '2mN,1mN'; sort them
+! the loads must increase from one to the next, unlike '2mN,1mN'; sort them
 > {CURVE} --forces 1mN,2mN
 
 $ {CURVE} --forces 0N,1mN
@@ -76,7 +76,7 @@ $ {FAR}
 > {FAR} --mean-gaps 100nm,99nm --periodic
 
 $ {LOOP} --depth 20nm --points 1
-! --points: the number of steps is a whole number from 2 to 10000, not '1'; give one such as 2
+! --points: the number of steps must be a whole number from 2 to 10000, not '1'; give one such as 2
 > {LOOP} --depth 20nm --points 2
 
 $ {FAR} --depths 1nm:2nm
@@ -85,7 +85,7 @@ $ {FAR} --depths 1nm:2nm
 > {FAR} --depths -20nm:20nm:41
 
 $ {FAR} --forces -1nN,1nN
-! begin with 0, and let the tension follow
+! begin with 0, followed by the tension
 > {FAR} --forces 0N,-1nN
 
 $ {FAR} --mean-gaps 100nm
@@ -105,7 +105,7 @@ $ {TWO} --loop
 > curve rough.npz --forces 1mN,2mN --loop --materials steel,aluminium
 
 $ {CURVE} --depths 1nm,2nm --loop --hardness 1GPa
-! --loop goes by forces or pressures: the depth is what is found; give --forces
+! --loop needs forces or pressures, because the depth is computed; give --forces
 > {TWO} --loop --hardness 1GPa
 > {CURVE} --pressures 1MPa,2MPa --loop --hardness 1GPa
 """
@@ -123,11 +123,11 @@ $ {TWO} --theory gw,gw
 > {TWO} --theory gw
 
 $ {TWO} --theory hertz
-! --theory hertz takes a radius, which no surface shows; give --radius, such as 5mm
+! --theory hertz needs a radius, which cannot be measured on the surface; give --radius, such as 5mm
 > {TWO} --theory hertz --radius 5mm
 
 $ {TWO} --theory ceb
-! --theory ceb takes a hardness, which no surface shows; give --hardness, such as 2GPa or aluminium
+! --theory ceb needs a hardness, which cannot be measured on the surface; give --hardness, such as 2GPa or aluminium
 > {TWO} --theory ceb --hardness 2GPa
 > {TWO} --theory ceb --hardness aluminium
 
@@ -136,7 +136,7 @@ $ {TWO} --hurst 0.8
 > {TWO} --hurst 0.8 --theory persson,gw
 
 $ {TWO} --theory power-law --hurst 8
-! the Hurst exponent lies between -1 and 3
+! the Hurst exponent must lie between -1 and 3
 > {TWO} --theory power-law --hurst 0.8
 
 $ {TWO} --table abaqus
@@ -155,7 +155,7 @@ $ {TWO} --table csv,csv --out new
 > {TWO} --table csv,abaqus --out new
 
 $ {TWO} --table csv --table-area 1mm^2 --out new
-! --table-area is for the table lammps: the others are per area; leave it out
+! --table-area is for the table lammps: all other tables are per area; leave it out
 > {TWO} --table csv --out new
 > {TWO} --table lammps --table-area 1mm^2 --out new
 
@@ -170,15 +170,15 @@ $ {TWO} --resistivity -1nohm*m
 > {TWO} --resistivity 1nohm*m
 
 $ {TWO} --unit-stiffness lbf --out new
-! 'lbf' is no unit of a stiffness per area; give one such as N/um/mm^2
+! 'lbf' is not a unit of a stiffness per area; give one such as N/um/mm^2
 > {TWO} --unit-stiffness N/um/mm^2 --out new
 
 $ {LINE} --resistivity 17nohm*m
-! it depends on how far away the bodies end: leave out --resistivity and --conductivity
+! it depends on the size of the bodies; leave out --resistivity and --conductivity
 > {LINE}
 
 $ {SPRINGS} --resistivity 17nohm*m
-! a Winkler foundation has a total conductance only; give --of total
+! a Winkler foundation only has a total conductance; give --of total
 > {SPRINGS} --resistivity 17nohm*m --of total
 
 $ {SPRINGS} --unit-stiffness N/um/mm^2

@@ -77,7 +77,7 @@ PRESSED = {"bodies": {"modulus": "1GPa"}, "load": {"force": "1mN"}}
 
 SHEET = [
     row(request("look", {"hurst": "some"}), "such as 0.8", request("look", {"hurst": "0.8"})),
-    row(request("look", {"hurst": "5"}), "lies between -1 and 3", request("look", {"hurst": "0.8"})),
+    row(request("look", {"hurst": "5"}), "must lie between -1 and 3", request("look", {"hurst": "0.8"})),
     row(request("look", {"rms": "much"}), "write a length such as 5um", request("look", {"rms": "5um"})),
     row(
         request("look", {"points": "5000"}),
@@ -141,12 +141,10 @@ PREPARED = [
     row(prepared(downsample="40"), "give at most 24", prepared(downsample="24")),
     row(
         prepared(level="tilt"),
-        "Choose from none, mean, plane, quadratic",
+        "none, mean, plane, quadratic",
         *(prepared(level=level) for level in ("none", "mean", "plane", "quadratic")),
     ),
-    row(
-        prepared(mask=["circle=3"]), "above=3um, below=-3um, box", prepared(mask=["above=3um", "below=-3um"])
-    ),
+    row(prepared(mask=["circle=3"]), "above=3um, below=-3um", prepared(mask=["above=3um", "below=-3um"])),
     row(prepared(alias=True), "Give downsample too", prepared(alias=True, downsample="2")),
     row(prepared(window="hann", share="0.2"), "Give window tukey", prepared(window="tukey", share="0.2")),
     row(prepared(tip="1m"), "with its unit, such as 2um", prepared(tip="2um")),
@@ -160,7 +158,7 @@ BODIES = [
         "Give a number such as 0.3",
         bodies(young="1GPa", poisson="0.3"),
     ),
-    row(bodies(modulus="100"), "Write 100GPa if this unit is meant", bodies(modulus="100GPa")),
+    row(bodies(modulus="100"), "Write 100GPa or, for a value in Pa, 100Pa", bodies(modulus="100GPa")),
     row(bodies(modulus="-1GPa"), "must be positive", bodies(modulus="1GPa")),
     row(
         bodies(modulus="1GPa", hardness="butter"),

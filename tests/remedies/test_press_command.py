@@ -52,7 +52,7 @@ $ {PRESS} --force 1e300N
 > {PRESS} --force 10N
 
 $ {PRESS} --depth -1um
-! the depth counts from first touch, and '-1um' is below it; give 0 or more
+! the depth is measured from first touch, and '-1um' is negative; give 0 or more
 > {PRESS} --depth 0um
 
 $ {PRESS} --periodic --depth 1um
@@ -61,7 +61,7 @@ $ {PRESS} --periodic --depth 1um
 > {PRESS} --periodic --force 1mN
 
 $ {PRESS} --force 1mN --tolerance 1
-! the tolerance lies between 1e-14 and 0.01, not at '1'; give a number such as 1e-8
+! the tolerance must lie between 1e-14 and 0.01, not at '1'; give a number such as 1e-8
 > {PRESS} --force 1mN --tolerance 1e-8
 > {PRESS} --force 1mN --tolerance 1e-3
 
@@ -83,17 +83,17 @@ $ {FORCE} --modulus 0GPa
 > {FORCE} --modulus 1GPa
 
 $ {FORCE} --modulus 110
-! write 110GPa if this unit is meant, or 110Pa if it is in Pa
+! write 110GPa or, for a value in Pa, 110Pa
 > {FORCE} --modulus 110GPa
 > {FORCE} --modulus 110Pa
 
 $ {FORCE} --modulus steel
-! --modulus: 'steel' is a name, and the reduced modulus is a number; name both bodies by --materials, such as
+! --modulus: 'steel' is a name, but the reduced modulus is a number; name both bodies by --materials, such as
 > {FORCE} --materials steel,aluminium
 > {FORCE} --materials steel,rigid
 
 $ {FORCE} --young steel --poisson 0.3
-! --young: 'steel' is a name, and Young's modulus is a number; name both bodies by --materials, such as steel,aluminium
+! --young: 'steel' is a name, but Young's modulus is a number; name both bodies by --materials, such as steel,aluminium
 > {FORCE} --materials steel,steel
 
 $ {FORCE} --modulus 1N
@@ -119,7 +119,7 @@ $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
-! lies between -0.99 and 0.5, not at '0.7'; give a number such as 0.3
+! must lie between -0.99 and 0.5, not at '0.7'; give a number such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --young 1GPa --poisson 0.5
 
@@ -148,7 +148,7 @@ $ {FORCE} --materials steel,210GPa
 > {FORCE} --modulus 210GPa
 
 $ {PRESS} --force 1mN --hardness 2
-! write 2GPa if this unit is meant
+! write 2GPa or, for a value in Pa, 2Pa
 > {PRESS} --force 1mN --hardness 2GPa
 
 $ {PRESS} --force 1mN --hardness butter
@@ -200,7 +200,7 @@ $ {PRESS} --force 1mN --channel colour
 > {PRESS} --force 1mN --channel heights
 
 $ {PRESS} --force 1mN --level plan
-! there is no 'plan' here; did you mean 'plane'? choose from none, mean, plane, quadratic
+! 'plan' is not one of the choices; did you mean 'plane'? choose from none, mean, plane, quadratic
 > {PRESS} --force 1mN --level plane
 > {PRESS} --force 1mN --level mean
 > {PRESS} --force 1mN --level none
@@ -229,7 +229,7 @@ $ press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler --uni
 > press profile.txt --unit m --modulus 1GPa --depth 10nm --profile winkler
 
 $ {PRESS} --force 1mN --unit-stiffness lbf
-! 'lbf' is no unit of a stiffness per area; give one such as N/um/mm^2
+! 'lbf' is not a unit of a stiffness per area; give one such as N/um/mm^2
 > {PRESS} --force 1mN --unit-stiffness N/um/mm^2
 
 $ {PROFILE} --profile line --errors
@@ -303,7 +303,7 @@ $ {PRESS} --force 1mN --after 2mN
 > {FORCE} --materials steel,aluminium --after 2mN
 
 $ {FLOWS} --after 0.5mN
-! leave it out, or exchange the two
+! leave it out, or exchange the two loads
 > {FLOWS}
 > {PRESS} --force 0.5mN --hardness 1GPa --after 1mN
 

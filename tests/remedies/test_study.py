@@ -54,7 +54,7 @@ FILES = [
     ),
     row(
         study(case='"own:CASE"'),
-        "no module own is found; run where own lies, or put the folder that holds it on PYTHONPATH",
+        "no module own is found; run in the folder that contains own, or add this folder to PYTHONPATH",
         study(case='"study.trial:CASE"'),
     ),
     row(
@@ -70,7 +70,7 @@ FILES = [
     *(
         row(
             study(**CURVE | {"modulus": f'"{text}"'}),
-            f"{text!r} is a name, and a reduced modulus is a number; write '{number} GPa', that of {bodies}",
+            f"{text!r} is a name, but a reduced modulus is a number; write '{number} GPa', that of {bodies}",
             study(**CURVE | {"modulus": f'"{number} GPa"'}),
         )
         for text, number, bodies in (
@@ -87,24 +87,24 @@ FILES = [
     ),
     row(
         study(**CURVE | {"case": '"loop"'}),
-        "without a hardness nothing flows; give hardness or relative_hardness",
+        "a loop with plastic flow needs a hardness; give hardness or relative_hardness",
         study(**CURVE | {"case": '"loop"'}, hardness='"1GPa"'),
         study(**CURVE | {"case": '"loop"'}, relative_hardness="0.1"),
     ),
     row(
         study(tail="[[rows]]\nhurst = 0.1"),
-        "'hurst' is given both in table and in rows; take it out of one of them",
+        "'hurst' is given both in table and in rows; remove it from one of them",
         study(),
         study(hurst=None, tail="[[rows]]\nhurst = 0.1"),
     ),
     row(study(hurst="[]"), "the list is empty; give one value or more", study(hurst="[0.1]")),
     row(
         study(hurst="0.1"),
-        "a single value is given under parameters, a range as { start = 0.1, stop = 0.9, count = 9 }",
+        "write a single value under parameters, and a range as { start = 0.1, stop = 0.9, count = 9 }",
         study(hurst=None, tail="[[rows]]\nhurst = 0.1"),
         study(hurst="{ start = 0.1, stop = 0.9, count = 9 }"),
     ),
-    row(study(hurst="[0.1, 0.1]"), "take one of them out of the table or the rows", study(hurst="[0.1]")),
+    row(study(hurst="[0.1, 0.1]"), "remove one from the table or the rows", study(hurst="[0.1]")),
     row(
         ranged("start = 0.1, stop = 0.9"),
         "a range has either a count or a step; give one of them",
@@ -139,7 +139,7 @@ FILES = [
     ),
     row(
         study(tail='end = { start = "well", stop = "error", count = 2 }'),
-        "'well' is not a number, and only numbers have ranges; write a list",
+        "'well' is not a number, and a range needs numbers; write a list",
         study(tail='end = ["well", "error"]'),
     ),
     row(
@@ -157,7 +157,7 @@ $ study run nowhere.toml
 > {SERIAL}
 
 $ study run tried.toml --scheduler tcp://127.0.0.1:1
-! --scheduler: only --executor dask has one
+! --scheduler: only --executor dask has a scheduler
 > {SERIAL}
 
 $ {SERIAL} --workers 2
@@ -165,7 +165,7 @@ $ {SERIAL} --workers 2
 > study run tried.toml --executor processes --workers 2
 
 $ study status nowhere
-! there is no study.toml in it; name the folder that a study was run in
+! there is no study.toml in it; name the folder of the results of a study
 > {SERIAL} && study status tried
 
 $ study export done --out all.xlsx
@@ -174,7 +174,7 @@ $ study export done --out all.xlsx
 > study export done --out all.csv
 
 $ study add done --samples 2
-! the study has 2 already; give more, not 2
+! the study already has 2 samples; give more, not 2
 > study add done --samples 3
 
 $ study run done --out other
@@ -182,7 +182,7 @@ $ study run done --out other
 > study run done
 
 $ study run tried.toml --out seeded
-! it holds a study with the seed 1, not 0; choose another folder
+! it holds results of a study with the seed 1, not 0; choose another folder
 > study run tried.toml --out another
 
 $ study average done --out all.txt
@@ -191,11 +191,11 @@ $ study average done --out all.txt
 > study average done --out all.csv
 
 $ study average done --out all.nc --window 1e-3
-! is no window; write two forces over E* h L, 1e-3:0.07
+! is not a window; write two forces over E* h L, 1e-3:0.07
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study average done --out all.nc --window 0.07:1e-3
-! a window goes from a force to a larger one, unlike '0.07:1e-3'; exchange the two
+! the first force of the window '0.07:1e-3' must be smaller than the second; exchange the two
 > study average done --out all.nc --window 1e-3:0.07
 
 $ study plot done --out all.png --quantity weight

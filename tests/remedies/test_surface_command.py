@@ -10,7 +10,7 @@ PREPARE = "surface prepare rough.npz new.npz"
 
 MADE = f"""
 $ {BARE} --hurst 8 --points 32
-! the Hurst exponent lies between -1 and 3, not at '8'; give a number such as 0.8
+! the Hurst exponent must lie between -1 and 3, not at '8'; give a number such as 0.8
 > {BARE} --hurst 0.8 --points 32
 
 $ {BARE} --hurst 0.8 --points 6.4
@@ -19,7 +19,7 @@ $ {BARE} --hurst 0.8 --points 6.4
 > {BARE} --hurst 0.8 --points 512x256
 
 $ {MAKE} --seed x
-! the seed is a whole number from 0 up, not 'x'; give one such as 2
+! the seed must be a whole number from 0 up, not 'x'; give one such as 2
 > {MAKE} --seed 2
 
 $ {MAKE} --rms-band 1mm
@@ -69,7 +69,7 @@ $ {PREPARE} --form cone
 > {PREPARE} --form cylinder
 
 $ {PREPARE} --tip 2
-! a radius of 2 m is no tip; write it with its unit, such as 2um
+! a radius of 2 m is too large for a tip; write it with its unit, such as 2um
 > {PREPARE} --tip 2um
 
 $ {PREPARE} --tip-shape sphere
@@ -90,7 +90,7 @@ $ {PREPARE} --short-cutoff 20um --long-cutoff 10um
 > {PREPARE} --short-cutoff 10um --long-cutoff 20um
 
 $ {PREPARE} --average 0
-! --average: the number of cells is a whole number from 1 up, not '0'; give one such as 2
+! --average: the number of cells must be a whole number from 1 up, not '0'; give one such as 2
 > {PREPARE} --average 2
 > {PREPARE} --average 1
 
@@ -107,7 +107,7 @@ $ {PREPARE} --share 0.5
 > {PREPARE} --share 0.5 --window tukey
 
 $ {PREPARE} --window tukey --share 2
-! lies between 0 and 1, not at '2'; give a number such as 0.25
+! must lie between 0 and 1, not at '2'; give a number such as 0.25
 > {PREPARE} --window tukey --share 0.25
 > {PREPARE} --window tukey --share 1
 """

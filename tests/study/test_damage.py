@@ -56,7 +56,7 @@ def test_a_newer_version_is_refused(folder):
         database.execute("PRAGMA user_version = 2")
     refused(
         folder,
-        "cases.sqlite is of version 2, and this roughcontact knows version 1; use the newer roughcontact",
+        "cases.sqlite has version 2, but this roughcontact reads version 1; use the newer roughcontact",
     )
 
 
@@ -67,7 +67,7 @@ def test_an_empty_file_is_refused(folder):
 
 def test_a_foreign_file_is_refused(folder):
     (folder / "cases.sqlite").write_text("Experiments of last summer\n" * 100)
-    refused(folder, "cases.sqlite is damaged, or something else (file is not a database)")
+    refused(folder, "cases.sqlite is damaged, or is not a database (file is not a database)")
 
 
 def test_a_foreign_database_is_refused(folder):

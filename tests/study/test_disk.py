@@ -1,4 +1,4 @@
-"""A disk that takes no more: a clear error, and what was stored before is safe."""
+"""A disk that takes no more: a clear error, and stored cases are safe."""
 
 import errno
 import json
@@ -21,7 +21,7 @@ from roughcontact.study.study_errors import StoreError
 from roughcontact.study.task import Summary
 from study.trial import NAME
 
-FULL = "the disk is full; make room and run again; what was stored before is safe"
+FULL = "the disk is full; make room and run again; stored cases are safe"
 
 
 def study(**more):
@@ -85,10 +85,7 @@ def test_a_read_only_disk_can_be_read_and_is_said_to_be_one(found):
     assert found["readable"] == found["kept"]
     for told in (found["read-only"], found["nothing to write"]):
         assert "Read-only file system" in told
-        assert (
-            "change its permissions, or copy it elsewhere and go on there; what was stored before is safe"
-            in told
-        )
+        assert "change its permissions, or copy it elsewhere and resume there; stored cases are safe" in told
 
 
 @pytest.mark.skipif(
@@ -157,7 +154,7 @@ def test_a_database_that_another_program_keeps_is_told(tmp_path, monkeypatch):
         reader._connection.execute("BEGIN")
         reader._connection.execute("SELECT count(*) FROM cases").fetchall()
         with pytest.raises(
-            StoreError, match=r"another program has kept cases.sqlite to itself.*sqlite3 shell"
+            StoreError, match=r"another program has locked cases.sqlite for minutes.*sqlite3 shell"
         ):
             store.add(task, run_task(task))
         reader._connection.execute("ROLLBACK")

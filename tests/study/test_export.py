@@ -277,7 +277,7 @@ class TestAttributes:
 
     def test_other_dimensions_are_refused(self):
         changed = renumbered(lambda record: record.assign(stiffness=("axis", [1.0, 2.0])))
-        with pytest.raises(ValueError, match=r"'stiffness' lies along \('axis',\) in one record"):
+        with pytest.raises(ValueError, match=r"'stiffness' has the dimensions \('axis',\) in one record"):
             assemble(STUDY, rows_of(STUDY, changed))
 
     def test_seconds_are_there_if_asked_for(self):

@@ -132,7 +132,7 @@ def test_fields_that_are_not_there_are_said_to_be(filled):
     with (
         Store.open(filled) as store,
         pytest.raises(
-            StoreError, match=r"no fields of the case 0123.*to have it computed again, run: sqlite3"
+            StoreError, match=r"no fields of the case 0123.*to compute it again, first run: sqlite3"
         ),
     ):
         store.fields("0123")
@@ -150,7 +150,7 @@ def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
 def test_a_second_coordinator_is_refused(filled):
     with Store.open(filled, study()):
         with pytest.raises(
-            StoreError, match="another process is running a study in this folder; wait for its end"
+            StoreError, match="another process is running a study in this folder; wait until it ends"
         ):
             run(study(), filled)
         with Store.open(filled) as reader:
@@ -179,11 +179,11 @@ def test_a_study_may_grow(filled, how):
 @pytest.mark.parametrize(
     ("more", "complaint"),
     [
-        ({"seed": 1}, "it holds a study with the seed 0, not 1; choose another folder"),
+        ({"seed": 1}, "it holds results of a study with the seed 0, not 1; choose another folder"),
         ({"name": "b"}, "with the name 'a', not 'b'; choose another folder"),
         ({"case": "study.trial:WITH_FIELDS"}, "with the case 'trial', not 'trial with fields'"),
-        ({"samples": 1}, "it holds 2 samples, and this study has 1; give 2 or more"),
-        ({"table": {"hurst": [0.1]}}, "it holds cases that this study has not"),
+        ({"samples": 1}, "it holds 2 samples, but this study has 1; give 2 or more"),
+        ({"table": {"hurst": [0.1]}}, "it holds cases that are not in this study"),
         ({"parameters": {"points": 5}}, '"points":4'),
     ],
 )
@@ -220,7 +220,7 @@ def test_a_study_file_that_is_damaged_says_so(filled):
     (filled / "study.toml").write_text("name = ")
     for given in (None, study()):
         with pytest.raises(
-            StoreError, match=r"its study.toml cannot be used .*no TOML.*remove it and run with"
+            StoreError, match=r"its study.toml cannot be used .*not a valid TOML.*remove it and run"
         ):
             Store.open(filled, given)
 
@@ -236,7 +236,7 @@ def test_a_folder_without_results_says_so(tmp_path):
 
 def test_a_file_in_the_way_of_the_folder_says_so(tmp_path):
     (tmp_path / "file").touch()
-    with pytest.raises(StoreError, match="there is no such folder, and it cannot be made: File exists"):
+    with pytest.raises(StoreError, match="the folder does not exist and cannot be created: File exists"):
         Store.open(tmp_path / "file", study())
-    with pytest.raises(StoreError, match="it cannot be made: Not a directory"):
+    with pytest.raises(StoreError, match="cannot be created: Not a directory"):
         Store.open(tmp_path / "file" / "in", study())

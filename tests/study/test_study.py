@@ -130,15 +130,18 @@ def test_the_room_opens_at_its_public_names():
         ({"samples": True}, "samples: True should be a valid integer"),
         ({"seed": -1}, "seed: -1 should be greater than or equal to 0"),
         ({"seed": "1"}, "seed: '1' should be a valid integer"),
-        ({"name": "a/b"}, "name: 'a/b' is no name for a study; use letters"),
-        ({"name": ""}, "name: '' is no name"),
-        ({"case": "curv"}, "there is no case 'curv': did you mean 'curve'? It may be"),
-        ({"case": "curv"}, "a case of your own is named as module:attribute"),
+        ({"name": "a/b"}, "name: 'a/b' is not a valid name of a study; use letters"),
+        ({"name": ""}, "name: '' is not a valid name"),
+        ({"case": "curv"}, "there is no case 'curv': did you mean 'curve'? choose from"),
+        ({"case": "curv"}, "write your case as module:attribute"),
         (
             {"case": "nowhere.at_all:CASE"},
-            "no module nowhere is found; run where nowhere lies, or put the folder",
+            "no module nowhere is found; run in the folder that contains nowhere",
         ),
-        ({"case": "study.nowhere:CASE"}, "no module study.nowhere is found; run where study lies"),
+        (
+            {"case": "study.nowhere:CASE"},
+            "no module study.nowhere is found; run in the folder that contains study",
+        ),
         ({"case": "study.trial:CAS"}, "study.trial has no Case named 'CAS'"),
         ({"case": "study.trial:NO_CASE"}, "study.trial has no Case named 'NO_CASE'"),
         ({"case": "study.trial.CASE"}, "there is no case 'study.trial.CASE'"),
@@ -156,27 +159,27 @@ def test_the_room_opens_at_its_public_names():
             {"parameters": {"hurst": 1, "size": "1 N"}},
             "parameters.size: '1 N' is not a length; write a length such as 5um",
         ),
-        ({"parameters": {"hurst": 1, "label": None}}, "None has no place in a study file"),
+        ({"parameters": {"hurst": 1, "label": None}}, "None cannot be written to a study file"),
         ({"parameters": 5}, "parameters: 5 should be a valid dictionary"),
-        ({"table": {"hurst": [1]}}, "'hurst' is given both in parameters and in table; take it out of one"),
+        ({"table": {"hurst": [1]}}, "'hurst' is given both in parameters and in table; remove it from one"),
         ({"table": {"hirst": [1]}}, "table.hirst: the case 'study.trial:CASE' has no parameter 'hirst'"),
         ({"table": {"points": []}}, "table.points: the list is empty; give one value or more"),
         ({"table": {"points": 4}}, "table.points: 4 is neither a list nor a range"),
         (
             {"table": {"points": [4, 4.0]}},
-            'a case comes twice: {"end":"well","hurst":0.8,"label":null,"points":4',
+            'a case appears twice: {"end":"well","hurst":0.8,"label":null,"points":4',
         ),
-        ({"table": {"size": ["1 mm", 0.001]}}, "a case comes twice"),
+        ({"table": {"size": ["1 mm", 0.001]}}, "a case appears twice"),
         ({"table": {"size": [0]}}, "size: 0 should be greater than 0"),
         ({"table": {"size": {"start": 1, "stop": 2}}}, "table.size: a range has either a count or a step"),
         ({"table": {"size": {"start": 1, "end": 2, "count": 3}}}, "there is no 'end'"),
         ({"table": {"size": {"start": "1 N", "stop": 2, "count": 3}}}, "table.size: '1 N' is not a length"),
         ({"table": {"size": {"start": 1, "stop": 2, "step": -1}}}, "table.size: steps of -1 do not lead"),
         ({"table": {"points": {"start": 1, "stop": 2, "count": 3}}}, "points: 1.5 should be a valid integer"),
-        ({"table": {"end": {"start": "error", "stop": "well", "count": 3}}}, "only numbers have ranges"),
+        ({"table": {"end": {"start": "error", "stop": "well", "count": 3}}}, "a range needs numbers"),
         ({"rows": [{"hurst": 1}]}, "'hurst' is given both in parameters and in rows"),
         ({"rows": [{"pints": 1}]}, "rows.pints: the case 'study.trial:CASE' has no parameter 'pints'"),
-        ({"rows": [{"points": 1}, {"points": 1}]}, "a case comes twice"),
+        ({"rows": [{"points": 1}, {"points": 1}]}, "a case appears twice"),
         ({"rows": {"points": 1}}, "rows: {'points': 1} should be a valid tuple"),
     ],
 )
@@ -204,7 +207,7 @@ def test_of_many_mistakes_the_first_are_shown():
     with pytest.raises(StudyError) as caught:
         Study(name="a", case=NAME, table={"hurst": list(range(4, 1000))})
     assert str(caught.value).count("should be less") == MOST_MISTAKES
-    assert str(caught.value).endswith("more mistakes like these follow: correct these first")
+    assert str(caught.value).endswith("there are more errors: correct these first")
 
 
 def test_what_is_missing_is_named():
@@ -215,8 +218,8 @@ def test_what_is_missing_is_named():
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("name = ", "it is no TOML file: Invalid value"),
-        ('name = "a"\nname = "b"', "it is no TOML file: Cannot overwrite a value"),
+        ("name = ", "it is not a valid TOML file: Invalid value"),
+        ('name = "a"\nname = "b"', "it is not a valid TOML file: Cannot overwrite a value"),
         ('name = "a"\ncase = "study.trial:CASE"', "'hurst' is missing"),
         ("[study]\nname = 'a'", "there is no 'study'"),
     ],
@@ -235,7 +238,7 @@ def test_a_file_that_is_not_there_or_not_text_is_named(tmp_path):
     with pytest.raises(StudyError, match="Is a directory"):
         Study.read(tmp_path)
     (tmp_path / "a.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(StudyError, match="it is no TOML file"):
+    with pytest.raises(StudyError, match="it is not a valid TOML file"):
         Study.read(tmp_path / "a.toml")
 
 

@@ -59,7 +59,7 @@ class Wanted:
 
     @property
     def ending(self) -> str:
-        """How the names of pictures end."""
+        """The format of pictures."""
         return picture_ending(self.format, self.out)
 
 

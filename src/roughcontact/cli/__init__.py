@@ -1,1 +1,1 @@
-"""The command line: commands, no numerics."""
+"""The command line: its commands, without numerics."""

@@ -8,18 +8,18 @@ __all__ = ["PACKAGES", "added_commands", "refuse_missing"]
 
 _GROUP = "roughcontact.commands"
 PACKAGES = {"thesis": ("roughcontact-thesis", "./reproduction")}
-"""What installs a command of ours that stands in a package of its own: its name, and its folder in a checkout."""
+"""For each command of ours in a separate package: the name of the package and its folder in a checkout."""
 
 
 def added_commands() -> dict[str, str]:
     """Return the modules of the commands that installed packages add, by the names of the commands."""
-    from importlib.metadata import entry_points  # late: it looks at every package that is installed
+    from importlib.metadata import entry_points  # late: it reads the metadata of every installed package
 
     return {point.name: point.module for point in entry_points(group=_GROUP)}
 
 
 def refuse_missing(command: str) -> None:
-    """Refuse a command of a package of ours that is not installed, with the line that installs it."""
+    """Raise an error for a command of ours whose package is not installed; the remedy installs it."""
     if command not in PACKAGES:
         return
     from roughcontact.cli.messages import UsageError, reported

@@ -12,7 +12,7 @@ from roughcontact.cli.late_group import late_group
 from roughcontact.cli.option_groups import HELP_ALL_OPTION
 from roughcontact.version import __version__
 
-if TYPE_CHECKING:  # bundlers of programs follow imports that are written out
+if TYPE_CHECKING:  # tools that bundle programs follow only imports that are written out
     from roughcontact.cli import (
         doctor_command as doctor_command,
         run_command as run_command,
@@ -48,11 +48,11 @@ app = typer.Typer(
     cls=late_group(ALONE, added_commands, refuse_missing),
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
     epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
-    "Exit status: 0 every answer met its tolerance, 1 one missed it, 2 bad input, 70 a mistake in this program, "
+    "Exit status: 0 every answer met its tolerance, 1 an answer missed it, 2 bad input, 70 a mistake in this program, "
     "130 interrupted, 143 terminated.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["--help", "-h"]},
-    # A mistake of ours shows itself as Python shows it.
+    # Python prints the traceback of a defect of ours.
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
@@ -60,9 +60,9 @@ _GROUPS = (
     (
         "adhesion",
         ADHESION,
-        "Press surfaces that attract each other, elastic and without friction: states, curves, loops, detachment.",
+        "Press adhesive surfaces, elastic and without friction: states, curves, loops, detachment.",
     ),
-    ("surface", SURFACE, "Look at a surface file, make one, prepare or analyse it."),
+    ("surface", SURFACE, "Inspect, make, prepare or analyse a surface file."),
     (
         "study",
         STUDY,

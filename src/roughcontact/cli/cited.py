@@ -13,9 +13,9 @@ _FILE = "references.bib"
 
 
 def cited(folder: Path | None, *found: Any, as_json: bool) -> tuple[str, ...]:
-    """Print the references behind what was found, beside JSON on standard error; return the name of their file.
+    """Print the references for an answer (with JSON on standard error); return the name of their file.
 
-    They are written only if there is a folder for files.
+    The file is written only where the answer has a folder.
     """
     from roughcontact.citing.citations import citations
     from roughcontact.files.aside import written_aside

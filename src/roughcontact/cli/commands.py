@@ -1,4 +1,4 @@
-"""The commands of the program, and the modules that hold them; the one that does a job is found by the job's name."""
+"""The commands of the program and their modules; a job is done by the command of the same name."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ STUDY = {
 
 
 def do(job: Job, answer: Answer) -> None:
-    """Do a job, whatever its kind: print what is found, write it where `answer` says, and end with its status.
+    """Do a job of any kind: print the answer, write the files that `answer` names, and end with its status.
 
     Raises
     ------
     InputError
-        If it cannot be done; its place is a field of the job.
+        If the job cannot be done; the place of the error is a field of the job.
     typer.Exit
         If a load missed its tolerance, or the work was interrupted.
     """

@@ -1,4 +1,4 @@
-"""What a job presses: its surface, read or made and prepared, and the bodies; what was decided unasked is noted."""
+"""The surface of a job, read or made and prepared, and its bodies; defaults that matter are printed."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ _NAME_THE_BODY = (
 
 
 def name_of(source: Source) -> str:
-    """Return the file of a source, or of which kind it is."""
+    """Return the file of a source, or its kind."""
     return plain(source.file) if isinstance(source, File) else source.KIND
 
 
 def contact_of(job: Any) -> dict[str, Any]:
-    """Return what the calls of a job refer to: the surface, the modulus, and the operator of a profile.
+    """Return the values that the calls of a job refer to: surface, modulus, and operator of a profile.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def contact_of(job: Any) -> dict[str, Any]:
 
 
 def prepared(job: JobOfHeights, check: Callable[[Surface], None] = lambda surface: None) -> dict[str, Any]:
-    """Return what calls refer to, the surface of a job among them; what was read is checked before it is prepared."""
+    """Return the values that calls refer to, with the surface of a job; it is checked before it is prepared."""
     from roughcontact.files.read import read_either
 
     known: dict[str, Any] = known_names() | {"read_either": read_either}
@@ -91,7 +91,7 @@ def prepared(job: JobOfHeights, check: Callable[[Surface], None] = lambda surfac
 
 
 def best_state(call: Call, known: dict[str, Any]) -> Any:
-    """Return the state that a call finds, the best that was reached where the tolerance was missed."""
+    """Return the state that a call finds; if it misses the tolerance, the best state."""
     from roughcontact.contact.convergence import ConvergenceError
 
     try:
@@ -102,7 +102,7 @@ def best_state(call: Call, known: dict[str, Any]) -> Any:
 
 
 def softer_of(job: PressJob | CurveJob) -> tuple[float, str] | None:
-    """Return the hardness [Pa] of the softer body, and of what it is, if it is given or named by the materials."""
+    """Return the hardness [Pa] and its origin, if it is given or known from the materials."""
     given, softer = job.plastic.hardness, job.bodies.softer
     if (text := given or softer) is None:
         return None
@@ -112,7 +112,7 @@ def softer_of(job: PressJob | CurveJob) -> tuple[float, str] | None:
 
 
 def hardness_of_job(job: PressJob | CurveJob) -> float | None:
-    """Return the hardness [Pa] under which something flows; note which one was taken unasked."""
+    """Return the hardness [Pa] of a job with plastic flow; print a remark if it is that of a material."""
     if yields_at(job.bodies, job.plastic) is None or (softer := softer_of(job)) is None:
         return None
     if job.plastic.hardness is None:
@@ -121,7 +121,7 @@ def hardness_of_job(job: PressJob | CurveJob) -> float | None:
 
 
 def _adapted(call: Call, job: JobOfHeights) -> Call:
-    """Return a call as this program makes it: for a profile too where nothing is pressed, in slabs by several."""
+    """Return a call as this program makes it: for profiles without a contact too, in slabs by several processes."""
     if call.function == "rc.read" and isinstance(job, SurfaceJob):
         call = replace(call, function="read_either")
     slabs = slabs_of_job()
@@ -131,7 +131,7 @@ def _adapted(call: Call, job: JobOfHeights) -> Call:
 
 @contextmanager
 def _reading(call: Call, job: JobOfHeights) -> Iterator[None]:
-    """Name a file as it was typed, and options where the library names its functions for maps and for profiles."""
+    """Rewrite errors within: files as they were typed, options in place of functions of the library."""
     file = Path(call.given[0])
     with as_typed(file):
         try:
@@ -174,7 +174,7 @@ def _note_level(call: Call, surface: Surface) -> None:
 
 
 def note_materials(bodies: Bodies) -> None:
-    """Note which materials of the handbook bodies that are named stand for."""
+    """Print which grades of the handbook the names of materials refer to."""
     from roughcontact.materials import handbook
 
     for name in dict.fromkeys(value_of(bodies, "materials") or ()):
@@ -187,7 +187,7 @@ def note_materials(bodies: Bodies) -> None:
 
 
 def _note_profile(profile: str, surface: Surface) -> None:
-    """Note what the numbers of a profile are."""
+    """Print a remark on the meaning of the numbers of a profile."""
     if profile == "winkler":
         note(
             "independent springs of the method of dimensionality reduction: a measured profile is not the line that "

@@ -1,7 +1,7 @@
-"""The command ``doctor``: what is installed, whether it works, and what to paste into a report of a defect.
+"""The command ``doctor``: which parts are installed, whether they work, and the facts for a report of a defect.
 
-It is for installations that are broken: each part imports what it needs when its turn comes, what fails is one more
-problem, and the check runs in a process of its own, since wrong machine code would end this one.
+It must work in broken installations. Therefore each part imports its modules late, a failure is one more problem in
+the list, and the check runs in a second process, because wrong machine code would end this one.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ roughcontact doctor
 roughcontact doctor --json
 """
 }
-# What the extras for users are for; the others are for work on this package.
+# The purpose of each extra for users; the other extras are for work on this package.
 EXTRAS = {
     "formats": "files of some forty instruments",
     "page": "the page in the browser, 'roughcontact serve'",
@@ -53,11 +53,11 @@ _CHECK = (
 )
 _PATIENCE = 120  # [s] for the check, which takes a second or two
 _PROBLEM = "problem"
-_Facts = Iterator[tuple[str, Any]]  # what is told, by its name; what is wrong, as _PROBLEM
+_Facts = Iterator[tuple[str, Any]]  # facts by their names; problems have the name _PROBLEM
 
 
 def doctor(*, json: bool = option("One JSON object on standard output.", default=False)) -> None:
-    """Check this installation, and print what a report of a defect needs."""
+    """Check this installation, and print the facts that a report of a defect needs."""
     record: dict[str, Any] = {"command": "doctor"}
     problems: list[str] = []
     for title, facts in _PARTS.items():
@@ -84,7 +84,7 @@ def _shown(value: Any) -> str:
 
 
 def _whatever_happens(title: str, facts: Callable[[], _Facts]) -> _Facts:
-    """Yield facts as far as they can be told, and why no further; the user's home is not named."""
+    """Yield facts until one fails, then the reason as a problem; the user's home is not named."""
     try:
         for name, value in facts():
             yield name, _without_home(value)
@@ -165,8 +165,8 @@ def _cache() -> _Facts:
     if not kept:
         yield (
             _PROBLEM,
-            f"machine code is not kept in {folder}, and made anew by each process: make {place} a folder that you can "
-            "write to and nobody else",
+            f"machine code cannot be kept in {folder}, so that each process compiles it again: make {place} "
+            "a folder that only you can write to",
         )
 
 
@@ -222,7 +222,7 @@ def _check() -> _Facts:
 
 
 def _checked(environment: Mapping[str, str]) -> tuple[dict[str, float], str | None]:
-    """Return what the check finds in a process of its own, and what is wrong with it, if something is."""
+    """Run the check in a second process; return its numbers, and the problem if there is one."""
     from roughcontact.evaluation.self_check import LIMITS
 
     answer = subprocess.run(
@@ -237,14 +237,14 @@ def _checked(environment: Mapping[str, str]) -> tuple[dict[str, float], str | No
     if answer.returncode < 0:
         return {}, f"it was ended by {signal.Signals(-answer.returncode).name}"
     if answer.returncode > 0:
-        return {}, (answer.stderr.strip().splitlines() or ["it ended without a word"])[-1]
+        return {}, (answer.stderr.strip().splitlines() or ["it ended without a message"])[-1]
     found = loads(answer.stdout)
     wrong = [name for name, limit in LIMITS.items() if not found[name] <= limit]
-    return found, f"{' and '.join(wrong)} of a pressed sphere beyond what is right" if wrong else None
+    return found, f"{' and '.join(wrong)} of a pressed sphere outside the tolerance" if wrong else None
 
 
 def _report_to() -> str:
-    """Return what to do with these lines."""
+    """Return the advice below the facts."""
     from importlib.metadata import PackageNotFoundError, metadata
 
     try:
@@ -254,7 +254,7 @@ def _report_to() -> str:
     where = addresses[0].partition(", ")[2] if addresses else "the issue tracker of the project"
     return (
         f"To report a defect, open an issue at {where}: paste the lines above, what you ran, and the whole message. "
-        "Report a weakness of security as SECURITY.md says."
+        "For a weakness of security, follow SECURITY.md."
     )
 
 

@@ -1,7 +1,7 @@
-"""The processes of an MPI job, which work as one program: the first speaks and writes for all.
+"""The processes of an MPI job, which work as one program: rank 0 prints and writes.
 
-A launcher (mpiexec, srun) says in the environment how many processes it has started. Where they are several, those
-commands that can use them deal out the rows of one surface, and the others refuse.
+A launcher (mpiexec, srun) sets their number in the environment. With several processes, `surface make`, `press` and
+`curve` divide the rows of one surface among them; other commands raise an error.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ _STATED = {
     "SLURM_STEP_NUM_TASKS": "SLURM_PROCID",
 }
 _TOGETHER = (["press"], ["curve"], ["surface", "make"])
-_PATIENCE = 5.0  # [s] within which all processes come to an error that is one of all
-_TURN = 0.02  # [s] between two looks whether they have
+_PATIENCE = 5.0  # [s] for all processes to meet an error that they have in common
+_TURN = 0.02  # [s] between two checks of this
 
 
 def launched() -> tuple[int, int]:
@@ -45,21 +45,21 @@ def launched() -> tuple[int, int]:
 
 
 def refusal(arguments: Sequence[str]) -> InputError | None:
-    """Return why several processes do not run a command together; None if they do, or this one is alone."""
+    """Return why several processes cannot run a command together; None if they can, or if there is only one."""
     words = [word for word in arguments if not word.startswith("-")]
     known = any(words[: len(command)] == command for command in _TOGETHER)
     if launched()[1] == 1 or not words or known or "--help" in arguments:
         return None
     name = " ".join(words[: 2 if words[0] in ("adhesion", "study", "surface") else 1])
     return InputError(
-        f"{launched()[1]} processes were started together, as 'press', 'curve' and 'surface make' can use them",
+        f"{launched()[1]} processes were started together, which only 'press', 'curve' and 'surface make' support",
         f"run {name!r} without a launcher such as mpiexec",
     )
 
 
 @cache
 def slabs_of_job() -> Slabs | None:
-    """Return the processes of the job as those that hold a surface in slabs; None if this one is alone.
+    """Return the processes of the job as owners of slabs; None if there is only one.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def slabs_of_job() -> Slabs | None:
         from mpi4py import MPI
     except (ImportError, RuntimeError) as error:
         raise UsageError(
-            f"{size} processes were started together, and mpi4py, by which they work as one, cannot be imported "
+            f"{size} processes were started together, and mpi4py, which connects them, cannot be imported "
             f"({error})",
             "install roughcontact[mpi], or start one process",
         ) from error
@@ -84,14 +84,14 @@ def slabs_of_job() -> Slabs | None:
         raise UsageError(
             f"{size} processes were started together, and mpi4py sees {MPI.COMM_WORLD.size}: the launcher belongs to "
             f"another MPI than that of mpi4py ({MPI.Get_library_version().split(',')[0]})",
-            "use that one's mpiexec",
+            "use the mpiexec of that MPI",
         )
     _meeting()
     return Slabs(MPI.COMM_WORLD)
 
 
 def communicator_of_job() -> Communicator:
-    """Return the processes of the job, or this one alone."""
+    """Return the processes of the job, or only this one."""
     from roughcontact.slabs.one_process import OneProcess
 
     slabs = slabs_of_job()
@@ -99,12 +99,12 @@ def communicator_of_job() -> Communicator:
 
 
 def require_one_process(given: Mapping[str, Any]) -> None:
-    """Refuse options that need the whole surface, by their names.
+    """Raise an error for options that need the whole surface, by their names.
 
     Raises
     ------
     UsageError
-        If one was given, and this process is one of a job.
+        If such an option was given, and the job has several processes.
     """
     from roughcontact.cli.messages import UsageError
 
@@ -119,9 +119,9 @@ def require_one_process(given: Mapping[str, Any]) -> None:
 
 @contextmanager
 def as_one() -> Iterator[None]:
-    """Let the first process speak for all; an error of one process alone ends all of them, with its words.
+    """Let only rank 0 print; an error of a single process ends all processes with its message.
 
-    What is done within ends by `SystemExit`, as a program does.
+    The block ends by `SystemExit`, as a program does.
     """
     rank, size = launched()
     if size == 1:
@@ -138,13 +138,13 @@ def as_one() -> Iterator[None]:
             status = end.code if isinstance(end.code, int) else int(end.code is not None)
     if "mpi4py.MPI" in sys.modules:
         _end_together(
-            status, f"{words.getvalue()}This was process {rank} of {size} alone: the job is ended.\n"
+            status, f"{words.getvalue()}This was process {rank} of {size} only: the job is ended.\n"
         )
     sys.exit(status)
 
 
 def _end_together(status: int, words: str) -> None:
-    """Wait for the other processes; for an error not for long, since they may wait for this one elsewhere."""
+    """Wait for the other processes; after an error only briefly, because they may wait for this one elsewhere."""
     arrival = _meeting().Ibarrier()
     until = time.monotonic() + (_PATIENCE if status not in (0, MISSED) else float("inf"))
     while not arrival.Test():
@@ -154,13 +154,13 @@ def _end_together(status: int, words: str) -> None:
             _meeting().Abort(status)
         time.sleep(_TURN)
     first = _meeting().bcast(status)
-    if status not in (0, MISSED) and first in (0, MISSED):  # the first has nothing to say about it
+    if status not in (0, MISSED) and first in (0, MISSED):  # rank 0 has not printed this error
         sys.stderr.write(words)
 
 
 @cache
 def _meeting() -> Any:
-    """Return the processes as those that meet at the end: where they meet elsewhere is not taken for it."""
+    """Return a separate communicator for the end: no other collective call can be mistaken for it."""
     from mpi4py import MPI
 
     return MPI.COMM_WORLD.Dup()

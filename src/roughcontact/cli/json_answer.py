@@ -44,7 +44,7 @@ def emit(record: Any) -> None:
 
 @contextmanager
 def kept() -> Iterator[list[Mapping[str, Any]]]:
-    """Keep what is emitted within, in a list."""
+    """Keep the answers of the block in a list."""
     answers: list[Mapping[str, Any]] = []
     token = _KEPT.set(answers)
     try:

@@ -1,4 +1,4 @@
-"""Groups of commands that are imported when they are called: the help of a group waits for none of them."""
+"""Groups of commands that are imported only when they are called, so that the help of a group appears at once."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ def late_group(
     added: Callable[[], Mapping[str, str]] = dict,
     refuse: Callable[[str], None] = lambda name: None,
 ) -> type[TyperGroup]:
-    """Return the class of a group of commands: functions of these names, in these modules of this room.
+    """Return the class of a group of commands: functions of these names, in these modules of a package.
 
-    Their examples stand in the module's ``EXAMPLES``, by the name of the command; in ``CELLS`` the columns of the table
-    of one that takes several files. For a name that is not among them, and for the help, `added` returns the modules of
-    commands of other packages; `refuse` may say more of a name that nothing adds than that there is no such command.
+    ``EXAMPLES`` of the module holds the examples by the name of the command, and ``CELLS`` the columns of the table
+    for several files. `added` returns the modules of commands of other packages; it is called for other names and for
+    the help. `refuse` may raise a more helpful error for an unknown name.
     """
     modules = {name: f"roughcontact.cli.{module}" for name, module in commands.items()}
 
     class LateGroup(TyperGroup):
         def __init__(self, **given: Any) -> None:
             super().__init__(**given)
-            # Their names are listed, and proposed to whoever misspells one.
+            # These names are listed, and proposed for a misspelt one.
             self.commands = {name: TyperCommand(name) for name in commands} | dict(self.commands)
 
         def get_command(self, ctx: Any, cmd_name: str) -> Any:
@@ -87,11 +87,11 @@ def late_group(
                 yield from [(words, each.help or "")] if inside is None else inside(words)
 
         def shell_complete(self, ctx: Any, incomplete: str) -> Any:
-            ctx.command = self._summarised()  # typer asks the command of the context for names and summaries
+            ctx.command = self._summarised()  # typer reads names and summaries from it
             return ctx.command.shell_complete(ctx, incomplete)
 
         def _summarised(self) -> TyperGroup:
-            """Return the same group of commands that have but a summary."""
+            """Return the same group, of commands that only have a summary."""
             every = {**added(), **modules}
             summaries = {name: TyperCommand(name, help=_summary(every[name], name)) for name in every}
             return TyperGroup(
@@ -107,9 +107,9 @@ def late_group(
 
 
 class _Command(TyperCommand):
-    """A command whose help fits a screen."""
+    """A command with a short help, which fits a screen."""
 
-    more: frozenset[str] = frozenset()  # parameters that the short help only names
+    more: frozenset[str] = frozenset()  # parameters that the short help only lists
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         if self.more and HELP_ALL not in ctx.meta:
@@ -123,7 +123,7 @@ class _Command(TyperCommand):
 
 
 def _without_types(command: Any, ctx: Any) -> Any:
-    """Return a command in whose help no flag has a type, which some versions of typer write as ``<bool>``."""
+    """Return a command whose help shows no types of flags; some versions of typer write ``<bool>``."""
     for each in command.get_params(ctx):
         if getattr(each, "is_flag", False):
             each.metavar = ""
@@ -146,7 +146,7 @@ def _summary(module: str, name: str) -> str:
     """Return the first paragraph of a command's docstring, from the text of its module."""
     spec = find_spec(module)
     source = getattr(spec and spec.loader, "get_source", lambda name: None)(spec and spec.name)
-    if source is None:  # a bundle of the program holds no text
+    if source is None:  # a bundled program contains no source text
         return _imported(module, name).help or ""
     function = next(
         node
@@ -157,5 +157,5 @@ def _summary(module: str, name: str) -> str:
 
 
 def _function(name: str) -> str:
-    """Return the name of the function that is a command: a word of Python's own has a line behind it."""
+    """Return the name of the function of a command: a keyword of Python gets an underscore."""
     return f"{name}_" if iskeyword(name) else name

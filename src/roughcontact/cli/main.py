@@ -1,4 +1,4 @@
-"""The way into the program and out of it: every end has its status."""
+"""Start and end of the program, with its exit status."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
 
 
 def run() -> None:
-    """Run the program, by all processes that a launcher of MPI jobs has started."""
+    """Run the program, in all processes that a launcher of MPI jobs has started."""
     with as_one():
         _run()
 
@@ -29,13 +29,13 @@ def run() -> None:
 def _run() -> None:
     try:
         signal.signal(signal.SIGTERM, _terminate)
-        if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # as it was while this file was imported
+        if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # as set while this file was imported
             signal.signal(signal.SIGINT, signal.default_int_handler)
         for stream in (sys.stdout, sys.stderr):
             # A terminal or pipe that cannot show a letter gets a question mark, not a crash.
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(errors="replace")
-        # Late, since it takes a second, in which Ctrl-C must not end in a traceback.
+        # Late: the import takes a second, and Ctrl-C during it must not end in a traceback.
         from roughcontact.cli.app import app
 
         if (problem := refusal(sys.argv[1:])) is not None:
@@ -49,7 +49,7 @@ def _run() -> None:
             emit_error("interrupted", "Interrupted.", INTERRUPTED)
         sys.exit(INTERRUPTED)
     except Exception as error:
-        # Files of ours speak for themselves before they come here: this is standard output.
+        # Errors of files are reported before they come here: this is an error of standard output.
         if isinstance(error, OSError) and error.filename is None and error.errno in _NO_ROOM:
             sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
             sys.exit(BAD_INPUT)
@@ -74,14 +74,14 @@ def _as_json() -> bool:
 
 
 def _terminate(*_: object) -> NoReturn:
-    # An exception, so that every half-written file is removed on the way out.
+    # An exception, so that every half-written file is removed.
     raise SystemExit(TERMINATED)
 
 
 def _let_go_of_output() -> None:
-    """Write what standard output still holds; where it takes nothing any more, drop it."""
+    """Flush standard output; if it is closed, drop its contents."""
     try:
         sys.stdout.flush()
     except OSError:
-        # Python would try once more at the very end, and complain.
+        # Otherwise Python would try again at exit, and print an error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

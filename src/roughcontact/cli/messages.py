@@ -1,4 +1,4 @@
-"""What the user did becomes one line; what we did wrong shows itself with its traceback."""
+"""Errors of the user are printed in one line; defects of ours with their traceback."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "remark", "reported", "worded"]
 
 _WARNINGS = SurfaceWarning, MemoryWarning
-# What the library says by keywords and calls of Python, and no place of an error tells.
+# Keywords and calls of Python in messages of the library, which the place of an error does not cover.
 _OPTIONS = (
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
@@ -51,23 +51,23 @@ _METRES = re.compile(r"\b(\d(?:\.\d+)?e-(?:0\d|1[0-8])) m(?![\w^/²])")
 
 
 class UsageError(InputError):
-    """An option or a field that makes no sense; its place stands in front unless the message begins with it."""
+    """An invalid option or field; its place is printed first unless the message begins with it."""
 
     def __str__(self) -> str:
         place, text = self.place or "", super().__str__()
-        is_shown = place.startswith("-") or "." in place  # and no parameter of a function
+        is_shown = place.startswith("-") or "." in place  # rather than a parameter of a function
         if not is_shown or self.message.startswith(place.split(", ")[0]):
             return text
         return joined(f"{place}: {self.message}", self.remedy)
 
 
 def note(text: str) -> None:
-    """Print one line on standard error, also for who asked for quiet: something about the answer may be wrong."""
+    """Print one line on standard error, even with --quiet: something about the answer may be wrong."""
     typer.echo(f"Note: {worded(text)}", err=True)
 
 
 def note_all(notes: Iterable[Note]) -> None:
-    """Print the notes on an answer, each once: what makes a number wrong first, what is usual last."""
+    """Print the notes on an answer, each once, the most important first."""
     from roughcontact.labels.note import Rank, in_order
 
     kept = [each for each in notes if not (is_quiet() and each.rank is Rank.USUAL)]
@@ -76,17 +76,17 @@ def note_all(notes: Iterable[Note]) -> None:
 
 
 def remark(text: str) -> None:
-    """Print one line on standard error unless quiet is asked for: without it, no number is taken for another."""
+    """Print one line on standard error unless --quiet is given: it prevents no misreading of a number."""
     if not is_quiet():
         note(text)
 
 
 @contextmanager
 def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, Any]]:
-    """Turn errors of ours into one line and an exit status, and our warnings into notes.
+    """Turn errors of this library into one line and an exit status, and its warnings into notes.
 
-    The lines name the `paths` of the command line as they were typed. Where the answer was asked for `as_json`, so
-    comes the error; what stands beside it there may be written into the dictionary that is yielded.
+    The lines name the `paths` of the command line as they were typed. With `as_json`, the error is also printed as
+    JSON, together with the entries of the dictionary that is yielded.
     """
     beside: dict[str, Any] = {}
     try:
@@ -114,7 +114,7 @@ def reported(*paths: Path | None, as_json: bool = False) -> Iterator[dict[str, A
 
 
 def ended(kind: str, line: str, status: int, *, as_json: bool, remedy: str | None = None) -> None:
-    """Say that a run was stopped from outside."""
+    """Print that a run was stopped from outside, and end."""
     typer.echo(line if remedy is None else f"{line} To go on: {remedy}", err=True)
     if as_json:
         emit_error(kind, line, status, remedy)
@@ -123,7 +123,7 @@ def ended(kind: str, line: str, status: int, *, as_json: bool, remedy: str | Non
 def _refused(
     kind: str, error: InputError, beside: dict[str, Any] | None, paths: Iterable[Path | None] = ()
 ) -> None:
-    """Say what was refused, with `beside` as one JSON object too."""
+    """Print an error; with `beside`, also as one JSON object."""
 
     def typed(text: str | None) -> str | None:
         for path in paths:
@@ -132,7 +132,7 @@ def _refused(
         return None if text is None else worded(text)
 
     told = UsageError(typed(error.message) or "", typed(error.remedy), _as_options(typed(error.place)))
-    # Of a file that leaves something open, its name is the place.
+    # For an incomplete file, its name is the place.
     typer.echo(f"Error: {joined(told.message, told.remedy) if kind == 'read' else told}", err=True)
     if beside is not None:
         several = [
@@ -144,15 +144,15 @@ def _refused(
 
 
 def _as_options(place: str | None) -> str | None:
-    """Return a place of the library as the options of the command that runs, as far as it has such."""
+    """Return a place of the library as options of the running command, if it has these."""
     if place is None:
         return None
-    # typers bring click with them, or import it
+    # versions of typer contain click, or import it
     home = typer.Context.__mro__[1].__module__.rpartition(".")[0]
     context = import_module(f"{home}.globals").get_current_context(silent=True)
     known = set() if context is None else {name for each in context.command.params for name in each.opts}
     options = {part: option_of(part.rpartition(".")[2]) for part in place.split(", ")}
-    inside = "recipe."  # of a file, and of no option
+    inside = "recipe."  # of a place in a file, never of an option
     return ", ".join(
         option if option in known and not part.startswith(inside) else part
         for part, option in options.items()
@@ -161,9 +161,9 @@ def _as_options(place: str | None) -> str | None:
 
 @contextmanager
 def as_typed(file: Path) -> Iterator[None]:
-    """Name a file that cannot be read by its path as the user typed it, not by its bare name.
+    """Name an unreadable file by the path that the user typed, rather than by its bare name.
 
-    What foreign readers print goes to standard error, what they log or warn of nowhere: this process is ours.
+    What third-party readers print goes to standard error; their logs and warnings are dropped.
     """
     threshold = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
@@ -179,7 +179,7 @@ def as_typed(file: Path) -> Iterator[None]:
 
 
 def plain(text: str) -> str:
-    """Return `text` with a question mark for every byte of a file name that is no letter."""
+    """Return `text` with a question mark for every byte of a file name that cannot be decoded."""
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
@@ -193,14 +193,14 @@ def worded(text: str) -> str:
 
 
 def _with_prefix(metres: re.Match[str]) -> str:
-    """Return a small length as people write it, digit by digit: 1.86 um of 1.86e-06 m."""
+    """Return a small length with a prefix and the same digits: 1.86 um for 1.86e-06 m."""
     length = Decimal(metres[1])
     steps = -(length.adjusted() // 3)
     return f"{length.scaleb(3 * steps):f} {'munpfa'[steps - 1]}m"
 
 
 def _showwarning(original: Any) -> Any:
-    """Return a way to show warnings that turns ours into notes and leaves the others."""
+    """Return a `showwarning` that prints warnings of this library as notes and passes other warnings on."""
 
     def show(message: Warning | str, category: type[Warning], *rest: Any, **named: Any) -> None:
         if issubclass(category, _WARNINGS):

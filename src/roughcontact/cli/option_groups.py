@@ -27,7 +27,7 @@ HELP_ALL = "--help-all"
 
 @dataclass(frozen=True, slots=True)
 class _Declared:
-    """An option or argument as typer takes it, and what a command does with it."""
+    """An option or argument for typer, and how a command reads its value."""
 
     parameter: inspect.Parameter
     everyday: bool
@@ -42,24 +42,24 @@ def option(
     everyday: bool = True,
     **more: Any,
 ) -> Any:
-    """Return an option: its help, what its value looks like, and its default; ``...`` where it must be given.
+    """Return an option with its help, its metavar and its default; ``...`` if it is required.
 
-    A group's options stand in the help under its ``PANEL``, those that are `everyday` in the short one too. `more` goes
-    to `typer.Option`, as do `names` where the name of the field will not do; but for ``read``, which turns the text of
-    the user into the value, or raises `InputError`.
+    The help shows the options of a group under its ``PANEL``; the short help shows those that are `everyday`. `names`
+    replace the name of the field. `more` goes to `typer.Option`, except ``read``, which turns the text of the user
+    into the value, or raises `InputError`.
     """
     given = {"names": names, "metavar": example, "help": text, "everyday": everyday, **more}
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
 def argument(text: str, metavar: str, default: Any = ...) -> Any:
-    """Return an argument: its help, what stands for it there, and its default; ``...`` where it must be given."""
+    """Return an argument with its help, its metavar and its default; ``...`` if it is required."""
     given = {"argument": True, "metavar": metavar, "help": text}
     return field(default=MISSING if default is ... else default, metadata=given)
 
 
 def listed(*names: str) -> Callable[[str], list[str]]:
-    """Return what completes the last name of a comma list, for the `autocompletion` of an option."""
+    """Return the `autocompletion` of an option that takes a comma list: it completes the last name."""
 
     def complete(incomplete: str) -> list[str]:
         done, comma, begun = incomplete.rpartition(",")
@@ -78,14 +78,14 @@ PRINT = option(
 )
 _VERBOSITY = {
     "progress": option(
-        "How far it is, on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or nothing.",
+        "Progress on standard error: bars on a terminal and a line a minute elsewhere, JSON lines, or none.",
         default="auto",
         read=Choice(PROGRESS_FORMS),
         everyday=False,
         rich_help_panel="Answer",
     ),
     "quiet": option(
-        "No progress and no remarks on standard error: errors only, and notes on what makes a number wrong.",
+        "Print only errors and notes on wrong numbers on standard error; no progress, no remarks.",
         None,
         *("-q", "--quiet"),
         default=False,
@@ -93,7 +93,7 @@ _VERBOSITY = {
         rich_help_panel="Answer",
     ),
     "verbose": option(
-        "What is done, step by step with its time, on standard error.",
+        "Print each step with its time on standard error.",
         None,
         *("-v", "--verbose"),
         default=False,
@@ -106,9 +106,9 @@ _VERBOSITY = {
 def grouped(command: Callable[..., None], cells: Cells | None = None) -> Callable[..., None]:
     """Return a command as typer takes it: parts of recipes and groups, which are dataclasses, become options.
 
-    What was given wrongly, and what a command on a recipe refuses, is reported. The parameters that the short help
-    leaves out are ``more`` of what is returned. Each command gets ``--progress``, ``--quiet`` and ``--verbose``, one
-    that does a job ``--print``. One with `cells`, the columns of a table, takes several files.
+    Errors of the input are reported. The attribute ``more`` of the function returned lists the parameters that the
+    short help leaves out. Each command gets ``--progress``, ``--quiet`` and ``--verbose``; a command that does a job
+    gets ``--print``. With `cells`, the columns of a table, a command takes several files.
     """
     hints = get_type_hints(command)
     parameters = inspect.signature(command).parameters.values()
@@ -149,7 +149,7 @@ def grouped(command: Callable[..., None], cells: Cells | None = None) -> Callabl
         if not any(each.spec for each in declared):
             command(**{one.name: _built(hints[one.name], one.name, given) for one in parameters})
             return
-        # Late: a command without a recipe reports by itself, also where what is imported here is broken.
+        # Late: a command without a recipe reports its errors itself, even if these modules cannot be imported.
         from roughcontact.cli.job import require_one_process
         from roughcontact.cli.messages import UsageError, reported
 
@@ -189,12 +189,12 @@ def _declared(name: str, kind: Any, declared: Any, panel: str | None) -> Iterato
 
 
 def _commanded(kind: Any) -> Any:
-    """Return the type of a parameter or field; of a source, the one that a command takes: a file."""
+    """Return the type of a parameter or field; for a source, that of a file, which a command takes."""
     return File if File in get_args(kind) else kind
 
 
 def _of_command(name: str, kind: Any, declared: Any, panel: str | None) -> _Declared:
-    """Return an option that is no field of a recipe."""
+    """Return an option that is not a field of a recipe."""
     given = {"rich_help_panel": panel, **declared.metadata}
     default = ... if declared.default is MISSING else declared.default
     if given.pop("argument", False):
@@ -205,13 +205,13 @@ def _of_command(name: str, kind: Any, declared: Any, panel: str | None) -> _Decl
     if (read := given.pop("read", None)) is not None:
         place = names[0] if names else option_of(name)
         kind, given = str if default is not None else str | None, _read_by(read, place, given)
-    # What the help of an option says of its default need not be said twice.
+    # A default that the help of an option states is not repeated.
     info = typer.Option(default, *names, show_default="(default:" not in given["help"], **given)
     return _Declared(_parameter(name, kind, info), everyday)
 
 
 def _read_by(read: Callable[[str], Any], place: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is declared of an option whose text is read by a function of ours."""
+    """Return the declaration of an option whose text is read by a function of ours."""
 
     def value(text: Any) -> Any:
         with placed(place):
@@ -248,7 +248,7 @@ def _of_recipe(name: str, kind: Any, declared: Field[Any], spec: Spec, panel: st
 
 
 def _of_several(one: _Declared) -> _Declared:
-    """Return an argument of which there may be several."""
+    """Return an argument that may be given several times."""
     info = typer.Argument(..., metavar=one.parameter.default.metavar, help=one.parameter.default.help)
     return replace(one, parameter=_parameter(one.parameter.name, list[str], info))
 
@@ -265,12 +265,12 @@ def _print_help(context: typer.Context, wanted: bool) -> None:
 
 
 HELP_ALL_OPTION = typer.Option(
-    False, HELP_ALL, is_eager=True, callback=_print_help, help="Show all of the help, and exit."
+    False, HELP_ALL, is_eager=True, callback=_print_help, help="Show the full help, and exit."
 )
 
 
 def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:
-    """Return the value of one parameter: what was given, or a group made of what was."""
+    """Return the value of one parameter: the value given, or a group made of such values."""
     if not is_dataclass(kind := _commanded(kind)):
         return tuple(given[name] or ()) if kind == tuple[str, ...] else given[name]
     hints, parts = get_type_hints(kind), {}

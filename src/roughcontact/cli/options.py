@@ -1,4 +1,4 @@
-"""The options that several commands share: where an answer goes, and in which form."""
+"""The options that several commands share: folder and form of an answer."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ OUTPUT = argument(
 )
 OUT = option("Folder for files and pictures.", "DIR", rich_help_panel=_ANSWER)
 CITE = option(
-    "After the answer, the papers behind it; with --out also as BibTeX, references.bib.",
+    "Print the references for the answer; with --out also write them as BibTeX (references.bib).",
     default=False,
     everyday=False,
     rich_help_panel=_ANSWER,
@@ -45,13 +45,13 @@ class Answer:
     format: str | None = FORMAT
     json: bool = JSON
     cite: bool = CITE
-    is_kept: bool = True  # no option: of a result that is repeated, only the numbers are looked at
+    is_kept: bool = True  # not an option: a repeated result is only compared
 
     def __post_init__(self) -> None:
         picture_ending(self.format, self.out)
 
     def finish(self, folder: Path | None, names: Sequence[str], *found: Any) -> None:
-        """Cite what was found, if asked to; print which files a folder holds now, if there is one that stays."""
+        """Print the references, if asked for; print which files a folder that is kept holds now."""
         if self.cite:
             names = (*names, *cited(folder, *found, as_json=self.json))
         if folder is not None and self.is_kept:
@@ -59,7 +59,7 @@ class Answer:
 
     @property
     def ending(self) -> str:
-        """How the names of pictures end."""
+        """The format of pictures."""
         return picture_ending(self.format, self.out)
 
     @property
@@ -69,12 +69,12 @@ class Answer:
 
 
 def picture_ending(given: str | None, out: Path | None) -> str:
-    """Return how the names of pictures end.
+    """Return the format of pictures.
 
     Raises
     ------
     UsageError
-        If a format is given and no folder for pictures.
+        If a format is given without a folder for pictures.
     """
     if given is not None and out is None:
         raise UsageError("--format is that of pictures", "say where by --out", place="--format")

@@ -20,9 +20,9 @@ __all__ = ["all_or_none", "command_line", "output", "writing"]
 
 @contextmanager
 def output(folder: Path | None) -> Iterator[Path | None]:
-    """Check before the work that results can be written to a folder, and yield it; undo its creation if the work fails.
+    """Yield a folder, after a check that it is writable; remove a new folder if the work fails.
 
-    Of the processes of a job all enter it, and the first alone gets the folder.
+    All processes of a job enter it; only the first gets the folder.
     """
     if folder is None:
         yield None
@@ -41,12 +41,12 @@ def output(folder: Path | None) -> Iterator[Path | None]:
 def all_or_none(folder: Path) -> Iterator[Path]:
     """Yield a folder to write into; its files move to `folder` when the block ends well.
 
-    So an interrupt, or a failure of the last picture, does not leave new files beside old ones.
+    Thus an interrupt, or a failure of the last picture, leaves no new files beside old ones.
 
     Raises
     ------
     UsageError
-        If a file in the way is protected or a folder.
+        If an existing file of that name is write-protected or a folder.
     """
     with tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as name:
         aside = Path(name)
@@ -60,7 +60,7 @@ def all_or_none(folder: Path) -> Iterator[Path]:
 
 @contextmanager
 def writing() -> Iterator[None]:
-    """Write to the end what took long to compute: the first Ctrl-C meanwhile is passed over, with a word."""
+    """Write results that took long to compute: the first Ctrl-C meanwhile only prints a note."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -68,7 +68,7 @@ def writing() -> Iterator[None]:
 
     def pass_over(*_: object) -> None:
         signal.signal(signal.SIGINT, before)
-        note("the files are being written; Ctrl-C once more stops that")
+        note("the files are being written; press Ctrl-C again to stop this")
 
     signal.signal(signal.SIGINT, pass_over)
     try:

@@ -43,10 +43,9 @@ Collected = TypeVar("Collected")
 def collected(
     states: Iterable[State], collect: Callable[[Iterator[State]], Collected]
 ) -> tuple[Collected, bool]:
-    """Return what is collected of the states of a path, and whether it is whole.
+    """Return the collected states of a path, and whether it is complete.
 
-    Ctrl-C ends a path with the states that are done. Before the first state it is passed on, because there is nothing
-    to keep.
+    Ctrl-C ends a path with the computed states. Before the first state it is raised, because nothing can be kept.
     """
     stopped: list[bool] = []
 
@@ -66,7 +65,7 @@ def collected(
 
 @dataclass(frozen=True)
 class PathAnswer:
-    """A path that was followed.
+    """A path that has been computed.
 
     Parameters
     ----------
@@ -76,11 +75,11 @@ class PathAnswer:
     whole : bool
         Whether it has all its loads.
     stem, events : str
-        How its files are called: ``adhesive_loop``, and the table of its jumps ``adhesive_loop_jumps``.
+        The names of its files: ``adhesive_loop``, and ``adhesive_loop_jumps`` for the table of its jumps.
     converged : bool
         Whether the tolerance was met.
     answer : Answer
-        Where it goes.
+        Its folder and form.
     """
 
     job: JobOfHeights
@@ -130,7 +129,7 @@ class PathAnswer:
         before: Sequence[tuple[str, str]],
         after: Sequence[tuple[str, str]],
     ) -> None:
-        """Print the loads between facts, or one JSON object; print what a reader should know on standard error."""
+        """Print the loads between facts, or one JSON object; print the notes on standard error."""
         found = self.found
         if self.answer.json:
             emit(self.record())
@@ -149,7 +148,7 @@ class PathAnswer:
         if not self.whole:
             kept = f"{len(self.found)} of {total} loads are kept" if total else "the loop is not closed"
             note(
-                f"stopped: {kept}; a path of surfaces that stick cannot be resumed, because its states depend on the "
+                f"stopped: {kept}; an adhesive path cannot be resumed, because its states depend on the "
                 "history"
             )
             raise typer.Exit(INTERRUPTED)

@@ -1,4 +1,4 @@
-"""What is pressed: the kind of the map, whether its asperities stay elastic."""
+"""The kind of a map, and whether its asperities stay elastic."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ _SUMMITS = 2  # fewer are those of a body, which has no plasticity index
 
 @dataclass(frozen=True, slots=True)
 class Pressed:
-    """A surface as a contact knows it.
+    """The properties of a surface that a contact depends on.
 
     Parameters
     ----------
     kind : SurfaceKind
         Periodic, nominally flat, with form, or a profile.
     words : str
-        The same in words.
+        The kind in words.
     index : PlasticityIndex or None
-        Of Greenwood and Williamson, where a hardness is known.
+        The index of Greenwood and Williamson, if a hardness is known.
     softer : (float, str) or None
-        The hardness [Pa], and of what it is.
+        The hardness [Pa] and its origin.
     """
 
     kind: SurfaceKind
@@ -43,19 +43,19 @@ class Pressed:
 
     @classmethod
     def of(cls, surface: Surface, modulus: Modulus, softer: tuple[float, str] | None) -> Pressed:
-        """Return what a surface is; say on standard error why a known hardness gives no index."""
+        """Return the kind of a surface; print a note if a known hardness gives no index."""
         from roughcontact.arrays import is_numpy
         from roughcontact.contact.loads.load_search import SurfaceKind
 
         kind = SurfaceKind.of(surface)
-        if not is_numpy(surface.heights):  # whose summits are not looked for
+        if not is_numpy(surface.heights):  # summits are only searched for in NumPy arrays
             softer = None
-        if surface.grid.ndim == 1:  # which has no summits
+        if surface.grid.ndim == 1:  # a profile has no summits
             return cls(kind, "a periodic profile" if all(surface.grid.periodic) else "a profile", None, None)
         return cls(kind, kind.value, None if softer is None else _index(surface, modulus, softer[0]), softer)
 
     def facts(self) -> list[tuple[str, str]]:
-        """Return what is worth telling, line by line."""
+        """Return the facts, line by line."""
         lines = [("the map is", self.words)]
         if self.index is not None and self.softer is not None:
             index, of = self.index, f"{quantity('hardness', self.softer[0])} {self.softer[1]}"
@@ -69,7 +69,7 @@ class Pressed:
         return lines
 
     def record(self) -> dict[str, Any]:
-        """Return the same as plain values."""
+        """Return the facts as plain values."""
         if self.index is None or self.softer is None:
             return {"kind": self.kind.value, "plasticity_index": None}
         return {

@@ -28,7 +28,7 @@ _ENDED = ("finished", "stopped")
 
 @contextmanager
 def progress_shown(form: str, *, verbose: bool = False) -> Iterator[None]:
-    """Show how far long tasks in this block are, in one of the forms; if `verbose`, all that were done, in lines."""
+    """Show the progress of long tasks in this block in one form; if `verbose`, a line for each task."""
     if form == "none":
         yield
     elif form == "json":
@@ -60,7 +60,7 @@ class _Objects:
 
 @dataclass(slots=True)
 class _Lines:
-    """A line a minute, about the outermost task that counts; one for each task at its end, for who wants them all."""
+    """A line a minute, about the outermost task that counts; if `every`, a line for each task at its end."""
 
     every: bool = False
     begun: dict[int, float] = field(default_factory=dict)
@@ -126,7 +126,7 @@ def _started() -> Progress:
 
 @dataclass(slots=True)
 class _Pace:
-    """How fast a task goes since its first event."""
+    """The rate of a task since its first event."""
 
     last: Event
     before: float = field(init=False)
@@ -136,7 +136,7 @@ class _Pace:
         self.before = self.last.done
 
     def words(self) -> str:
-        """Return how far the task is, how fast it goes, and how long the rest takes at this rate."""
+        """Return the progress of the task, its rate, and the time that remains at this rate."""
         event = self.last
         if not event.unit:
             return ""

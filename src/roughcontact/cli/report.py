@@ -1,4 +1,4 @@
-"""Answers as a person reads them, and as a program does."""
+"""Answers for people, and for programs."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def print_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
 
 
 def tell(record: Mapping[str, Any], facts: Sequence[tuple[str, str]], *, as_json: bool) -> None:
-    """Print an answer as one JSON object, or the file it is about and what is worth telling."""
+    """Print an answer as one JSON object, or as its file and facts."""
     if as_json:
         emit(record)
     else:

@@ -1,4 +1,4 @@
-"""What is said of a run that is stopped and can go on."""
+"""Messages about a run that is stopped and can be resumed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["resumable"]
 
 @contextmanager
 def resumable(command: str, *, as_json: bool = False) -> Iterator[None]:
-    """Say how to go on where the run is stopped."""
+    """Print how to resume a run that is stopped."""
     try:
         yield
     except KeyboardInterrupt:

@@ -1,4 +1,4 @@
-"""The command ``run``: what a recipe says, or once more what a result came from."""
+"""The command ``run``: a job from its recipe, or once more the job of a result."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _SOURCE = argument(
     "A job (.toml), or a result that carries its recipe (.json, .nc, or its folder).", "JOB.toml|RESULT"
 )
 _RESULTS = (".json", ".nc")
-# How the files of the jobs are called.
+# The names of the files of the jobs.
 _STEMS = {
     "press": "press",
     "curve": "curve",
@@ -62,9 +62,9 @@ def run(
     json: bool = JSON,
     cite: bool = CITE,
 ) -> None:
-    """Do what a recipe says; of a result, do it once more and compare the numbers to the last digit.
+    """Do the job of a recipe; or repeat that of a result, and compare the numbers to the last digit.
 
-    The answer of a job goes to a folder named like its file, and loads that are stored there are not computed again.
+    The answer goes to a folder named like the recipe. Loads that are stored there are not computed again.
     """
     with reported(source, out, as_json=json):
         from roughcontact.recipe.written import read_job
@@ -88,7 +88,7 @@ def _run(source: Path, out: Path | None, format: str | None, *, json: bool, cite
     if source.suffix.casefold() not in _RESULTS:
         folder = out or Path(source.stem)
         if _is_stored(job, folder):
-            remark(f"{folder} holds the answer of this job already, by this version: nothing is computed")
+            remark(f"{folder} already holds the answer of this job and version: nothing is computed")
             if json:
                 emit(_numbers(_file(job, folder)))
             if cite:
@@ -116,12 +116,12 @@ def _run(source: Path, out: Path | None, format: str | None, *, json: bool, cite
 
 
 def _result_in(source: Path) -> Path:
-    """Return the result that a folder holds; another source as it is.
+    """Return the result that a folder holds; any other source unchanged.
 
     Raises
     ------
     UsageError
-        If the folder holds no result, or several.
+        If the folder does not hold exactly one result.
     """
     if not source.is_dir():
         return source
@@ -133,7 +133,7 @@ def _result_in(source: Path) -> Path:
 
 
 def _note_replaced(job: Job, folder: Path) -> None:
-    """Say that the folder holds the answer of another recipe, which is replaced."""
+    """Print a remark if the folder holds the answer of another recipe, which is replaced."""
     from roughcontact.recipe.written import carried, contact_in
 
     try:
@@ -145,21 +145,21 @@ def _note_replaced(job: Job, folder: Path) -> None:
 
 
 def _file(job: Job, folder: Path, ending: str = ".json") -> Path:
-    """Return the file in which the numbers of a job are written."""
+    """Return the file that holds the numbers of a job."""
     if job.NAME == "press" and ending == ".nc":
         return folder / "pressure.nc"
     return folder / f"{_STEMS[job.NAME]}{ending}"
 
 
 def _again(job: Job, folder: Path, ending: str, before: dict[str, Any]) -> dict[str, Any]:
-    """Return what a folder holds now of what a result held before: of a loop, two files end alike."""
+    """Return the new result in a folder, by the name of the old one: two files of a loop have the same ending."""
     paths = (_file(job, folder, ending), folder / f"loop{ending}")
     found = [_numbers(path) for path in paths if path.exists()]
     return max(found, key=lambda each: len(each.keys() & before.keys()))
 
 
 def _numbers(path: Path) -> dict[str, Any]:
-    """Return what a result holds, by names."""
+    """Return the contents of a result, by names."""
     if path.suffix.casefold() == ".json":
         found: dict[str, Any] = json_text.loads(path.read_text(encoding="utf-8"))
         return found
@@ -171,7 +171,7 @@ def _numbers(path: Path) -> dict[str, Any]:
 
 
 def _is_stored(job: Job, folder: Path) -> bool:
-    """Return whether a folder holds the whole answer of a job; that of a curve is completed where it is computed."""
+    """Return whether a folder holds the complete answer of a job; a curve is completed where it is computed."""
     from roughcontact.recipe.written import carried
 
     if job.NAME in ("surface", "curve"):
@@ -188,7 +188,7 @@ def _is_stored(job: Job, folder: Path) -> bool:
 
 
 def _tell(found: Sequence[Difference]) -> None:
-    """Say whether the numbers are the same."""
+    """Print whether the numbers are the same."""
     if not found:
         remark("same numbers")
         return

@@ -1,4 +1,4 @@
-"""How much memory a run will need, and a refusal before the machine comes to a halt."""
+"""The memory that a run needs, and an error if it exceeds the free memory."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _WORTH_SAYING = 1e9  # [bytes]
 
 
 def require_memory(need: int, shape: tuple[int, ...]) -> None:
-    """Say how much memory a big run takes, and refuse one beyond what is free.
+    """Print the memory of a large run; raise an error if it exceeds the free memory.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def require_memory(need: int, shape: tuple[int, ...]) -> None:
     Raises
     ------
     UsageError
-        If the run needs more than the machine has free.
+        If the run needs more than the free memory.
     """
     what = f"a grid of {' x '.join(str(n) for n in shape)} cells"
     require_free(need, what, "use fewer points", UsageError)

@@ -1,4 +1,4 @@
-"""Surfaces that a command writes: refused before the work, written whole, with a word on what the format leaves out."""
+"""Surfaces that a command writes: checked before the work, written whole, with a note on what the format loses."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ __all__ = ["answer_beside", "require_output", "save_surface"]
 
 _LEFT_OUT = {
     ".x3p": "keeps neither the history nor whether the surface repeats itself",
-    ".txt": "keeps the history for people only, and not whether the surface repeats itself",
-    ".npy": "keeps no history, and neither the unit (m) nor the size",
+    ".txt": "keeps the history as text only, and not whether the surface repeats itself",
+    ".npy": "keeps neither the history nor the unit (m) nor the size",
     ".vti": "is for ParaView: it keeps no history and is not read back",
 }
 
@@ -29,7 +29,7 @@ _LEFT_OUT = {
 def require_output(
     out: Path, source: Path | None = None, *, in_slabs: bool = False, as_json: bool = False
 ) -> None:
-    """Refuse what cannot be written before any work, and what must not be overwritten."""
+    """Raise an error, before the work, for a file that cannot be written or must not be overwritten."""
     from roughcontact.files.save import require_surface_file
 
     require_surface_file(out, in_slabs=in_slabs)
@@ -53,7 +53,7 @@ def save_surface(surface: Surface, out: Path) -> None:
     import roughcontact as rc
 
     if out.exists() and standard(out) is None:
-        remark(f"{out} was there before and is replaced")
+        remark(f"{out} exists and is replaced")
     rc.write(surface, out)
     kind = kind_of(out)
     if kind in _LEFT_OUT:
@@ -62,7 +62,7 @@ def save_surface(surface: Surface, out: Path) -> None:
 
 @contextmanager
 def answer_beside(out: Path | None) -> Iterator[None]:
-    """Print an answer on standard error where the surface goes to standard output; nowhere if quiet is asked for."""
+    """Print an answer, on standard error if the surface goes to standard output; then not with --quiet."""
     if out is None or standard(out) is None:
         yield
         return

@@ -1,4 +1,4 @@
-"""The command ``serve``: a page in the browser, on this machine alone."""
+"""The command ``serve``: a page in the browser, on this machine only."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def serve(
     file: Path | None = argument("Measured heights to begin with.", "[FILE]", None),
     *,
     port: int | None = option(
-        "Port of this machine (default: one that is free).", "8765", read=whole(1024, "a port", 65535)
+        "Port of this machine (default: a free one).", "8765", read=whole(1024, "a port", 65535)
     ),
-    browser: bool = option("Whether a browser is opened.", None, "--browser/--no-browser", default=True),
+    browser: bool = option("Whether to open a browser.", None, "--browser/--no-browser", default=True),
 ) -> None:
     """Open a page on this machine: drop a file, move the load, see the contact; every number also as a command."""
     with reported(file):
@@ -45,20 +45,20 @@ def serve(
         if file is not None and not file.is_file():
             raise UsageError(f"{file}: there is no such file")
         if file is not None:
-            channels(file)  # what cannot be read is refused before the page opens
+            channels(file)  # an unreadable file raises before the page opens
 
         def opened(address: str, once: str) -> None:
             typer.echo(address)
-            remark("the page is for this machine and the user who has this address; Ctrl-C ends it")
+            remark("only a user of this machine who has this address can open the page; Ctrl-C ends it")
             if browser:
-                # Beside the server: a browser that runs in the terminal comes back when it is left.
+                # In a thread: a browser that runs in the terminal returns only when it is closed.
                 threading.Thread(target=webbrowser.open, args=(once,), daemon=True).start()
 
         try:
             run(file, port or 0, opened)
         except KeyboardInterrupt:
-            remark("the page has ended; nothing is left of it")
+            remark("the page has ended and its files are removed")
         except OSError as error:
             raise UsageError(
-                f"port {port} cannot be had ({error.strerror})", "leave it out", place="--port"
+                f"port {port} is not available ({error.strerror})", "leave it out", place="--port"
             ) from error

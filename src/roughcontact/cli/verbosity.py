@@ -1,4 +1,4 @@
-"""How much a command says on standard error beside its answer."""
+"""The amount of output on standard error."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _QUIET = ContextVar("quiet", default=False)
 
 
 def is_quiet() -> bool:
-    """Return whether only what makes a number wrong is to be said."""
+    """Return whether only errors and notes on wrong numbers are printed."""
     return _QUIET.get()
 
 
 @contextmanager
 def quietly(wanted: bool) -> Iterator[None]:
-    """Leave out remarks in this block where it is `wanted`; notes and errors are printed all the same."""
+    """Leave out remarks in this block if `wanted`; notes and errors are still printed."""
     token = _QUIET.set(wanted)
     try:
         yield

@@ -148,7 +148,7 @@ def _of_input(solution: Solution) -> Iterator[Note]:
     if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := open_border(surface)):
         yield Note(
             Rank.DOUBTFUL,
-            f"The periodic map does not close: heights step by {step.height:.3g} m from one edge to the opposite one, "
-            f"{step.ratio:.2g} times as much as between neighbouring cells. If the surface does not repeat itself, "
+            f"The periodic map does not close: heights step by {written(step.height, 'm')} from one edge to the "
+            f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does not repeat itself, "
             "press it as free too and compare.",
         )

@@ -1,4 +1,4 @@
-"""The forms of a page: what is known of the fields of each part of a job, as plain values."""
+"""The forms of a page: descriptions of the fields of each part of a job, as plain values."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from roughcontact.recipe.theory_job import TheoryJob
 __all__ = ["forms", "label_of", "names_of_fields"]
 
 _LEFT_OUT = "file"  # it is dropped
-_SHOWN = Theories  # of the parts of an answer, the one that a page shows
+_SHOWN = Theories  # the only part of an answer with a form
 
 
 def forms() -> dict[str, Any]:
-    """Return the kinds of sources and the jobs by name, of each the forms of its parts; and what jobs are about.
+    """Return, by name, the forms of the parts of each kind of source and each job, and the titles of the jobs.
 
     A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
     (``at_most``) is given.
@@ -41,7 +41,7 @@ def forms() -> dict[str, Any]:
 
 
 def label_of(name: str) -> str:
-    """Return what a form calls a field."""
+    """Return the label of a field."""
     return name.replace("_", " ").replace("2", " 2").capitalize()
 
 
@@ -72,7 +72,7 @@ def _form(part: type[Any]) -> dict[str, Any]:
 
 
 def _field(each: Field[Any], spec: Spec, kind: Any) -> dict[str, Any]:
-    """Return what is known of a field; its kind is how it is filled in."""
+    """Return the description of a field; its kind selects the input element."""
     kinds = {bool: "flag", bool | None: "truth", tuple[str, ...]: "texts"}
     return {
         "name": each.name,

@@ -1,6 +1,6 @@
 """Messages of server, workers and page: a header in JSON, and bytes such as those of a map.
 
-Four bytes, least significant first, state the length of the header, four that of the bytes behind it.
+It begins with the lengths of header and data, four bytes each, least significant first.
 """
 
 from __future__ import annotations

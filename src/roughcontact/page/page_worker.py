@@ -1,6 +1,6 @@
 """The process that computes for a page: requests in on standard input, messages out on standard output.
 
-It ends with the server, whose end it sees at once on standard input.
+It ends with the server: standard input is closed then.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from roughcontact.progress.events import listening
 
 __all__ = ["main", "perform"]
 
-_SHARE = 0.75  # of the memory that is free when it starts
-_INTERVAL = 0.3  # seconds between two messages about how far a task is
+_SHARE = 0.75  # of the memory that is free at the start
+_INTERVAL = 0.3  # seconds between two messages on the progress of a task
 
 
 def main() -> None:
     """Compute until standard input ends."""
     requests: BinaryIO = os.fdopen(os.dup(0), "rb")
     answers: BinaryIO = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what foreign readers print is no answer
+    os.dup2(2, 1)  # output of third-party readers must not be taken for an answer
     stopping, inbox, cache = Stopping(), SimpleQueue[dict[str, Any]](), SessionCache()
     stopping.install()
     threading.Thread(target=_listen, args=(requests, stopping, inbox), daemon=True).start()
@@ -54,16 +54,16 @@ def main() -> None:
     with contextlib.suppress(BrokenPipeError):
         send({"type": "ready"})
         for _ in warming:
-            if not inbox.empty():  # who asks need not wait for the rest
+            if not inbox.empty():  # a request must not wait for the rest
                 break
         while True:
             perform(inbox.get(), cache, send, stopping)
 
 
 def perform(given: Mapping[str, Any], cache: SessionCache, send: Send, stopping: Stopping) -> None:
-    """Do what is asked, and send how it ended: done, stopped, refused with a reason, or a mistake of this program.
+    """Answer a request, and send its outcome: done, stopped, refused with a reason, or a defect of this program.
 
-    How far it is goes before, as messages of the type "progress".
+    Messages of the type "progress" are sent before it.
     """
     end: dict[str, Any] = {"type": "end", "how": "done"}
     try:
@@ -120,11 +120,11 @@ def _listen(requests: BinaryIO, stopping: Stopping, inbox: SimpleQueue[dict[str,
             stopping.stop(given["stop"])
         else:
             inbox.put(given)
-    os._exit(0)  # the server is gone, whatever is being computed
+    os._exit(0)  # the server has ended; a computation is dropped
 
 
 def _warm_up() -> Iterator[None]:
-    """Load, step by step, what requests take: modules, units, and the machine code of the solvers."""
+    """Load in steps what requests need: modules, units, and the machine code of the solvers."""
 
     def asked(job: str, points: str, **more: Any) -> dict[str, Any]:
         made = {"kind": "self-affine", "hurst": "0.8", "rms": "0.1um", "size": "0.5mm", "points": points}
@@ -150,8 +150,8 @@ def _unsent(header: Mapping[str, Any], data: bytes = b"") -> None:
 
 
 def _limit_memory() -> None:
-    """Let a file that asks for more memory than there is fail here, and not bring the machine to a halt."""
-    if sys.platform == "linux":  # elsewhere the address space says little
+    """Limit the memory of this process, so that a huge file raises an error rather than stopping the machine."""
+    if sys.platform == "linux":  # elsewhere the address space is a poor measure
         import resource
 
         import psutil

@@ -1,4 +1,4 @@
-"""Why a request was refused, in words for a page: what is wrong, what to do, and which of its fields it concerns."""
+"""Errors of requests in words for a page: the problem, the remedy, and the fields concerned."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from roughcontact.recipe.recipe_fields import specs
 
 __all__ = ["on_the_page", "refusal"]
 
-# Arguments of Python that no field has the name of.
+# Arguments of Python without a field of the same name.
 _ARGUMENTS = {
     "poisson_ratio": "Poisson",
     "young_modulus": "Young",
@@ -36,12 +36,12 @@ _NAME = re.compile(r"\b[a-z]+2?_[a-z_]+\b")
 
 
 def refusal(error: Exception) -> dict[str, Any]:
-    """Return how a request ended that raised an error: refused, or with a mistake of this program."""
+    """Return the outcome of a request that raised an error: refused, or a defect of this program."""
     found = correctable(error)
     if found is None:
         words = f"{type(error).__name__}: {error}"
         return {"how": "mistake", "message": f"This is a mistake in roughcontact, not in your input: {words}"}
-    if isinstance(error, OSError):  # its folder is the server's: the user knows the name alone
+    if isinstance(error, OSError):  # the folder belongs to the server: the user has only seen the name
         message = found.message.replace(str(found.place), f"the file {Path(str(found.place)).name}")
         return {"how": "refused", "message": _sentence(message)}
     faults = [_fault(each) for each in every(found)]
@@ -54,7 +54,7 @@ def refusal(error: Exception) -> dict[str, Any]:
 
 
 def on_the_page(text: str) -> str:
-    """Return what the library says, in the words of the page: its fields by their labels."""
+    """Return a message of the library in the words of the page, with the labels of its fields."""
     text = masks_named(text, "Mask ")
     text = _ASIDE.sub(lambda found: f" ({' and '.join(map(_option, _OPTION.findall(found[1])))})", text)
     text = _METHOD.sub(lambda found: "" if found[0].endswith("and ") else _step(found[1]), text)
@@ -67,7 +67,7 @@ def on_the_page(text: str) -> str:
 
 
 def _fault(error: InputError) -> dict[str, Any]:
-    """Return what is wrong with a value and what to do, in sentences, and its fields."""
+    """Return an error and its remedy in sentences, and the fields concerned."""
     places = [] if error.place is None else error.place.split(", ")
     message, remedy = error.message, error.remedy
     if isinstance(error, ReadError):
@@ -84,19 +84,19 @@ def _fault(error: InputError) -> dict[str, Any]:
 
 
 def _option(words: str) -> str:
-    """Return the label of the field of an option; the option where no form has it."""
+    """Return the label of the field of an option; the option itself if no form contains the field."""
     name = words.replace("-", "_")
     return label_of(name) if name in _names() else f"--{words}"
 
 
 def _argument(found: re.Match[str]) -> str:
-    """Return the label of the field that an argument of Python is."""
+    """Return the label of the field of an argument of Python."""
     name = found[2]
     return f"{'fill in ' if found[1] else ''}{label_of(name)} " if name in _names() else found[0]
 
 
 def _step(method: str) -> str:
-    """Return the label of the step that a method of surfaces is."""
+    """Return the label of the step of a method of surfaces."""
     labels = (label_of(each.name) for each, spec in specs(Preparation) if spec.step.method == method)
     return next(labels, f"{method}()")
 

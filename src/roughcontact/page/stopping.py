@@ -1,4 +1,4 @@
-"""How a computation is stopped from outside, between two lines of Python."""
+"""Stopping a computation from outside, between two lines of Python."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ __all__ = ["Stopped", "Stopping", "uninterrupted"]
 
 
 class Stopped(BaseException):
-    """The page no longer wants the answer; no ``except Exception`` on the way takes it for a failure."""
+    """Raised when the page no longer needs the answer; ``except Exception`` does not catch it."""
 
 
 @dataclass(slots=True)
 class Stopping:
-    """Which request is being worked on, and which one is no longer wanted.
+    """The running request, and the one that must stop.
 
-    One thread listens and calls `stop`, the main thread computes between `begin` and `end`. The exception is raised in
-    the main thread alone, and never while a message is written.
+    One thread listens and calls `stop`; the main thread computes between `begin` and `end`. The exception is only
+    raised in the main thread, and never while a message is written.
     """
 
     running: int | None = None
@@ -29,7 +29,7 @@ class Stopping:
     interruptible: bool = False
 
     def install(self) -> None:
-        """Take over the signal that interrupts a program."""
+        """Handle the signal that interrupts a program."""
         _installed[:] = [self]
         signal.signal(signal.SIGINT, self._interrupt)
         sys.unraisablehook = self._swallowed
@@ -40,7 +40,7 @@ class Stopping:
         self.check()
 
     def end(self) -> None:
-        """End it: from here on nothing is raised."""
+        """End the request: nothing is raised from now on."""
         self.interruptible, self.running = False, None
 
     def pause(self) -> None:
@@ -48,39 +48,39 @@ class Stopping:
         self.interruptible = False
 
     def go_on(self) -> None:
-        """Let the request be stopped again, at once if that was asked for meanwhile."""
+        """Allow stopping again; raise `Stopped` now if it was requested meanwhile."""
         self.interruptible = True
         self.check()
 
     def stop(self, number: int) -> None:
-        """Stop a request if it is being worked on, or as soon as it is begun."""
+        """Stop a request now if it is running, otherwise when it begins."""
         self.unwanted = number
         if self.running == number:
             _thread.interrupt_main()
 
     def check(self) -> None:
-        """Raise `Stopped` if the request is no longer wanted."""
+        """Raise `Stopped` if the request must stop."""
         if self.interruptible and self.running is not None and self.running == self.unwanted:
-            self.unwanted = None  # said once: what was computed so far may still be sent
+            self.unwanted = None  # raised once: results so far may still be sent
             raise Stopped
 
     def _interrupt(self, *_: object) -> None:
         self.check()
 
     def _swallowed(self, lost: sys.UnraisableHookArgs) -> None:
-        """Remember a stop that came while an object was taken apart, where Python lets nothing through."""
+        """Note a stop that came during the destruction of an object, where Python drops exceptions."""
         if isinstance(lost.exc_value, Stopped):
             self.unwanted = self.running
         else:
             sys.__unraisablehook__(lost)
 
 
-_installed: list[Stopping] = []  # that of this process, if it is a worker
+_installed: list[Stopping] = []  # the one of this process, if it is a worker
 
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Raise `Stopped` behind a block, and not in it."""
+    """Raise `Stopped` after a block instead of within it."""
     for stopping in _installed:
         stopping.pause()
     yield

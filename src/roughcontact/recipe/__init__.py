@@ -1,1 +1,1 @@
-"""A job as one value: what is pressed, how, by which loads, and what is asked of the contact."""
+"""A job as one value: the surface, the bodies, the loads, and the results to compute."""

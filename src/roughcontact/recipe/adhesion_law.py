@@ -1,4 +1,4 @@
-"""What attracts the two bodies across a gap."""
+"""The attraction of the two bodies across a gap."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from roughcontact.recipe.texts import Amount, Choice, Likely
 
 __all__ = ["AdhesionLaw", "Sticking"]
 
-LAWS = ("exponential", "dugdale")  # those of `adhesion.attraction`, which needs NumPy
+LAWS = ("exponential", "dugdale")  # those of `adhesion.attraction`, which imports NumPy
 _WORK = described(
-    "Work of adhesion: the energy that parts a unit area.",
+    "Work of adhesion: the energy that separates a unit area.",
     "50mJ/m^2",
     read=Likely(
         # Twice the surface energy of tungsten is 7 J/m^2.
@@ -32,7 +32,7 @@ _WORK = described(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sticking:
-    """The energy of sticking, by an attraction without a range."""
+    """The work of adhesion, for an attraction of zero range."""
 
     TITLE: ClassVar = "Adhesion"
     work: str = _WORK
@@ -48,20 +48,20 @@ class AdhesionLaw:
     TITLE: ClassVar = "Adhesion"
     work: str = _WORK
     range: str = described(
-        "Length over which the attraction falls with the gap; by Dugdale's law the gap up to which it acts.",
+        "Length over which the attraction decreases with the gap; for Dugdale's law the gap up to which it acts.",
         "20nm",
         read=Amount(LENGTH, "the range of the attraction"),
         default=...,
         everyday=True,
     )
     law: str = described(
-        "How the attraction falls with the gap.",
+        "Decrease of the attraction with the gap.",
         read=Choice(LAWS),
         default="exponential",
         everyday=True,
     )
     allow_unresolved: bool = described(
-        "Compute although the attraction varies from cell to cell beside a contact; answers are marked.",
+        "Compute even if the grid does not resolve the attraction beside a contact; the answer contains a note.",
         default=False,
     )
 

@@ -1,4 +1,4 @@
-"""Jobs of surfaces that attract each other."""
+"""Jobs of adhesive surfaces."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["AdhesiveCurveJob", "AdhesiveLoopJob", "AdhesivePressJob", "DetachJob
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Turn:
-    """The loop of a surface that sticks."""
+    """The loop of an adhesive surface."""
 
     TITLE: ClassVar = "Loads"
     depth: str = described(
@@ -34,7 +34,7 @@ class Turn:
         everyday=True,
     )
     points: str = described(
-        "Even steps in depth of the approach; the retreat has the same steps.",
+        "Number of equal steps in depth of the approach; the retreat has the same steps.",
         "N",
         read=whole(2, "the number of steps", 10_000),
         default="40",
@@ -47,7 +47,7 @@ class Turn:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesivePressJob:
-    """One state of surfaces that attract each other."""
+    """One state of adhesive surfaces."""
 
     NAME: ClassVar = "adhesion press"
     source: Source
@@ -72,7 +72,7 @@ class AdhesivePressJob:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesiveCurveJob:
-    """Loads of either sign on surfaces that attract each other."""
+    """Loads of either sign on adhesive surfaces."""
 
     NAME: ClassVar = "adhesion curve"
     source: Source
@@ -97,7 +97,7 @@ class AdhesiveCurveJob:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesiveLoopJob:
-    """An approach and a retreat of surfaces that attract each other."""
+    """An approach and a retreat of adhesive surfaces."""
 
     NAME: ClassVar = "adhesion loop"
     source: Source
@@ -119,7 +119,7 @@ class AdhesiveLoopJob:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DetachJob:
-    """A surface that was pressed, stuck, and is drawn back."""
+    """A surface that was pressed, has stuck, and is retracted."""
 
     NAME: ClassVar = "adhesion detach"
     source: Source
@@ -140,13 +140,13 @@ class DetachJob:
             first = retreat.get(f"{name}s", [value])[0]
             if first > value:
                 raise InputError(
-                    f"surfaces are drawn back from a {name} of {value:g}, and {first:g} is above it",
+                    f"the retreat begins at a {name} of {value:g}, and {first:g} is above it",
                     f"press to that {name}, or begin with {value:g} or less",
                     f"retreat.{name}s",
                 )
 
     def calls(self) -> Iterator[Call]:
-        """Yield the calls that press the surface and draw it back."""
+        """Yield the calls that press the surface and retract it."""
         load = self.load.named(self.contact.profile) | self.contact.named()
         yield pressed("rc.press", load, "solution", "load")
         given = (Name("solution"), value_of(self.adhesion, "work"))

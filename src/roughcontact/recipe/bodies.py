@@ -1,4 +1,4 @@
-"""The two bodies: their elastic constants, the hardness of the softer one, and what they conduct."""
+"""The two bodies: elastic constants, hardness of the softer body, resistivity and conductivity."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def _pair_of_materials(text: str) -> tuple[str, str]:
         )
     for name in names:
         if name.lower() != RIGID and known_material(name) is None:
-            raise InputError(f"{name!r} is no name", "give a number of yours as `young` or `modulus`")
+            raise InputError(f"{name!r} is not a name", "give a number of yours as `young` or `modulus`")
     one, other = map(str.lower, names)
     if one == other == RIGID:
         raise InputError("one of the two bodies must be elastic", "name a material, such as steel,rigid")
@@ -45,7 +45,7 @@ def _pair_of_materials(text: str) -> tuple[str, str]:
 
 
 def hardness_of(text: str) -> Call | float:
-    """Return a hardness [Pa], or the call that looks it up."""
+    """Return a hardness [Pa], or the call that returns that of a material."""
     if (material := known_material(text)) is not None:
         return Call("rc.handbook", (material.name,), attribute="hardness")
     return modulus("a hardness", HARDNESS)(text)
@@ -61,7 +61,7 @@ class Bodies:
         "Reduced modulus E*.", "110GPa", read=modulus("the reduced modulus"), everyday=True
     )
     materials: str | None = described(
-        f"Both bodies by name: {', '.join(METALS)}; or rigid for one of them.",
+        f"Names of both bodies: {', '.join(METALS)}; or rigid for one of them.",
         "steel,aluminium",
         read=_pair_of_materials,
         everyday=True,
@@ -72,7 +72,9 @@ class Bodies:
     young2: str | None = described(
         "Young's modulus of the other body (default: rigid).", "70GPa", read=_YOUNG, needs="young"
     )
-    poisson2: str | None = described("Poisson's ratio of the other.", "0.33", read=_POISSON, needs="young2")
+    poisson2: str | None = described(
+        "Poisson's ratio of the other body.", "0.33", read=_POISSON, needs="young2"
+    )
 
     def __post_init__(self) -> None:
         check(self)
@@ -83,7 +85,7 @@ class Bodies:
                 )
 
     def calls(self) -> Iterator[Call]:
-        """Yield the call that gives the reduced modulus, or the materials, whose hardness a contact is judged by."""
+        """Yield the call that returns the reduced modulus, or the materials with their hardness."""
         function = ""
         if self.modulus is not None:
             given: list[Any] = [value_of(self, "modulus")]
@@ -97,7 +99,7 @@ class Bodies:
 
     @property
     def softer(self) -> str | None:
-        """The name of the softer of two named materials; None where they are not named."""
+        """The name of the softer of two named materials; None if they are not named."""
         if self.materials is None:
             return None
         from roughcontact.materials import handbook
@@ -121,7 +123,7 @@ def _of_both(amount: Amount | Likely, name: str) -> Callable[[str], tuple[Call |
         parts = [part for part in text.split(",") if part.strip()]
         if len(parts) not in (1, 2):
             raise InputError(
-                f"{text!r} are {len(parts)} values, of two bodies",
+                f"{text!r} contains {len(parts)} values for two bodies",
                 f"give one for both or two, such as {kind.example},{kind.example}, or names such as steel,aluminium",
             )
         values: list[Call | float] = [
@@ -139,25 +141,25 @@ def _of_both(amount: Amount | Likely, name: str) -> Callable[[str], tuple[Call |
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conduction:
-    """How well the two bodies conduct."""
+    """Resistivity and conductivity of the two bodies."""
 
     TITLE: ClassVar = "Conduction"
     resistivity: str | None = described(
-        "Electrical resistivity of both bodies, or of one and the other, as numbers or names of materials such as "
-        "copper,gold: gives the resistance of the contact.",
+        "Electrical resistivity of both bodies, or two values for the two bodies: numbers or names of "
+        "materials such as copper,gold. The resistance of the contact is computed.",
         "17nohm*m[,...]",
         read=_of_both(_RESISTIVITY, "resistivity"),
         names=METALS,
     )
     conductivity: str | None = described(
-        "Thermal conductivity of both bodies, likewise.",
+        "Thermal conductivity of both bodies, in the same form.",
         "400W/m/K[,...]",
         read=_of_both(_CONDUCTIVITY, "conductivity"),
         names=METALS,
     )
     of: str = described(
-        "Conductance and resistance of the interface alone, per area, or the total of this patch between two "
-        "half-spaces, its spreading resistance included.",
+        "Conductance and resistance of the interface only, per area, or the total of this patch between two "
+        "half-spaces, including its spreading resistance.",
         read=Choice(("interface", "total")),
         default="interface",
     )
@@ -166,7 +168,7 @@ class Conduction:
         check(self)
 
     def named(self) -> dict[str, Any]:
-        """Return the arguments of `roughcontact.conductance` by name; none where nothing conducts."""
+        """Return the arguments of `roughcontact.conductance` by name; empty if none is given."""
         pairs = {
             "resistivities": value_of(self, "resistivity"),
             "conductivities": value_of(self, "conductivity"),

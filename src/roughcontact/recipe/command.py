@@ -1,4 +1,4 @@
-"""A recipe as the command that does it."""
+"""A recipe as the command for the same job."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def command_name(job: Job) -> str:
 
 
 def command_of(job: Job, recipe: str = "job.toml") -> str:
-    """Return the lines of a shell that do a job: a random map is written first.
+    """Return the lines of a shell for a job; a random map is written first.
 
-    A source that no option states is left to ``roughcontact run``, with the name of the file that holds the recipe.
+    For a source without options, the line is ``roughcontact run`` with the name of the recipe's file.
     """
     if isinstance(job.source, SpecifiedJoint):
         return _line(job.NAME, *_options(job))
@@ -66,7 +66,7 @@ def _options_of(part: Any) -> Iterator[str]:
             yield words_of(each.name, spec)[0 if value else 1]
             continue
         for text in value if isinstance(value, tuple) else (value,):
-            # Of a value that begins with a minus sign, the command would take the sign for that of an option.
+            # The command would take a value that begins with a minus sign for an option.
             yield from (
                 [f"{option_of(each.name)}={text}"] if text.startswith("-") else [option_of(each.name), text]
             )

@@ -1,4 +1,4 @@
-"""How heights are pressed, whatever the load."""
+"""The contact of heights, for any load."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ _TOLERANCE = "1e-8"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contact:
-    """How heights are pressed, and how well the conditions of contact must be met."""
+    """The model of a profile, and the tolerance of the contact conditions."""
 
     TITLE: ClassVar = "Contact"
     profile: str | None = described(
-        "A profile is pressed as a line contact, nothing changing across it (forces per length, such as 10N/mm), or "
-        "on a Winkler foundation, the springs of the method of dimensionality reduction. To be named: the two differ.",
+        "Model of a profile: line, a line contact that is uniform across the profile (forces per length, "
+        "such as 10N/mm), or winkler, the springs of the method of dimensionality reduction. Required for "
+        "profiles, because results differ.",
         read=Choice(("line", "winkler")),
         needs_whole=True,
     )
@@ -45,7 +46,7 @@ class Contact:
             )
 
     def named(self) -> dict[str, Any]:
-        """Return the arguments that state it, by name."""
+        """Return its arguments, by name."""
         found: dict[str, Any] = {} if self.profile is None else {"operator": Name("operator")}
         return found if self.tolerance == _TOLERANCE else found | {"tolerance": value_of(self, "tolerance")}
 

@@ -1,4 +1,4 @@
-"""Jobs without adhesion: heights, one load, rising loads or a loop of loads."""
+"""Jobs without adhesion: heights, one load, increasing loads or a loop of loads."""
 
 from __future__ import annotations
 
@@ -63,13 +63,13 @@ class PressJob:
             )
         if self.theories.theory and self.contact.profile:
             raise InputError(
-                "`theory` is about the pressures of a surface, not of a profile",
+                "`theory` predicts pressures of a surface, not of a profile",
                 "leave it out",
                 "theories.theory",
             )
 
     def loads(self) -> dict[str, Any]:
-        """Return the load in SI by name, or the two loads of a path where a larger one comes first."""
+        """Return the load in SI by name, or the two loads of a path if a larger one comes first."""
         with within("load"):
             given = self.load.named(self.contact.profile)
         [(name, load)] = given.items()
@@ -79,8 +79,8 @@ class PressJob:
             first = one_load(self.plastic.after, kinds_of(self.contact.profile)[name], "after")
             if first <= load:
                 raise InputError(
-                    f"`after` {self.plastic.after} is not larger than the {name}, so that nothing is unloaded",
-                    "leave it out, or exchange the two",
+                    f"`after` {self.plastic.after} is not larger than the {name}",
+                    "leave it out, or exchange the two loads",
                     "after",
                 )
         return {f"{name}s": [first, load]}
@@ -103,7 +103,7 @@ class PressJob:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CurveJob:
-    """Rising loads, or a loop of loads: stiffness, area and more against force or pressure."""
+    """Increasing loads, or a loop of loads: stiffness, area and more against force or pressure."""
 
     NAME: ClassVar = "curve"
     source: Source
@@ -133,25 +133,25 @@ class CurveJob:
             )
         if asked and self.loads.depths is not None:
             raise InputError(
-                f"`{asked}` goes by forces or pressures: the depth is what is found",
+                f"`{asked}` needs forces or pressures, because the depth is computed",
                 "give `forces`",
                 "loads.depths",
             )
         profile, conducts = self.contact.profile, bool(self.conduction.named())
         if conducts and profile == "line":
             raise InputError(
-                "a line contact has no conductance of its own, it depends on how far away the bodies end",
+                "the conductance of a line contact is undetermined: it depends on the size of the bodies",
                 "leave out `resistivity` and `conductivity`",
                 "conduction",
             )
         if conducts and profile == "winkler" and self.conduction.of == "interface":
             raise InputError(
-                "a Winkler foundation has a total conductance only", "give `of` total", "conduction.of"
+                "a Winkler foundation only has a total conductance", "give `of` total", "conduction.of"
             )
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
     def calls(self) -> Iterator[Call]:
-        """Yield the calls that follow the loads, and what is asked of the curve."""
+        """Yield the calls that follow the loads, and those that evaluate the curve."""
         loads = self.loads.named(self.contact.profile)
         flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
         named = {**loads, **_hardness(self), **flow, **self.contact.named()}
@@ -183,7 +183,7 @@ def _require_areas(job: PressJob | CurveJob) -> None:
         )
     if job.plastic.hardness is not None and profile == "winkler":
         raise InputError(
-            "`hardness` is a pressure, and springs bear forces per length only",
+            "`hardness` is a pressure, but springs have forces per length",
             "leave it out, or take `profile` line",
             "plastic.hardness",
         )
@@ -196,7 +196,7 @@ def _require_areas(job: PressJob | CurveJob) -> None:
 
 
 def _require_known(theories: Sequence[str], known: Mapping[str, Any]) -> None:
-    """Refuse theories that need a number which no surface shows, and which is not given."""
+    """Raise an error for theories that need a number that is not given and that a surface does not determine."""
     if not theories:
         return
     from roughcontact.theory.laws import LAWS  # late, with NumPy
@@ -205,7 +205,7 @@ def _require_known(theories: Sequence[str], known: Mapping[str, Any]) -> None:
         for name in theories:
             if need in LAWS[name].needs and need not in known:
                 raise InputError(
-                    f"`theory` {name} takes a {need}, which no surface shows",
+                    f"`theory` {name} needs a {need}, which cannot be measured on the surface",
                     f"give `{need}`, such as {example}",
                     f"{part}.{need}",
                 )

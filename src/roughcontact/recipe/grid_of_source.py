@@ -14,7 +14,7 @@ __all__ = ["PERIODIC", "POINTS", "SEED", "SIZE", "grid_call"]
 SIZE = described("Width (cells are square), or height x width.", "1mm", read=size, default=..., everyday=True)
 POINTS = described("Points a side, or rows x columns.", "512", read=points, default="512", everyday=True)
 SEED = described("Seed of the random phases.", "1", read=whole(0, "the seed"), default="1", everyday=True)
-PERIODIC = described("For a surface that repeats itself.", default=False, everyday=True)
+PERIODIC = described("Make a periodic surface, which repeats itself.", default=False, everyday=True)
 
 
 def grid_call(source: Any, *, line: bool) -> Call:
@@ -24,7 +24,7 @@ def grid_call(source: Any, *, line: bool) -> Call:
         if line and not is_one:
             with placed(name):
                 raise InputError(
-                    f"a profile has one length, and points along it, unlike {getattr(source, name)!r}",
+                    f"a profile has one length and one number of points, unlike {getattr(source, name)!r}",
                     "give one number",
                 )
     width = lengths[-1] / shape[1]

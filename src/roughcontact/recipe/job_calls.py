@@ -1,4 +1,4 @@
-"""A recipe as calls of the library: what is done and the Python that does it are one list."""
+"""A recipe as calls of the library: the same list is executed and printed as Python."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Name:
     name: str
 
     def value(self, known: Mapping[str, Any]) -> Any:
-        """Return what it stands for."""
+        """Return its value."""
         return _found(self.name, known)
 
     def __str__(self) -> str:
@@ -34,18 +34,18 @@ class Call:
     Parameters
     ----------
     function : str
-        What is called, from a module or a variable: ``"rc.read"``, ``"surface.levelled"``; empty where the first
+        The function, from a module or a variable: ``"rc.read"``, ``"surface.levelled"``; empty where the first
         argument is the result.
     given, named : tuple, dict
         Its arguments by place and by name: plain values, a `Name`, or a call whose result is the argument.
     result : str
-        The variable that takes what is returned; ``"*_, solution"`` takes the last of what is yielded.
+        The variable for the result; ``"*_, solution"`` takes the last value that is yielded.
     attribute : str
-        Of what is returned, the attribute that is wanted.
+        An attribute of the result to use in its place.
     place : str
-        Part and field of the recipe that ask for it, for errors.
+        Part and field of the recipe behind the call, for errors.
     doing : str
-        What it does, for whoever waits: ``"Levelling"``.
+        Its name in reports of progress: ``"Levelling"``.
     """
 
     function: str
@@ -57,13 +57,13 @@ class Call:
     doing: str = ""
 
     def value(self, known: Mapping[str, Any]) -> Any:
-        """Return what is returned, with the variables that are known."""
+        """Return the result of the function, from the variables `known`."""
         given, named = self.arguments(known)
         found = _found(self.function, known)(*given, **named) if self.function else given[0]
         return getattr(found, self.attribute) if self.attribute else found
 
     def arguments(self, known: Mapping[str, Any]) -> tuple[list[Any], dict[str, Any]]:
-        """Return the values of its arguments, by place and by name, with the variables that are known."""
+        """Return the values of its arguments, by place and by name, from the variables `known`."""
         given = [_value(each, known) for each in self.given]
         return given, {name: _value(each, known) for name, each in self.named.items()}
 
@@ -76,7 +76,7 @@ class Call:
 
 
 def perform(call: Call, known: dict[str, Any]) -> None:
-    """Make a call; its result is known from then on. An error of ours names its place in the recipe."""
+    """Make a call and store its result in `known`. An `InputError` gets the place in the recipe."""
     try:
         found = call.value(known)
         if call.result.startswith("*_, "):
@@ -88,16 +88,16 @@ def perform(call: Call, known: dict[str, Any]) -> None:
 
 
 def _place(call: Call, place: str | None) -> str | None:
-    """Return the fields of a recipe that an error in a call concerns: those of its arguments, where they are fields."""
+    """Return the fields of a recipe that an error in a call concerns: its arguments, if these are fields."""
     part, _, field = call.place.partition(".")
     names = place.split(", ") if place else []
-    if field:  # a step: of its arguments those by name are fields
+    if field:  # a step: only its arguments by name are fields
         names = [name for name in names if name in call.named]
     return ", ".join(f"{part}.{name}" for name in names) or call.place
 
 
 def performed(calls: Iterable[Call], known: dict[str, Any]) -> dict[str, Any]:
-    """Return what is known, with the results of some calls that were made in order."""
+    """Make calls in order, and return all variables."""
     known = dict(known)
     for call in calls:
         perform(call, known)
@@ -114,7 +114,7 @@ def python_of(calls: Iterable[Call]) -> str:
 
 
 def written(value: Any) -> str:
-    """Return a value as Python writes it."""
+    """Return a value as Python source."""
     if isinstance(value, Call | Name):
         return str(value)
     if isinstance(value, slice):

@@ -1,4 +1,4 @@
-"""The jobs by name, and the calls that do one."""
+"""The jobs by name, and the calls of a job."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ JOBS: Mapping[str, type[Any]] = {
 
 
 def surface_calls(job: Job) -> list[Call]:
-    """Return the calls that read or make the surface of a job, and prepare it; none where theories are all of it.
+    """Return the calls that read or make the surface of a job, and prepare it; none for theories without a surface.
 
     Raises
     ------
     InputError
-        If the source has no such surface: an example has no profile, heights made in Python are not made again.
+        If the source cannot be used: an example as a profile, or heights that were made in Python.
     """
     if isinstance(job, TheoryJob):
         return []
@@ -65,13 +65,13 @@ def is_of_profile(job: Job) -> bool:
 
 
 def calls_of(job: Job) -> Iterator[Call]:
-    """Yield the calls that do a job, from the file to the answer."""
+    """Yield the calls of a job, from the file to the answer."""
     yield from surface_calls(job)
     yield from contact_calls(job)
 
 
 def contact_calls(job: Job) -> Iterator[Call]:
-    """Yield the calls that press the prepared surface; none where heights are all that is asked for."""
+    """Yield the calls that press the prepared surface; none if a job only prepares heights."""
     if isinstance(job, TheoryJob):
         yield from job.calls()
     elif not isinstance(job, SurfaceJob):
@@ -82,7 +82,7 @@ def contact_calls(job: Job) -> Iterator[Call]:
 
 def known_names() -> dict[str, Any]:
     """Return the modules that calls begin with."""
-    # By name, as calls are made: the package opens studies, and these do jobs.
+    # By name: an import would be circular, because the package imports studies, which use jobs.
     return {
         "rc": import_module("roughcontact"),
         "np": import_module("numpy"),
@@ -90,8 +90,8 @@ def known_names() -> dict[str, Any]:
 
 
 def _default_level(job: JobOfHeights) -> str:
-    """Return how the heights of a job are levelled where nothing is said."""
+    """Return the default levelling of the heights of a job."""
     if isinstance(job, SurfaceJob) or isinstance(job.source, SmoothBody):
         return "none"
-    # A measured map that the user, not the file, takes for periodic may be tilted.
+    # A measured map that is periodic by an option rather than by its file may be tilted.
     return "plane" if isinstance(job.source, File) and job.source.periodic else "auto"

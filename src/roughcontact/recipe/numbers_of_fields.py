@@ -16,7 +16,7 @@ __all__ = ["number_at", "number_reader"]
 
 
 def number_at(job: Job, name: str) -> tuple[Any, str | None]:
-    """Return the value of a field with its unit in SI; of one that holds no number the text, without a unit.
+    """Return the value of a field with its unit in SI; if it is not a number, the text without a unit.
 
     Raises
     ------
@@ -32,7 +32,7 @@ def number_at(job: Job, name: str) -> tuple[Any, str | None]:
     if spec is None or is_dataclass(text):
         raise AttributeError(name)
     value, kind = value_of(part, last), getattr(spec.read, "kind", None)
-    if isinstance(value, str) and hasattr(part, "named"):  # loads: what a force is depends on the profile
+    if isinstance(value, str) and hasattr(part, "named"):  # loads: the unit of a force depends on the profile
         profile = job.contact.profile  # type: ignore[union-attr]
         kind = kinds_of(profile).get(last)
         value = value if kind is None else part.named(profile)[last]
@@ -45,7 +45,7 @@ def number_at(job: Job, name: str) -> tuple[Any, str | None]:
 
 
 def number_reader(plain: Mapping[str, Any], name: str) -> Callable[[Any], Any]:
-    """Return what turns the text of a field of a recipe in plain values into its number in SI.
+    """Return the function that converts the text of a field into its number in SI.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What is asked of a contact beside its numbers: theories, errors, tables for other programs, units."""
+"""Outputs beside the numbers of a contact: theories, errors, tables for other programs, units."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = [
     "Units",
 ]
 
-# Those of `theory.laws`, which needs NumPy: the help and the completion of options do not wait for it.
+# Those of `theory.laws`, which imports NumPy: help and completion must be fast.
 THEORIES = (
     *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
     *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
@@ -38,24 +38,24 @@ class Theories:
 
     TITLE: ClassVar = "Theories"
     theory: str | None = described(
-        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface, "
-        "and say which.",
+        f"Theories to overlay on the curve: {', '.join(THEORIES)}. They take spectrum and moments from the surface; "
+        "these numbers are printed.",
         "persson,gw,...",
         read=Names("theory", THEORIES),
         needs_whole=True,
         everyday=True,
     )
     hurst: str | None = described(
-        "Hurst exponent, for theories (default: fitted).",
+        "Hurst exponent for theories (default: fitted to the spectrum).",
         "0.8",
         read=PureNumber(-1, 3, "the Hurst exponent", "0.8"),
         needs="theory",
     )
     rolloff: str | None = described(
-        "Roll-off wavelength, for finite-size.", "20um", read=_LENGTH, needs="theory"
+        "Roll-off wavelength for the theory finite-size.", "20um", read=_LENGTH, needs="theory"
     )
     radius: str | None = described(
-        "Radius of curvature, for hertz and rough-sphere.", "5mm", read=_LENGTH, needs="theory"
+        "Radius of curvature for the theories hertz and rough-sphere.", "5mm", read=_LENGTH, needs="theory"
     )
 
     def __post_init__(self) -> None:
@@ -66,18 +66,18 @@ class Theories:
         return value_of(self, "theory") or ()
 
     def known(self) -> dict[str, float]:
-        """Return what the user knows better than the surface."""
+        """Return the numbers that the user gives in place of those of the surface."""
         found = {name: value_of(self, name) for name in ("hurst", "rolloff", "radius")}
         return {name: value for name, value in found.items() if value is not None}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PressureTheory:
-    """A theory beside one load."""
+    """A theory for one load."""
 
     TITLE: ClassVar = "Theories"
     theory: str | None = described(
-        "Draw the distribution of the pressure beside that of a theory.",
+        "Draw the distribution of pressure together with that of a theory.",
         read=Choice(("persson",)),
         needs_whole=True,
     )
@@ -88,12 +88,12 @@ class PressureTheory:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Errors:
-    """Errors of the numbers, and what the instrument records."""
+    """Errors of the numbers, and the bandwidth of the instrument."""
 
     TITLE: ClassVar = "Errors"
     errors: bool = described(
-        "An error on every number, and what it is made of: half as many cells, no short waves, other levelling, other "
-        "maps. As long as three or four loads more; of a curve at its first and last resolved load.",
+        "Estimate the error of every number and its sources: half the cells, no short waves, other levelling, other "
+        "maps. This takes as long as three or four more loads. For a curve: at its first and last resolved load.",
         default=False,
         needs_whole=True,
     )
@@ -114,14 +114,14 @@ class InterfaceTables:
 
     TITLE: ClassVar = "Tables"
     table: str | None = described(
-        "Pressure, stiffness and area against gap, per nominal area, for other programs: csv, abaqus (SI), abaqus-mm "
-        "(mm, N, MPa), lammps.",
+        "Write tables of pressure, stiffness and area against gap, per nominal area, for other programs: "
+        "csv, abaqus (SI), abaqus-mm (mm, N, MPa), lammps.",
         "abaqus,lammps,...",
         read=Names("table", TABLES),
         needs_whole=True,
     )
     table_area: str | None = described(
-        "Nominal area that the forces of a table for LAMMPS are for (default: that of the map).",
+        "Nominal area for the forces in a table for LAMMPS (default: area of the map).",
         "1mm^2",
         read=Amount(AREA),
         needs="table",
@@ -131,7 +131,9 @@ class InterfaceTables:
         check(self)
         if self.table_area is not None and "lammps" not in self.names():
             raise InputError(
-                "`table_area` is for the table lammps: the others are per area", "leave it out", "table_area"
+                "`table_area` is for the table lammps: all other tables are per area",
+                "leave it out",
+                "table_area",
             )
 
     def names(self) -> tuple[str, ...]:
@@ -140,11 +142,11 @@ class InterfaceTables:
 
 
 def _unit(kind: Kind) -> Callable[[str], float]:
-    """Return a reader of units of a kind: how many SI units one is."""
+    """Return a reader of units of a kind, which returns their value in SI."""
     example = kind.example.lstrip("0123456789")
 
     def read(text: str) -> float:
-        refusal = InputError(f"{text!r} is no unit of {kind.name}", f"give one such as {example}")
+        refusal = InputError(f"{text!r} is not a unit of {kind.name}", f"give one such as {example}")
         if not text.strip():
             raise refusal
         try:
@@ -157,17 +159,17 @@ def _unit(kind: Kind) -> Callable[[str], float]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Units:
-    """Units of the numbers per area: those that are printed, and those of a curve in its picture, CSV and NetCDF."""
+    """Units of numbers per area: in print, and in picture, CSV and NetCDF of a curve."""
 
     TITLE: ClassVar = "Units"
     unit_stiffness: str | None = described(
-        "Unit of the interfacial stiffness per area K/A0 where it is printed, and of a curve in picture, CSV and "
-        "NetCDF (default: N/um/mm^2, in CSV and NetCDF Pa/m).",
+        "Unit of the interfacial stiffness per area K/A0 in print, and in picture, CSV and NetCDF of a curve "
+        "(default: N/um/mm^2, in CSV and NetCDF Pa/m).",
         "N/um/mm^2",
         read=_unit(STIFFNESS_PER_AREA),
     )
     unit_pressure: str | None = described(
-        "Unit of the nominal pressure, likewise (default: one that suits, in CSV and NetCDF Pa).",
+        "Unit of the nominal pressure in the same places (default: with a suitable prefix, in CSV and NetCDF Pa).",
         "MPa",
         read=_unit(PRESSURE),
     )
@@ -177,4 +179,4 @@ class Units:
 
 
 OUTPUTS = (Errors, PressureTheory, InterfaceTables, Theories, Units)
-"""The parts of a job that say what is shown beside its numbers: no state depends on them."""
+"""The parts of a job for its output: no state depends on them."""

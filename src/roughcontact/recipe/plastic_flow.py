@@ -1,4 +1,4 @@
-"""What flows under a hardness, and the larger load or the loop that leaves it behind."""
+"""Plastic flow under a hardness: where the material goes, and the larger load or loop before the answer."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from roughcontact.recipe.texts import METALS, Choice
 __all__ = ["AfterLoad", "LoopOfLoads", "yields_at"]
 
 _HARDNESS = described(
-    "Largest pressure of a cell: there the softer body is perfectly plastic. Or the name of its material.",
+    "Hardness of the softer body: the largest pressure of a cell, or the name of the material.",
     "2GPa",
     read=hardness_of,
     names=METALS,
 )
 _FLOW = described(
-    "Under a hardness, where material that flows goes: it vanishes, or raises the whole surface, its volume conserved "
-    "(default: removed).",
+    "Where the plastically displaced material goes: it is removed, or it raises the whole surface so that volume is "
+    "conserved (default: removed).",
     read=Choice(("removed", "raised")),
     needs_whole=True,
 )
@@ -29,13 +29,13 @@ _FLOW = described(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AfterLoad:
-    """A hardness, and a larger load before the load."""
+    """A hardness, and a larger load before the given one."""
 
     TITLE: ClassVar = "Plastic flow"
     hardness: str | None = _HARDNESS
     after: str | None = described(
-        "Press by this load first, of the same kind as the load, and unload from there: what has flowed stays. Takes a "
-        "hardness, or both materials.",
+        "First press by this larger load of the same kind, then unload; plastic flow stays. Needs a hardness, or both "
+        "materials.",
         "100N",
         needs_whole=True,
     )
@@ -47,13 +47,13 @@ class AfterLoad:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoopOfLoads:
-    """A hardness, and whether the loads go down and up again."""
+    """A hardness, and whether unloading and reloading follow."""
 
     TITLE: ClassVar = "Plastic flow"
     hardness: str | None = _HARDNESS
     loop: bool = described(
-        "Press for the first time, unload and press again: depth and stiffness of all three, and the flattened "
-        "surface. Takes a hardness, or both materials.",
+        "Load, unload and reload: depth and stiffness of all three branches, and the flattened surface. Needs a "
+        "hardness, or both materials.",
         default=False,
         needs_whole=True,
     )
@@ -64,18 +64,18 @@ class LoopOfLoads:
 
 
 def yields_at(bodies: Bodies, plastic: AfterLoad | LoopOfLoads) -> Call | float | None:
-    """Return the hardness [Pa]: the one that is given, or that of the softer material where something is to flow.
+    """Return the given hardness [Pa], or that of the softer material if the job needs one.
 
     Raises
     ------
     InputError
-        If something is to flow, and no hardness is known.
+        If the job needs a hardness, and none is known.
     """
     asked = next((name for name in ("after", "loop", "flow") if getattr(plastic, name, None)), None)
     text = plastic.hardness or (bodies.softer if asked else None)
     if text is None and asked:
         raise InputError(
-            f"`{asked}` is about what flows under a hardness, which is not given",
+            f"`{asked}` needs a hardness, which is not given",
             "give `hardness`, or both bodies as `materials`",
             "plastic.hardness",
         )

@@ -1,4 +1,4 @@
-"""From heights as they were measured to heights that are pressed: steps, in the order in which they are taken."""
+"""The preparation of measured heights before they are pressed: steps in their order."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 
 __all__ = ["Preparation", "Step", "masks_named"]
 
-_MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in what the library says
+_MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in messages of the library
 _REGIONS = ("above", "below", "box", "ellipse")
-_BLUNTEST = 0.1  # radius of a tip [m]: no tip is larger, and most likely a unit was forgotten
+_BLUNTEST = 0.1  # radius of a tip [m]: for a larger value most likely the unit is missing
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What the value of a field is to a method of `roughcontact.Surface`.
+    """The use of a field as an argument of a method of `roughcontact.Surface`.
 
     Parameters
     ----------
     method : str
         The method. Fields of the same method, one after the other, are the arguments of one call.
     doing : str
-        What it does, for whoever waits.
+        The name of the step in reports of progress.
     named : str or None
-        The name of the argument; None where it is given by its place.
+        The name of the argument; None if it is given by its place.
     flag : Any
-        What a flag stands for as an argument; None where it asks for the call alone.
+        The argument for a flag; None if the call has no argument for it.
     """
 
     method: str
@@ -42,7 +42,7 @@ class Step:
     flag: Any = None
 
     def call(self, name: str, value: Any) -> Call:
-        """Return the call of the step of a field that has a value."""
+        """Return the call of a step whose field has a value."""
         value = self.flag if value is True else value
         given = () if value is None or self.named else value if isinstance(value, tuple) else (value,)
         named = {self.named: value} if self.named else {}
@@ -50,16 +50,16 @@ class Step:
 
 
 def masks_named(text: str, name: str) -> str:
-    """Return a text of the library with each call that masks heights as the field is given, `name` before it."""
+    """Return a text of the library in which each call of `masked` is written as the field, after `name`."""
     return _MASKED.sub(lambda call: f"{name}{call[1]}={float(call[2]) * 1e6:.6g}um", text)
 
 
 def _mask(text: str) -> dict[str, Any]:
-    """Return the region that a text states, as arguments of `roughcontact.Surface.masked`."""
+    """Return the region in a text, as arguments of `roughcontact.Surface.masked`."""
     found = re.fullmatch(rf"\s*(outside-)?({'|'.join(_REGIONS)})\s*=(.+)", text)
     if found is None:
         raise InputError(
-            f"{text!r} is no region", "write above=3um, below=-3um, box=0:9,10:30 or ellipse=0:9,10:30"
+            f"{text!r} is not a region", "write above=3um, below=-3um, box=0:9,10:30 or ellipse=0:9,10:30"
         )
     kind, value = found[2], found[3]
     region: Any = Amount(LENGTH, positive=False)(value) if kind in ("above", "below") else ranges(value)
@@ -67,18 +67,20 @@ def _mask(text: str) -> dict[str, Any]:
 
 
 def _form(text: str) -> int | str:
-    """Return the form that a text names: a degree, or a word."""
+    """Return the form in a text: a degree, or a word."""
     if text in ("sphere", "cylinder"):
         return text
     if re.fullmatch(r"\d{1,2}", text, re.ASCII) is None or int(text) > 12:
-        raise InputError(f"{text!r} is no form", "write a degree from 0 to 12, sphere or cylinder")
+        raise InputError(f"{text!r} is not a form", "write a degree from 0 to 12, sphere or cylinder")
     return int(text)
 
 
 def _tip(text: str) -> float:
     radius = Amount(LENGTH, "the radius of a tip")(text)
     if radius >= _BLUNTEST:
-        raise InputError(f"a radius of {radius:g} m is no tip", "write it with its unit, such as 2um")
+        raise InputError(
+            f"a radius of {radius:g} m is too large for a tip", "write it with its unit, such as 2um"
+        )
     return radius
 
 
@@ -90,28 +92,28 @@ def _step(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Preparation:
-    """The steps. A step that is left out is not taken, but for levelling before a surface is pressed."""
+    """The steps. Steps that are left out are skipped, except levelling before a surface is pressed."""
 
     TITLE: ClassVar = "Preparation, in this order"
     crop: str | None = _step(
-        "Keep these rows and columns, counted from 0 at the top left (of a profile 0:512).",
+        "Keep these rows and columns, counted from 0 at the top left (for a profile 0:512).",
         "0:40,5:45",
         "cropped",
         "Cropping",
         read=ranges,
     )
     despike: str | None = _step(
-        "Spikes and streaks, cells far out of all around them: to missing points, or filled smoothly.",
+        "Remove spikes and streaks, cells far from all their neighbours: mark them as missing, or fill them smoothly.",
         None,
         "despiked",
-        "Looking for spikes",
+        "Searching for spikes",
         read=Choice(("missing", "filled")),
         everyday=True,
     )
     mask: tuple[str, ...] = _step(
-        "Take a region out, to missing points: heights beyond above=3um or below=-3um, which are counted when the form "
-        "is gone; box= or ellipse= of rows,columns, such as box=0:9,10:30. outside- in front takes out all but the "
-        "region. May be given again.",
+        "Mark a region as missing: heights above=3um or below=-3um, measured after the form is removed; or box= or "
+        "ellipse= of rows,columns, such as box=0:9,10:30. With outside- in front, everything except the region is "
+        "marked. May be repeated.",
         "above=3um",
         "masked",
         "Masking",
@@ -120,15 +122,15 @@ class Preparation:
         default=(),
     )
     align: str | None = _step(
-        "Bring the median height of each scan line to that of the map: lines that an AFM shifted against each other.",
+        "Align scan lines that an AFM shifted against each other: each gets the median height of the map.",
         None,
         "aligned",
         "Aligning scan lines",
         read=Choice(("rows", "columns")),
     )
     level: str | None = _step(
-        "Remove the mean height, or a least-squares plane or quadratic (before a surface is pressed: a plane; of one "
-        "whose file says that it repeats itself, the mean).",
+        "Remove the mean height, or a least-squares plane or quadratic (default before pressing: a plane; for a file "
+        "marked as periodic the mean).",
         None,
         "levelled",
         "Levelling",
@@ -144,10 +146,10 @@ class Preparation:
         read=_form,
     )
     fill: bool = _step(
-        "Fill missing points smoothly; else they stay missing.", None, "filled", "Filling", default=False
+        "Fill missing points smoothly; otherwise they stay missing.", None, "filled", "Filling", default=False
     )
     tip: str | None = _step(
-        "What a tip of this radius records; a large one takes long.",
+        "Simulate the scan of a tip of this radius; large tips take long.",
         "2um",
         "scanned",
         "Scanning by the tip",
@@ -191,7 +193,7 @@ class Preparation:
         read=whole(1, "the number of cells"),
     )
     alias: bool = _step(
-        "Keep every K-th row and column without that filter.",
+        "Keep every K-th row and column without filtering first.",
         None,
         "downsampled",
         "",
@@ -208,7 +210,7 @@ class Preparation:
         read=Choice(("hann", "welch", "tukey")),
     )
     share: str | None = _step(
-        "Part of the length that a Tukey window tapers (default: 0.25).",
+        "Share of the length that a Tukey window tapers (default: 0.25).",
         "0.25",
         "tapered",
         read=PureNumber(0, 1, "the tapered part of the length", "0.25"),
@@ -221,7 +223,7 @@ class Preparation:
             raise InputError("`share` belongs to a Tukey window", "give `window` tukey", "share")
 
     def calls(self, level: str = "none") -> Iterator[Call]:
-        """Yield the steps that are taken; without a word on it the heights are levelled by `level`."""
+        """Yield the calls of the steps; `level` is the default of the field of this name."""
         found: list[Call] = []
         regions: list[dict[str, Any]] = value_of(self, "mask")
         heights = [region for region in regions if region.keys() & {"above", "below"}]
@@ -233,7 +235,7 @@ class Preparation:
                 value = level
             if each.name != "mask" and value not in (None, False, "none"):
                 call = spec.step.call(each.name, value)
-                if found and found[-1].function == call.function:  # an argument more
+                if found and found[-1].function == call.function:  # one more argument
                     before = found.pop()
                     call = replace(
                         before, given=before.given + call.given, named={**before.named, **call.named}

@@ -1,4 +1,4 @@
-"""By what a surface is pressed: one load, rising loads, or loads up and down."""
+"""The loads on a surface: one load, increasing loads, or loads up and down."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ __all__ = [
 
 
 def kinds_of(profile: str | None) -> dict[str, Kind]:
-    """Return what a force, a pressure, a depth and a mean gap are, by their names.
+    """Return the kinds of force, pressure, depth and mean gap, by their names.
 
-    On a line forces are per unit length across it; the springs of a foundation bear a force, and a force per length.
+    Forces of a line contact are per unit length across the profile. On springs, the force is a force, and the
+    pressure a force per length.
     """
     kinds = {"force": FORCE, "pressure": PRESSURE, "depth": LENGTH, "mean_gap": LENGTH}
     if profile == "line":
@@ -41,13 +42,13 @@ def _of(part: Any) -> tuple[str, str] | None:
 
 
 def one_load(text: str, kind: Kind, name: str) -> float:
-    """Return one load in SI: a force or pressure above 0, a depth from 0 on."""
+    """Return one load in SI: a force or pressure above 0, a depth of at least 0."""
     if kind is LENGTH:
         with placed(name):
             value = Amount(kind, positive=False)(text)
             if value < 0:
                 raise InputError(
-                    f"the depth counts from first touch, and {text!r} is below it", "give 0 or more"
+                    f"the depth is measured from first touch, and {text!r} is negative", "give 0 or more"
                 )
             return value
     with placed(name):
@@ -75,26 +76,26 @@ class OneLoad:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RisingLoads:
-    """Rising loads; without any, forces that suit the surface are found by a search."""
+    """Increasing loads; by default, a search finds forces that suit the surface."""
 
     TITLE: ClassVar = "Loads (at most one of them)"
     AT_MOST: ClassVar = ("forces", "pressures", "depths")
     forces: str | None = described(
-        "Normal forces: from:to:count, evenly spaced in the logarithm, or a comma list "
-        "(default, if no loads are named: 24 forces that suit the surface, found by a search).",
+        "Normal forces: from:to:count with equal ratios, or a comma list "
+        "(default, if no loads are given: a search finds 24 forces that suit the surface).",
         "1N:100N:30",
         everyday=True,
     )
-    pressures: str | None = described("Nominal pressures, likewise.", "1kPa:1MPa:100", everyday=True)
+    pressures: str | None = described("Nominal pressures, in the same form.", "1kPa:1MPa:100", everyday=True)
     depths: str | None = described(
-        "Indentation depths since first touch, likewise.", "1nm:1um:100", everyday=True
+        "Indentation depths since first touch, in the same form.", "1nm:1um:100", everyday=True
     )
 
     def __post_init__(self) -> None:
         check(self)
 
     def named(self, profile: str | None) -> dict[str, Call | list[float]]:
-        """Return the loads in SI, by the name of their argument; none where they are to be found."""
+        """Return the loads in SI, by the name of their argument; empty if a search must find them."""
         if (found := _of(self)) is None:
             return {}
         name, text = found
@@ -104,12 +105,12 @@ class RisingLoads:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesiveLoad:
-    """One load of surfaces that attract each other."""
+    """One load of adhesive surfaces."""
 
     TITLE: ClassVar = OneLoad.TITLE
     ONE_OF: ClassVar = ("force", "pressure", "depth", "mean_gap")
     force: str | None = described("Normal force, 0 or more.", "10mN", everyday=True)
-    pressure: str | None = described("Nominal pressure, 0 or more: force over area.", "1kPa", everyday=True)
+    pressure: str | None = described("Nominal pressure (force over area), 0 or more.", "1kPa", everyday=True)
     depth: str | None = described(
         "Indentation depth: approach since first touch; negative where the undeformed surfaces are apart.",
         "-2nm",
@@ -127,7 +128,7 @@ class AdhesiveLoad:
             value = Amount(kinds_of(profile)[name], "the mean gap", positive=name == "mean_gap")(text)
             if name in ("force", "pressure") and value < 0:
                 raise InputError(
-                    f"{text} pulls, and one state is the end of an approach: a tension needs a retreat",
+                    f"{text} is a tension, which needs a retreat, but one state is the end of an approach",
                     f"compute an adhesion curve with `{name}s` 0,{text}",
                 )
         return {name: value}
@@ -135,7 +136,7 @@ class AdhesiveLoad:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesiveLoads:
-    """Loads of surfaces that attract each other, of either sign, up and down."""
+    """Loads of adhesive surfaces, of either sign, up and down."""
 
     TITLE: ClassVar = "Loads (one of them)"
     ONE_OF: ClassVar = ("depths", "forces", "pressures", "mean_gaps")
@@ -146,11 +147,13 @@ class AdhesiveLoads:
         everyday=True,
     )
     forces: str | None = described(
-        "Normal forces, likewise; the first is 0 or more.", "0N,1mN,-1mN", everyday=True
+        "Normal forces, in the same form; the first is 0 or more.", "0N,1mN,-1mN", everyday=True
     )
-    pressures: str | None = described("Nominal pressures, likewise.", "0Pa,1kPa,-1kPa", everyday=True)
+    pressures: str | None = described(
+        "Nominal pressures, in the same form; the first is 0 or more.", "0Pa,1kPa,-1kPa", everyday=True
+    )
     mean_gaps: str | None = described(
-        "Mean gaps, on a periodic map without missing points, likewise.", "100nm:20nm:9"
+        "Mean gaps, on a periodic map without missing points, in the same form.", "100nm:20nm:9"
     )
 
     def __post_init__(self) -> None:
@@ -163,8 +166,8 @@ class AdhesiveLoads:
         with placed(name):
             if name in ("forces", "pressures") and loads[0] < 0:
                 raise InputError(
-                    f"a path begins with the bodies drawing near, not with the tension {loads[0]:g}",
-                    "begin with 0, and let the tension follow",
+                    f"a path begins with an approach, not with the tension {loads[0]:g}",
+                    "begin with 0, followed by the tension",
                 )
             if name == "mean_gaps" and min(loads) <= 0:
                 raise InputError(
@@ -176,30 +179,34 @@ class AdhesiveLoads:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FallingLoads:
-    """Loads on the way back from a larger one; without any, until no cell is in contact."""
+    """Loads of the retreat from a larger load; by default, it ends when no cell is in contact."""
 
     TITLE: ClassVar = "Retreat (at most one of them)"
     AT_MOST: ClassVar = ("depths", "forces", "pressures")
     depths: str | None = described(
-        "Falling indentation depths, of either sign: a comma list of values and of ranges from:to:count, evenly "
+        "Decreasing indentation depths, of either sign: a comma list of values and of ranges from:to:count, evenly "
         "spaced (default: until no cell is in contact).",
         "50nm:-50nm:11",
         everyday=True,
     )
-    forces: str | None = described("Falling normal forces, likewise.", "1mN,0N,-1mN", everyday=True)
-    pressures: str | None = described("Falling nominal pressures, likewise.", "1kPa,0Pa,-1kPa", everyday=True)
+    forces: str | None = described(
+        "Decreasing normal forces, in the same form.", "1mN,0N,-1mN", everyday=True
+    )
+    pressures: str | None = described(
+        "Decreasing nominal pressures, in the same form.", "1kPa,0Pa,-1kPa", everyday=True
+    )
 
     def __post_init__(self) -> None:
         check(self)
 
     def named(self, profile: str | None) -> dict[str, list[float]]:
-        """Return the loads in SI, by the name of their argument; none where they were left out."""
+        """Return the loads in SI, by the name of their argument; empty if they are left out."""
         found = _up_and_down(self, profile)
         for name, loads in found.items():
             for before, after in pairwise(loads):
                 if after > before:
                     raise InputError(
-                        f"the {name} of a retreat must fall, and {after:g} follows {before:g}",
+                        f"the {name} of a retreat must decrease, but {after:g} follows {before:g}",
                         "leave it out, or compute an adhesion curve",
                         name,
                     )
@@ -215,7 +222,7 @@ def _up_and_down(part: AdhesiveLoads | FallingLoads, profile: str | None) -> dic
 
 
 def numbers(named: Mapping[str, Any]) -> npt.NDArray[np.float64]:
-    """Return the loads that arguments state, shape (n,)."""
+    """Return the loads of arguments, shape (n,)."""
     import numpy as np
 
     [loads] = named.values()

@@ -29,34 +29,34 @@ _T = TypeVar("_T")
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """What is known of a field beside its name, its type and its default.
+    """The description of a field beside its name, its type and its default.
 
     Parameters
     ----------
     help : str
-        What it is, in a sentence or two, for people.
+        Its meaning, in a sentence or two, for people.
     example : str or None
-        What its value looks like; None for a flag and for a choice.
+        An example of its value; None for a flag and for a choice.
     read : function
-        Turns the text of the user into the value, in SI; raises `InputError` for a text that is none.
+        Turns the text of the user into the value, in SI; raises `InputError` for an invalid text.
     choices : tuple of str
-        The texts that are possible, where they can be listed.
+        The possible texts, if they can be listed.
     names : tuple of str
-        Words that may stand in it, one or several with commas between, for the completion of what is typed.
+        Words that it may contain, separated by commas, for completion.
     needs : str or None
         The field of the same part without which this one has no meaning.
     everyday : bool
-        Whether most users need it: it stands in the short help, and at the top of a form.
+        Whether most users need it: the short help shows it, and a form shows it at the top.
     needs_whole : bool
-        Whether it takes the whole surface, of which each of several processes holds some rows only.
+        Whether it needs the whole surface, of which each of several processes only holds some rows.
     option : bool
         Whether a command takes it as an option.
     positional : bool
         Whether a command takes it without the name of an option.
     opposite : str or None
-        Of a flag that may be left open: what the command calls its contrary.
+        For a flag with a third state, not given: the option for its contrary.
     step : Any
-        Of a preparation: what the value is an argument of; see `roughcontact.recipe.preparation`.
+        For a preparation: the method that takes the value; see `roughcontact.recipe.preparation`.
     """
 
     help: str
@@ -75,7 +75,7 @@ class Spec:
 
 @cache
 def hints_of(kind: Any) -> dict[str, Any]:
-    """Return the types of the fields of a class; a study makes many parts of each class."""
+    """Return the types of the fields of a class (cached: a study makes many parts of each class)."""
     return get_type_hints(kind)
 
 
@@ -87,9 +87,9 @@ def described(
     default: Any = None,
     **more: Any,
 ) -> Any:
-    """Return the declaration of a field; without a default (``...``) it must be given. `more` goes to its `Spec`.
+    """Return the declaration of a field; the default ``...`` makes it required. `more` goes to its `Spec`.
 
-    Where `read` lists ``choices`` or ``names``, these are the field's.
+    If `read` has ``choices`` or ``names``, the field takes them.
     """
     listed = {name: getattr(read, name) for name in ("choices", "names") if hasattr(read, name)}
     spec = Spec(help, example, read, **(listed | more))
@@ -97,14 +97,14 @@ def described(
 
 
 def specs(part: Any) -> Iterator[tuple[Field[Any], Spec]]:
-    """Yield the fields of a part, a value or its class, with what is known of them."""
+    """Yield the fields of a part, a value or its class, with their descriptions."""
     for each in fields(part):
         if (spec := each.metadata.get("spec")) is not None:
             yield each, spec
 
 
 def with_fields_of(other: Any) -> Callable[[type[_T]], type[_T]]:
-    """Return a decorator for a class before `dataclass`: the fields of another part are put before its own."""
+    """Return a decorator for a class before `dataclass`: it prepends the fields of another part."""
 
     def extended(kind: type[_T]) -> type[_T]:
         for each in fields(other):
@@ -116,12 +116,12 @@ def with_fields_of(other: Any) -> Callable[[type[_T]], type[_T]]:
 
 
 def given(part: Any) -> dict[str, Any]:
-    """Return the fields of a part that differ from their defaults, by name: all that has to be written down."""
+    """Return the fields of a part that differ from their defaults, by name: only these must be stored."""
     return {each.name: value for each in fields(part) if (value := getattr(part, each.name)) != each.default}
 
 
 def value_of(part: Any, name: str) -> Any:
-    """Return the value of a field in SI; None where it was left out."""
+    """Return the value of a field in SI; None if it is not given."""
     text, spec = getattr(part, name), next(spec for each, spec in specs(part) if each.name == name)
     if text is None or isinstance(text, bool):
         return text
@@ -130,15 +130,15 @@ def value_of(part: Any, name: str) -> Any:
 
 
 def check(part: Any) -> None:
-    """Take every field as text, and refuse what is none, stands alone, or excludes another.
+    """Convert every field to text; raise an error for invalid, incomplete or contradictory fields.
 
-    A field that holds a part must hold one of its class. A class may name in ``ONE_OF`` fields of which exactly one
-    must be given, and in ``AT_MOST`` those of which several exclude each other.
+    A field for a part must hold an instance of its class. ``ONE_OF`` of a class names fields of which exactly one
+    must be given; ``AT_MOST`` those of which at most one may be given.
 
     Raises
     ------
     InputError
-        If a value cannot be read, or does not go with the others; its place is the field.
+        If a value cannot be read, or contradicts other values; its place is the field.
     """
     kind: Any = type(part)
     hints = hints_of(kind)
@@ -155,12 +155,12 @@ def check(part: Any) -> None:
 
 
 def option_of(name: str) -> str:
-    """Return the option that a field of this name becomes."""
+    """Return the option of a field of this name."""
     return f"--{name.replace('_', '-')}"
 
 
 def words_of(name: str, spec: Spec) -> tuple[str, ...]:
-    """Return the option of a field, and its contrary where there is one."""
+    """Return the option of a field, and its contrary if it has one."""
     return (option_of(name), *(() if spec.opposite is None else (option_of(spec.opposite),)))
 
 
@@ -169,7 +169,7 @@ def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
     if spec is None:
         if not isinstance(value, hint):
             classes = " or ".join(each.__name__ for each in get_args(hint) or (hint,))
-            raise refused(value, f"no `{name}` of a recipe", f"give a {classes}", name)
+            raise refused(value, f"not a `{name}` of a recipe", f"give a {classes}", name)
         return
     if type(value) is type(declared.default) and value == declared.default:
         return
@@ -199,12 +199,12 @@ def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
 
 
 def _quoted(name: str) -> str:
-    """Return the name of a field as messages quote it: a command says the option instead."""
+    """Return the name of a field as quoted in messages; a command prints the option instead."""
     return f"`{name}`"
 
 
 def _as_declared(value: Any, kind: Any, example: str) -> Any:
-    """Return a value as the type of its field: a flag, a text, or texts, such as the `example`."""
+    """Return a value in the type of its field: a flag, a text, or texts, like the `example`."""
     if kind == tuple[str, ...]:
         parts = value if isinstance(value, list | tuple) else [value]
         return tuple(_text(part, example) for part in parts)
@@ -216,7 +216,7 @@ def _as_declared(value: Any, kind: Any, example: str) -> Any:
 
 
 def _text(value: Any, example: str) -> str:
-    """Return a number or a quantity as the user could have written it."""
+    """Return a number or a quantity as a text that can be read back."""
     if not isinstance(value, str):
         from roughcontact.units import as_text  # late, with NumPy: options are texts
 
@@ -229,7 +229,7 @@ def _text(value: Any, example: str) -> str:
         return value.strip()
     if isinstance(value, Integral):
         return repr(int(value))
-    number = float(value)  # of a range of whole numbers, each is written as one
+    number = float(value)  # whole numbers are written without a decimal point
     return repr(int(number) if number.is_integer() else number)
 
 

@@ -1,4 +1,4 @@
-"""Whether a job that was done again gave the same numbers."""
+"""Comparison of the records of a job that was repeated."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from roughcontact.validation import Array
 
 __all__ = ["Difference", "differences"]
 
-# What a record says of itself: names, history, versions, and words.
+# Entries of a record that are not results: names, history, versions, and words.
 _WORDS = {
     "command",
     "doubtful",
@@ -29,14 +29,14 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A quantity that is not the same.
+    """A quantity that differs.
 
     Parameters
     ----------
     name : str
-        Its name, with those of the tables that it stands in before it.
+        Its name, after the names of the tables that contain it.
     before, after : Any
-        A number, a list or a word of each record.
+        The value in each record: a number, a list or a word.
     """
 
     name: str
@@ -57,9 +57,9 @@ class Difference:
 
 
 def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Difference]:
-    """Return what a record of a job lost or changed when the job was done again, to the last digit.
+    """Return the quantities of a record that a repeated job lost or changed, to the last digit.
 
-    What only the second holds is no difference: the page writes fewer quantities than the command.
+    Quantities that only the second record holds are not differences: the page writes fewer than the command.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Dif
     Returns
     -------
     list of Difference
-        Empty where all numbers are the same.
+        Empty if all numbers are the same.
 
     Examples
     --------
@@ -91,7 +91,7 @@ def _differences(before: Mapping[str, Any], after: Mapping[str, Any], path: str)
 
 
 def _by_number(value: Any) -> Any:
-    """Return a list of tables as a table of them, by their numbers; other values as they are."""
+    """Return a list of tables as a table by index; other values unchanged."""
     if isinstance(value, list) and value and all(isinstance(each, Mapping) for each in value):
         return {str(number): each for number, each in enumerate(value)}
     return value
@@ -107,12 +107,12 @@ def _same(old: Any, new: Any) -> bool:
 
 
 def _count(first: Array, second: Array) -> int:
-    """Return how many numbers differ, to the last digit; what is no number in both is the same."""
+    """Return how many numbers differ, to the last digit; NaN in both counts as equal."""
     return int(np.count_nonzero((first != second) & ~(np.isnan(first) & np.isnan(second))))
 
 
 def _numbers(value: Any) -> Array | None:
-    """Return numbers as an array of one axis or more; None where they are words, verdicts, or nothing."""
+    """Return numbers as an array of one axis or more; None for words, truth values, or an empty list."""
     try:
         found = np.atleast_1d(np.asarray(value))
     except ValueError:  # lists of several lengths

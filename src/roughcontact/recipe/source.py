@@ -1,4 +1,4 @@
-"""Where heights come from: a file, a random surface, a shape, an example, or the gap of two of these."""
+"""The source of heights: a file, a random surface, a shape, an example, or the gap between two of these."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _WAVE = Amount(LENGTH, "a wavelength")
 
 
 def _unit(text: str) -> str | float:
-    """Return a unit of length by its name, or as the metres that it is."""
+    """Return a unit of length, given by name or as a number of metres."""
     try:
         unit: str | float = float(text)
     except ValueError:
@@ -45,7 +45,7 @@ def _fingerprint(text: str) -> str:
     """Return a SHA-256 as files of checksums write it."""
     if re.fullmatch("[0-9a-f]{64}", text) is None:
         raise InputError(
-            f"{text!r} is no SHA-256",
+            f"{text!r} is not a SHA-256",
             "write its 64 digits from 0 to f, as sha256sum prints them, or leave it out",
         )
     return text
@@ -53,7 +53,7 @@ def _fingerprint(text: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class File:
-    """A measured file, and what it leaves open."""
+    """A measured file, and facts that the file may lack."""
 
     KIND: ClassVar = "file"
     TITLE: ClassVar = "Reading the file"
@@ -67,25 +67,25 @@ class File:
     )
     channel: str | None = described("Channel of a file with several.", "NAME", read=_word)
     unit: str | None = described(
-        "Unit of the heights, or metres per unit; it overrides what the file states.",
+        "Unit of the heights, or metres per unit; it overrides the unit in the file.",
         "um",
         read=_unit,
         everyday=True,
     )
     size: str | None = described(
-        "Side lengths: height x width of the picture, or its width alone (of a profile its length); "
-        "they override what the file states.",
+        "Side lengths: height x width of the picture, or only the width (for a profile its length); "
+        "they override those in the file.",
         "1 x 2mm",
         read=size,
         everyday=True,
     )
     periodic: bool | None = described(
-        "Whether the surface repeats itself (default: what the file says, else free).",
+        "Whether the surface repeats itself (default: as stated in the file, otherwise free).",
         everyday=True,
         opposite="free",
     )
     sha256: str | None = described(
-        "Fingerprint of the file: another one under its name is refused.",
+        "Fingerprint of the file: a different file of the same name is refused.",
         "HEX",
         read=_fingerprint,
         option=False,
@@ -95,7 +95,7 @@ class File:
         check(self)
 
     def calls(self, *, line: bool) -> Iterator[Call]:
-        """Yield the call that reads the file, of a map or of a profile."""
+        """Yield the call that reads the file, as a map or as a profile."""
         sides = value_of(self, "size")
         width = sides[0] if sides is not None and len(sides) == 1 else sides
         named = {
@@ -126,7 +126,8 @@ class SelfAffine:
         "Root mean square height.", "1um", read=Amount(LENGTH, "the rms height"), default=..., everyday=True
     )
     rms_band: str | None = described(
-        "Longest and shortest of the waves whose rms height is that of rms (all), for one surface on several grids.",
+        "Band (longest and shortest wave) that has the rms height (default: all waves); use it for one "
+        "surface on several grids.",
         "1mm:10um",
         read=band,
     )
@@ -148,13 +149,13 @@ class SelfAffine:
         longest, shortest = value_of(self, "long_cutoff"), value_of(self, "short_cutoff")
         if longest is not None and shortest is not None and shortest > longest:
             raise InputError(
-                "`short_cutoff` is longer than `long_cutoff`: no wave is left",
+                "`short_cutoff` is longer than `long_cutoff`, so that no waves are left",
                 "exchange them",
                 "short_cutoff, long_cutoff",
             )
         if self.nodal and self.periodic:
             raise InputError(
-                "`nodal` repeats the first row at the end, which a `periodic` surface would hold twice",
+                "`nodal` repeats the first row at the end, so that a `periodic` surface would contain it twice",
                 "leave out one of them",
                 "nodal",
             )
@@ -180,7 +181,7 @@ class SelfAffine:
         )
 
 
-# The shapes, and which of the fields below each of them takes, in the order of its arguments.
+# The shapes, each with the fields below that it takes, in the order of its arguments.
 _SHAPES = {
     "paraboloid": ("radius",),
     "sphere": ("radius",),
@@ -192,11 +193,11 @@ _SHAPES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SmoothBody:
-    """A body without roughness, its crest in the middle."""
+    """A body without roughness, with its crest in the middle."""
 
     KIND: ClassVar = "shape"
     TITLE: ClassVar = "Shape"
-    shape: str = described("Which one.", read=Choice(tuple(_SHAPES)), default=..., everyday=True)
+    shape: str = described("Name of the shape.", read=Choice(tuple(_SHAPES)), default=..., everyday=True)
     radius: str | None = described(
         "Radius of curvature.", "5mm", read=Amount(LENGTH, "the radius"), everyday=True
     )
@@ -231,7 +232,7 @@ class Example:
     KIND: ClassVar = "example"
     TITLE: ClassVar = "Example map"
     example: str = described(
-        "Which one.", read=Choice(("ground", "blasted", "turned")), default=..., everyday=True
+        "Name of the map.", read=Choice(("ground", "blasted", "turned")), default=..., everyday=True
     )
 
     def __post_init__(self) -> None:
@@ -248,14 +249,14 @@ class Example:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Combined:
-    """The gap between two rough bodies, as one surface: each has a source of its own."""
+    """The gap between two rough bodies, as one surface; each body has its own source."""
 
     KIND: ClassVar = "combined"
     TITLE: ClassVar = "Two surfaces"
     lower: Source
     upper: Source
     turned_about: str = described(
-        "The axis about which the upper body was turned over to lie on the lower one.",
+        "The axis about which the upper body is turned over onto the lower one.",
         read=Choice(("x", "y")),
         default="y",
     )
@@ -275,19 +276,19 @@ class Combined:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InPython:
-    """Heights that were made in Python: named by their fingerprint and their history, and not made again."""
+    """Heights that were made in Python: recorded by fingerprint and history, and not made again."""
 
     KIND: ClassVar = "python"
     TITLE: ClassVar = "Made in Python"
     surface_sha256: str = described("Fingerprint of heights and grid.", "HEX", read=_fingerprint, default=...)
-    history: tuple[str, ...] = described("How they were made, line by line.", default=())
+    history: tuple[str, ...] = described("History of the heights, line by line.", default=())
 
     def __post_init__(self) -> None:
         check(self)
 
     @classmethod
     def of(cls, surface: Surface) -> InPython:
-        """Return what names a surface: equal heights on equal grids have one name.
+        """Return fingerprint and history of a surface; equal heights on equal grids have equal fingerprints.
 
         Examples
         --------
@@ -302,7 +303,7 @@ class InPython:
         return cls(surface_sha256=surface_hash(surface), history=surface.provenance)
 
     def calls(self, *, line: bool) -> Iterator[Call]:
-        """Refuse: nothing says how to make them again.
+        """Raise an error, because the heights cannot be made again.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""A joint that is known by rms height and slope: as numbers for theories, or as a random surface that has them."""
+"""A joint given by rms height and slope: as numbers for theories, or as a random surface with these numbers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["Specified", "SpecifiedJoint", "specification"]
 
 @dataclass(frozen=True, slots=True)
 class _OfFaces:
-    """Reads a number of both faces together, or one of each face."""
+    """Reads a number for both faces together, or one for each face."""
 
     read: Amount | PureNumber
 
@@ -31,10 +31,12 @@ class _OfFaces:
         return getattr(self.read, "kind", None)
 
     def __call__(self, text: str) -> float | tuple[float, float]:
-        """Return the number, or the pair, that a text states."""
+        """Return the number, or the pair, in a text."""
         first, *others = values = [self.read(part.strip()) for part in text.split(",")]
         if len(others) > 1:
-            raise InputError(f"{text!r} are {len(values)} numbers, of two faces", "leave out all but two")
+            raise InputError(
+                f"{text!r} contains {len(values)} numbers for two faces", "give one or two numbers"
+            )
         return (first, others[0]) if others else first
 
 
@@ -47,7 +49,7 @@ _BANDWIDTH = PureNumber(1.5, 1e9, "Nayak's parameter", "20", ends=False)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpecifiedJoint:
-    """A joint by its numbers: heights and slope, and what settles the bandwidth of the roughness."""
+    """A joint by its numbers: heights, slope, and the bandwidth of the roughness."""
 
     TITLE: ClassVar = "Specification"
     ONE_OF: ClassVar = ("sigma", "ra", "rz")
@@ -58,21 +60,21 @@ class SpecifiedJoint:
         everyday=True,
     )
     ra: str | None = described(
-        "Ra instead: of Gaussian heights sigma is 1.2533 Ra.", "1um", read=_HEIGHT, everyday=True
+        "Ra in place of sigma: for Gaussian heights sigma is 1.2533 Ra.", "1um", read=_HEIGHT, everyday=True
     )
-    rz: str | None = described("Rz instead, which needs the ratio of Rz and Ra.", "6um", read=_HEIGHT)
+    rz: str | None = described("Rz in place of sigma; needs the ratio of Rz and Ra.", "6um", read=_HEIGHT)
     rz_over_ra: str | None = described(
         "Ratio of Rz and Ra, as measured on such faces.", "6", read=_RATIO, needs="rz"
     )
     slope: str | None = described(
-        "Mean absolute slope m of a profile, likewise: 0.80 of the rms slope of a profile (Rdq), 0.56 of that of a "
-        "surface (Sdq).",
+        "Mean absolute slope m of a profile, of both faces or of each: 0.80 times the rms slope of a "
+        "profile (Rdq), 0.56 times that of a surface (Sdq).",
         "0.12",
         read=_MEAN_SLOPE,
         everyday=True,
     )
     hurst: str | None = described(
-        "Hurst exponent. It settles the spectrum, with two numbers of slope, nayak and the lengths.",
+        "Hurst exponent. It determines the spectrum together with two of slope, nayak and the lengths.",
         "0.8",
         read=_EXPONENT,
         everyday=True,
@@ -94,7 +96,7 @@ class SpecifiedJoint:
 @dataclass(frozen=True, slots=True, kw_only=True)
 @with_fields_of(SpecifiedJoint)
 class Specified:
-    """A random surface that has the rms height and the slope of a specification."""
+    """A random surface with the rms height and the slope of a specification."""
 
     KIND: ClassVar = "specified"
     TITLE: ClassVar = "Specified surface"
@@ -112,7 +114,7 @@ class Specified:
         """Yield the calls that make the surface."""
         if line:
             raise InputError(
-                "a specification is that of a map of heights, not of a profile",
+                "a specification makes a map of heights, not a profile",
                 "leave out `profile`",
                 "sigma",
             )

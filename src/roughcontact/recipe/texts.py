@@ -41,7 +41,7 @@ __all__ = [
 METALS = (
     *("steel", "stainless-steel", "aluminium", "titanium", "copper", "silver", "gold", "nickel"),
     "tungsten",
-)  # those of `materials`, whose numbers need NumPy, for which the help and the completion of options do not wait
+)  # those of `materials`, which imports NumPy: help and completion must be fast
 RIGID = "rigid"
 MOST_LOADS = 100_000
 _FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
@@ -49,7 +49,7 @@ _FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
 
 @dataclass(frozen=True, slots=True)
 class Amount:
-    """Reads a quantity of a kind, above zero where it must be positive, or not below it."""
+    """Reads a quantity of a kind; it must be positive, or not negative, if so declared."""
 
     kind: Kind
     what: str = ""
@@ -73,7 +73,7 @@ class Amount:
 
 @dataclass(frozen=True, slots=True)
 class PureNumber:
-    """Reads a number without a unit between two ends, which may be reached where they count."""
+    """Reads a number without a unit between two ends, which are allowed if `ends`."""
 
     low: float
     high: float
@@ -86,7 +86,7 @@ class PureNumber:
         value = quantity.parse_number(text, self.example)
         if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
             raise InputError(
-                f"{self.what} lies between {self.low:g} and {self.high:g}, not at {text!r}",
+                f"{self.what} must lie between {self.low:g} and {self.high:g}, not at {text!r}",
                 f"give a number such as {self.example}",
             )
         return value
@@ -94,20 +94,20 @@ class PureNumber:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """Reads one of some words."""
+    """Reads one word of a list."""
 
     choices: tuple[str, ...]
 
     def __call__(self, text: str) -> str:
         """Return the value that a text states."""
         if text not in self.choices:
-            raise InputError(f"there is no {text!r} here", choose(text, self.choices))
+            raise InputError(f"{text!r} is not one of the choices", choose(text, self.choices))
         return text
 
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """Reads a comma list of words, each once, of some."""
+    """Reads a comma list of words of a given list, each at most once."""
 
     what: str
     names: tuple[str, ...]
@@ -120,14 +120,14 @@ class Names:
                 raise InputError(f"there is no {self.what} {name!r}", choose(name, self.names))
         if not names or len(set(names)) < len(names):
             raise InputError(
-                f"{text!r} is no list of them",
+                f"{text!r} is not a valid list",
                 f"name each {self.what} once, such as {','.join(self.names[:2])}",
             )
         return names
 
 
 def choose(text: str, known: Sequence[str]) -> str:
-    """Return what to write instead of a text that is none of some words: the nearest, and all of them."""
+    """Return the remedy for an unknown word: the nearest known one, and the list."""
     near = difflib.get_close_matches(text, known, 1)
     return (
         f"did you mean {near[0]!r}? choose from {', '.join(known)}"
@@ -137,13 +137,14 @@ def choose(text: str, known: Sequence[str]) -> str:
 
 
 def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
-    """Return a reader of whole numbers from `low` on."""
+    """Return a reader of whole numbers of at least `low`."""
 
     def read(text: str) -> int:
         if re.fullmatch(r"\s*\d{1,30}\s*", text, re.ASCII) is None or not low <= int(text) <= high:
             end = "up" if high == 10**30 else f"to {high}"
             raise InputError(
-                f"{what} is a whole number from {low} {end}, not {text!r}", f"give one such as {max(low, 2)}"
+                f"{what} must be a whole number from {low} {end}, not {text!r}",
+                f"give one such as {max(low, 2)}",
             )
         return int(text)
 
@@ -152,19 +153,19 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
 
 @dataclass(frozen=True, slots=True)
 class Likely:
-    """Reads a quantity; a number without a unit that is out of the ordinary is asked about.
+    """Reads a quantity; an unusual number without a unit raises an error.
 
     Parameters
     ----------
     amount : Amount
     low, high : float
-        Between them values are ordinary, in SI.
+        The range of usual values, in SI.
     odd : str
-        What a value beyond them is.
+        Description of a value outside this range.
     meant : str
-        The unit that was probably meant.
+        The unit that is probably intended.
     named : str
-        What to do where a name stands in place of the number.
+        The remedy for a name in place of the number.
     """
 
     amount: Amount
@@ -182,13 +183,13 @@ class Likely:
     def __call__(self, text: str) -> float:
         """Return the value that a text states."""
         if self.named and text[:1].isalpha():
-            raise InputError(f"{text!r} is a name, and {self.amount.what} is a number", self.named)
+            raise InputError(f"{text!r} is a name, but {self.amount.what} is a number", self.named)
         value = self.amount(text)
         if not self.low <= value <= self.high and not quantity.has_unit(text):
             bare, unit = text.strip(), self.kind.unit
             raise InputError(
                 f"{bare} without a unit is {bare} {unit}, {self.odd}",
-                f"write {bare}{self.meant} if this unit is meant, or {bare}{unit} if it is in {unit}",
+                f"write {bare}{self.meant} or, for a value in {unit}, {bare}{unit}",
             )
         return value
 
@@ -202,7 +203,7 @@ def modulus(what: str, kind: Kind = MODULUS) -> Likely:
 
 
 def known_material(text: str) -> Material | None:
-    """Return the material that a text names; None where it is a number."""
+    """Return the material that a text names; None if the text is a number."""
     from roughcontact.materials import handbook
 
     word = text.strip()
@@ -219,7 +220,7 @@ def rising_loads(text: str, kind: Kind) -> Call | list[float]:
         low, high, count = _range(text, kind, example)
         if not 0 < low < high:
             raise InputError(
-                f"a range of loads rises from above zero in equal ratios, unlike {text!r}",
+                f"a range of loads must increase from a positive load, unlike {text!r}",
                 f"write one such as {example}",
             )
         return Call("np.geomspace", (low, high, count))
@@ -229,7 +230,7 @@ def rising_loads(text: str, kind: Kind) -> Call | list[float]:
     if min(loads) <= 0:
         raise InputError(f"every load must be positive, not {min(loads):g} {kind.unit}", "leave it out")
     if any(after <= before for before, after in pairwise(loads)):
-        raise InputError(f"the loads must increase from one to the next, not as in {text!r}", "sort them")
+        raise InputError(f"the loads must increase from one to the next, unlike {text!r}", "sort them")
     return loads
 
 
@@ -255,7 +256,9 @@ def band(text: str) -> tuple[float, float]:
     """Return two wavelengths [m] of "1mm:10um", the longest and the shortest."""
     parts = text.split(":")
     if len(parts) != 2:
-        raise InputError(f"{text!r} is no band", "write the longest and the shortest wave, such as 1mm:10um")
+        raise InputError(
+            f"{text!r} is not a band", "write the longest and the shortest wave, such as 1mm:10um"
+        )
     longest, shortest = (Amount(LENGTH, "a wavelength")(part) for part in parts)
     if shortest > longest:
         raise InputError(f"{text!r} begins with the shortest wave", f"exchange them: {parts[1]}:{parts[0]}")
@@ -263,14 +266,14 @@ def band(text: str) -> tuple[float, float]:
 
 
 def size(text: str) -> tuple[float, ...]:
-    """Return one length or two [m] of "1mm", "1mm x 2mm" or "1 x 2mm": down the rows, then along them."""
+    """Return the lengths [m] in "1mm", "1mm x 2mm" or "1 x 2mm": height, then width."""
     parts = re.split(r"[x*\u00d7]", text)
     if len(parts) > 2:
         raise InputError(f"{text!r} holds {len(parts)} lengths", "write '1mm' or '1mm x 2mm'")
     if len(parts) == 2 and quantity.has_unit(parts[1]) != quantity.has_unit(parts[0]):
         if not quantity.has_unit(parts[1]):
             raise InputError(f"the second length of {text!r} has no unit", "write '1 x 2mm' or '1mm x 2mm'")
-        parts[0] += quantity.unit_in(parts[1])  # "1x2mm": of both, as people write it
+        parts[0] += quantity.unit_in(parts[1])  # "1x2mm": the unit of both
     return tuple(Amount(LENGTH, "a side length")(part) for part in parts)
 
 
@@ -278,7 +281,7 @@ def points(text: str) -> tuple[int, int]:
     """Return the number of points ``(ny, nx)`` of "512" (a square) or "512x256" (rows x columns)."""
     match = re.fullmatch(r"\s*(\d+)\s*(?:[x*]\s*(\d+)\s*)?", text)
     if match is None or int(match[1]) < 1 or (match[2] and int(match[2]) < 1):
-        raise InputError(f"{text!r} is no number of points", "write 512 or 512x256 (rows x columns)")
+        raise InputError(f"{text!r} is not a number of points", "write 512 or 512x256 (rows x columns)")
     return int(match[1]), int(match[2] or match[1])
 
 
@@ -287,7 +290,7 @@ def ranges(text: str) -> tuple[slice, ...]:
     matches = [re.fullmatch(r"\s*(\d*)\s*:\s*(\d*)\s*", part, re.ASCII) for part in text.split(",")]
     if len(matches) > 2 or not all(matches):
         raise InputError(
-            f"{text!r} is no part of a map", "write rows,columns such as 0:40,5:45, or 0:40 for a profile"
+            f"{text!r} is not a part of a map", "write rows,columns such as 0:40,5:45, or 0:40 for a profile"
         )
     found = [[int(end) if end else None for end in match.groups()] for match in matches if match]
     for first, last in found:
@@ -302,7 +305,7 @@ def ranges(text: str) -> tuple[slice, ...]:
 def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
     ends = text.split(":")
     if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
-        raise InputError(f"{text!r} is no range", f"write from:to:count, such as {example}")
+        raise InputError(f"{text!r} is not a range", f"write from:to:count, such as {example}")
     low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
     if not 2 <= count <= MOST_LOADS:
         raise InputError(f"a range holds from 2 to {MOST_LOADS} loads, not {count}", "give another count")
@@ -312,14 +315,14 @@ def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
 def _parsed(text: str, kind: Kind) -> float:
     """Return a quantity in SI; a number without a unit is in SI already.
 
-    One with a unit is rounded to 15 digits: 200um is 0.0002 m, and not the neighbour that a product of numbers gives.
+    A quantity with a unit is rounded to 15 digits: 200um is exactly 0.0002 m, without the rounding error of a product.
     """
     try:
         value = quantity.parse(text, kind)
         return float(f"{value:.15g}") if quantity.has_unit(text) else value
     except InputError as error:
         if kind is FORCE and _is_per_length(text):
-            remedy = "say that it is a profile by `profile`, or write a force such as 10N"
+            remedy = "give `profile` for a profile, or write a force such as 10N"
             raise InputError(error.message, remedy) from error
         raise
 

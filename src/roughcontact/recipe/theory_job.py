@@ -1,4 +1,4 @@
-"""A job without heights: theories of a joint that is known by its specification."""
+"""A job without heights: theories of a joint given by its specification."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from roughcontact.recipe.texts import METALS, Names, rising_loads
 
 __all__ = ["JOINT_THEORIES", "JointTheories", "NominalPressures", "TheoryJob"]
 
-# Those of `evaluation.theory_table`, which needs NumPy.
+# Those of `evaluation.theory_table`, which imports NumPy.
 JOINT_THEORIES = (
     *("persson", "gw", "gw-exponential", "bgt", "mikic", "cmy", "ceb", "kogut-etsion", "persson-plastic"),
     "pullen-williamson",
@@ -29,11 +29,11 @@ def _pressures(text: str) -> Call | list[float]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NominalPressures:
-    """Rising nominal pressures."""
+    """Increasing nominal pressures."""
 
     TITLE: ClassVar = "Loads"
     pressures: str = described(
-        "Nominal pressures: from:to:count, evenly spaced in the logarithm, or a comma list.",
+        "Nominal pressures: from:to:count with equal ratios, or a comma list.",
         "1MPa,5MPa,10MPa",
         read=_pressures,
         default=...,
@@ -46,20 +46,20 @@ class NominalPressures:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointTheories:
-    """Theories of a joint of any size, and the hardness that some of them take."""
+    """Theories of a joint of any size, and the hardness that some theories need."""
 
     TITLE: ClassVar = "Theories"
     theory: str = described(
-        f"Theories of the joint: {', '.join(JOINT_THEORIES)}. mikic and cmy take sigma and slope; pullen-williamson "
-        "takes the hardness only; the others need the bandwidth too.",
+        f"Theories of the joint: {', '.join(JOINT_THEORIES)}. mikic and cmy need sigma and slope; pullen-williamson "
+        "needs only the hardness; all other theories also need the bandwidth.",
         "cmy,mikic,...",
         read=Names("theory", JOINT_THEORIES),
         default=...,
         everyday=True,
     )
     hardness: str | None = described(
-        "Hardness of the softer body, or the name of its material, for theories of bodies that yield (default: that "
-        "of the softer of two materials).",
+        "Hardness of the softer body, or the name of its material, for plastic theories (default: that of the softer "
+        "of two materials).",
         "1GPa",
         read=hardness_of,
         names=METALS,
@@ -72,7 +72,7 @@ class JointTheories:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TheoryJob:
-    """Theories of a joint known by rms height and slope: area, stiffness and conductance against pressure."""
+    """Theories of a joint given by rms height and slope: area, stiffness and conductance against pressure."""
 
     NAME: ClassVar = "theory"
     source: SpecifiedJoint
@@ -85,7 +85,7 @@ class TheoryJob:
         check(self)
         if self.conduction.of != "interface":
             raise InputError(
-                "a joint of no size has the conductance of its interface only",
+                "a joint without a size only has the conductance of its interface",
                 "leave out `of`",
                 "conduction.of",
             )
@@ -97,12 +97,12 @@ class TheoryJob:
         return found
 
     def hardness(self) -> Call | float | None:
-        """Return the hardness [Pa]: the one given, or that of the softer material; None where no theory takes one.
+        """Return the given hardness [Pa], or that of the softer material; None if no theory needs one.
 
         Raises
         ------
         InputError
-            If a theory takes one, and none is known.
+            If a theory needs a hardness, and none is known.
         """
         from roughcontact.theory.laws import LAWS  # late, with NumPy
 
@@ -111,7 +111,7 @@ class TheoryJob:
         text = self.theories.hardness or self.bodies.softer
         if text is None:
             raise InputError(
-                f"a theory of {self.theories.theory} takes the hardness of the softer body, which is not given",
+                f"a theory of {self.theories.theory} needs the hardness of the softer body, which is not given",
                 "give `hardness`, or both bodies as `materials`",
                 "theories.hardness",
             )
@@ -124,5 +124,5 @@ class TheoryJob:
         hardness = self.hardness()
         named: dict[str, Any] = {} if hardness is None else {"hardness": hardness}
         given = (Name("joint"), Name("modulus"), list(self.names()), value_of(self.pressures, "pressures"))
-        # What it refuses now, the specification leaves open.
+        # An error here means that the specification is incomplete.
         yield Call("rc.theory_table", given, named | self.conduction.named(), result="table", place="source")

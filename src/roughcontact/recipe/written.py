@@ -1,4 +1,4 @@
-"""Recipes as plain values and as files: TOML to read and to edit, JSON inside results."""
+"""Recipes as plain values and as files: TOML for people, JSON inside results."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ __all__ = [
 ]
 
 J = TypeVar("J", bound=Job)
-FORMAT = 1  # of recipes: to be raised when what was written before means something else
+FORMAT = 1  # of recipes: raise it when the meaning of written recipes changes
 
 
 def to_plain(job: Job) -> dict[str, Any]:
-    """Return a job as nested dictionaries of texts and flags: what differs from the defaults, and the format."""
+    """Return a job as nested dictionaries of texts and flags: the format, and fields without their default."""
     return {"format": FORMAT, "job": job.NAME, **_plain(job)}
 
 
@@ -65,12 +65,12 @@ def _plain(part: Any) -> dict[str, Any]:
 
 
 def from_plain(plain: Mapping[str, Any]) -> Job:
-    """Return the job that nested dictionaries state.
+    """Return the job that nested dictionaries describe.
 
     Raises
     ------
     InputError
-        If they state none: all that is wrong, each with its part and field as its place.
+        If they do not describe a job: all errors, each with part and field as its place.
     """
     values = dict(plain)
     number = values.pop("format", FORMAT)
@@ -82,7 +82,7 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
         )
     name = values.pop("job", None)
     if name is None and "case" in values:
-        raise InputError("this is a study, and no job", "run it by 'roughcontact study run'", "job")
+        raise InputError("this is a study, not a job", "run it by 'roughcontact study run'", "job")
     if name is None:
         raise InputError("no job is named", f'write job = "press", or one of {", ".join(JOBS)}', "job")
     if not isinstance(name, str) or name not in JOBS:
@@ -92,9 +92,9 @@ def from_plain(plain: Mapping[str, Any]) -> Job:
 
 
 def _part(kind: Any, values: Any) -> Any:
-    """Return a part made of its fields, each of the type that is declared."""
+    """Return a part from the values of its fields, each in its declared type."""
     if not isinstance(values, Mapping):
-        raise refused(values, "no table of fields", f"give a table of {_names(kind)}")
+        raise refused(values, "not a table of fields", f"give a table of {_names(kind)}")
     hints, known = hints_of(kind), {each.name: each for each in fields(kind)}
     mistakes = [
         InputError(f"{name} is missing", f"give {name}", name)
@@ -107,7 +107,7 @@ def _part(kind: Any, values: Any) -> Any:
             if name not in known:
                 near = difflib.get_close_matches(str(name), known, 1)
                 remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
-                raise InputError(f"there is no {name!r} here", remedy, str(name))
+                raise InputError(f"unknown field {name!r}", remedy, str(name))
             made[name] = _value(name, hints[name], value)
         except InputError as error:
             mistakes += every(error)
@@ -117,7 +117,7 @@ def _part(kind: Any, values: Any) -> Any:
 
 
 def field_at(plain: Mapping[str, Any], name: str) -> Spec:
-    """Return what is known of the field at a dotted name of a recipe in plain values, such as ``"bodies.modulus"``.
+    """Return the description of the field at a dotted name of a recipe, such as ``"bodies.modulus"``.
 
     Raises
     ------
@@ -129,7 +129,7 @@ def field_at(plain: Mapping[str, Any], name: str) -> Spec:
         return found[name]
     inside = [each for each in found if each.startswith(f"{name}.")]
     if inside:
-        raise InputError(f"{name} is no single value", f"choose from {', '.join(inside)}", name)
+        raise InputError(f"{name} is not a single value", f"choose from {', '.join(inside)}", name)
     last = name.rpartition(".")[2]
     near = [each for each in found if each.rpartition(".")[2] == last] or difflib.get_close_matches(
         name, found, 2
@@ -139,7 +139,7 @@ def field_at(plain: Mapping[str, Any], name: str) -> Spec:
 
 
 def fields_in(plain: Mapping[str, Any]) -> dict[str, Spec]:
-    """Return what is known of each field of a recipe in plain values, by dotted names such as ``"bodies.modulus"``."""
+    """Return the description of each field of a recipe, by dotted names such as ``"bodies.modulus"``."""
     return dict(_specs_in(JOBS.get(plain.get("job", ""), SurfaceJob), plain, ""))
 
 
@@ -163,16 +163,16 @@ def _value(name: str, kind: Any, value: Any) -> Any:
 
 
 def _of_kind(members: list[Any], values: Any) -> Any:
-    """Return a part of the kind that its table names; a table with a file is a file."""
+    """Return a part of the kind that its table names; a table with ``file`` is of the kind "file"."""
     if not isinstance(values, Mapping):
         raise refused(
-            values, "no table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
+            values, "not a table of fields", 'write kind = "file" and file = "part.x3p", or another kind'
         )
     kinds = {each.KIND: each for each in members}
     left = {name: value for name, value in values.items() if name != "kind"}
     kind = values.get("kind", File.KIND if "file" in values else None)
     if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(f"there is no kind {kind!r} of it", f"choose from {', '.join(kinds)}", "kind")
+        raise InputError(f"there is no kind {kind!r} of source", f"choose from {', '.join(kinds)}", "kind")
     return _part(kinds[kind], left)
 
 
@@ -185,20 +185,20 @@ def _names(kind: Any) -> str:
 
 
 def read_job(path: Path) -> Job:
-    """Return the job in a file: TOML, or a result (JSON, NetCDF) that carries its recipe. Its files lie where it lies.
+    """Return the job in a file: TOML, or a result (JSON, NetCDF) with a recipe. File names are relative to it.
 
     Raises
     ------
     ReadError
         If the file cannot be read.
     InputError
-        If it states no job.
+        If it does not contain a job.
     """
     from roughcontact.files.content import content  # late, with NumPy
 
     if path.suffix.casefold() not in (".toml", ".json", ".nc"):
         raise ReadError(
-            str(path), "it is no job and no result", "name a job (.toml) or a result (.json, .nc)"
+            str(path), "it is neither a job nor a result", "name a job (.toml) or a result (.json, .nc)"
         )
     plain = _result_in(path)
     if plain is None:
@@ -207,7 +207,7 @@ def read_job(path: Path) -> Job:
     elif plain.get("recipe") is None:
         raise ReadError(
             str(path),
-            "it carries no recipe",
+            "it contains no recipe",
             "name a job (.toml), or a result of press, curve or adhesion",
         )
     else:
@@ -216,7 +216,7 @@ def read_job(path: Path) -> Job:
 
 
 def _result_in(path: Path) -> dict[str, Any] | None:
-    """Return the record in a result, of NetCDF its recipe alone; None of a file that is neither JSON nor NetCDF.
+    """Return the record in a result (for NetCDF only its recipe); None if the file is neither JSON nor NetCDF.
 
     Raises
     ------
@@ -241,7 +241,7 @@ def _record(text: str) -> dict[str, Any]:
         found = json.loads(text)
     except ValueError as error:
         raise ContentError(
-            f"it holds no JSON ({error})", "copy the file again, or do the job again"
+            f"it is not valid JSON ({error})", "copy the file again, or do the job again"
         ) from error
     if not isinstance(found, dict):
         raise ContentError("it holds no result", "name a result, such as curve.json")
@@ -252,7 +252,9 @@ def _toml(data: bytes) -> dict[str, Any]:
     try:
         found = tomllib.loads(data.decode())
     except ValueError as error:
-        raise ContentError(f"it is no TOML ({error})", "write it as docs/how-to/recipes.md shows") from error
+        raise ContentError(
+            f"it is not valid TOML ({error})", "write it as in docs/how-to/recipes.md"
+        ) from error
     if empty := [name for name, value in found.items() if value == {}]:
         remedy = f"write a field below it, or leave out [{empty[0]}]"
         raise InputError("the table is empty, which asks for nothing", remedy, empty[0])
@@ -260,12 +262,12 @@ def _toml(data: bytes) -> dict[str, Any]:
 
 
 def carried(job: Job, folder: Path | None) -> dict[str, Any]:
-    """Return the recipe that a result in a folder carries: file names count from there, or from the current folder."""
+    """Return the recipe for a result in a folder: file names are relative to it, or to the current folder."""
     return to_plain(pinned(job, folder or Path()))
 
 
 def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a recipe in plain values says of the states of a curve, whatever its loads are."""
+    """Return the part of a recipe that the states of a curve depend on, without its loads."""
     beside = {
         name for name, kind in hints_of(CurveJob).items() if kind in (*OUTPUTS, Conduction, RisingLoads)
     }
@@ -273,7 +275,7 @@ def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def located(job: Job, folder: Path) -> Job:
-    """Return a job whose relative file names, which count from a folder, count from the current one."""
+    """Return a job whose file names, relative to a folder, are made relative to the current one."""
     return with_files(
         job, lambda file: file if standard(file.file) else replace(file, file=str(folder / file.file))
     )
@@ -285,10 +287,10 @@ def toml_of(recipe: Mapping[str, Any]) -> str:
 
 
 def pinned(job: Job, folder: Path) -> Job:
-    """Return a job whose files are named from a folder, with their fingerprints."""
+    """Return a job whose file names are relative to a folder, with fingerprints of the files."""
 
     def pin(file: File) -> File:
-        # Bytes of a name that are no letters have no place in a text.
+        # Bytes of a name that cannot be decoded cannot be written as text.
         path = file.file if standard(file.file) else os.path.relpath(file.file, folder)
         name = path.encode("utf-8", "replace").decode("utf-8")
         return replace(file, file=Path(name).as_posix(), sha256=fingerprint(Path(file.file)))
@@ -297,7 +299,7 @@ def pinned(job: Job, folder: Path) -> Job:
 
 
 def require_same_files(job: Job) -> None:
-    """Refuse a job of which a file is not the one that it was.
+    """Raise an error if a file of a job has changed.
 
     Raises
     ------
@@ -318,7 +320,7 @@ def require_same_files(job: Job) -> None:
 
 
 def with_files(job: J, change: Callable[[File], File]) -> J:
-    """Return a job with each of its files changed by a function."""
+    """Return a job with each of its files replaced by a function."""
 
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):

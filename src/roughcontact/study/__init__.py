@@ -1,4 +1,4 @@
-"""Studies: a case computed for a table of parameters and many samples, stored so that it can go on at any time."""
+"""Studies: a case computed for a table of parameters and many samples, stored so that it can be resumed at any time."""
 
 from types import ModuleType as _Module
 

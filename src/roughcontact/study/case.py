@@ -1,7 +1,7 @@
-"""A case: what one sample of a study computes, as a pure function of its parameters and a random generator.
+"""A case: the computation of one sample of a study, a pure function of its parameters and a random generator.
 
-Parameters are numbers in SI, or text with a unit: a model that has a field ``size: Length`` takes ``1e-3`` as well as
-``"1 mm"``, and holds 0.001 in both cases.
+Parameters are numbers in SI, or text with a unit: a model with a field ``size: Length`` accepts
+``"1 mm"`` and ``1e-3``, and stores 0.001 for both.
 """
 
 from __future__ import annotations
@@ -56,14 +56,14 @@ class Parameters(Checked):
 
     @classmethod
     def reader(cls, name: str, beside: Mapping[str, Any]) -> Callable[[Any], Any]:
-        """Return what turns the text of a parameter into its value: ranges are made with it.
+        """Return the function that converts the text of a parameter into its value; ranges use it.
 
         Parameters
         ----------
         name : str
-            Of the parameter.
+            Name of the parameter.
         beside : dict
-            The other parameters, as they are given.
+            The other parameters, as given.
 
         Returns
         -------
@@ -88,12 +88,12 @@ class Parameters(Checked):
         return read
 
     def labelled(self, names: Iterable[str] = ()) -> dict[str, tuple[Any, str | None]]:
-        """Return what is given by name, each value with its unit in SI if it has one.
+        """Return the parameters by name, each value in SI with its unit if it has one.
 
         Parameters
         ----------
         names : sequence of str, optional
-            What is to be there in any case.
+            Names that the result must contain.
 
         Returns
         -------
@@ -110,7 +110,7 @@ class Parameters(Checked):
         Returns
         -------
         dict of str to str
-            Empty where it reads none.
+            Empty if it reads no files.
 
         Examples
         --------
@@ -130,18 +130,18 @@ class Case:
     Parameters
     ----------
     name : str
-        What it is called in study files and in the database.
+        Its name in study files and in the database.
     version : int
-        To be raised whenever the same parameters give another answer than before: it is part of every key.
+        Raise it whenever the same parameters give a different answer: it is part of every key.
     parameters : type of Parameters
-        Model of what it takes.
+        Model of its parameters.
     run : function
         ``run(parameters, rng) -> xarray.Dataset``. Pure: the same parameters and generator give the same record bit
         for bit. The record holds scalars and short arrays with their dimensions, ``units`` and ``long_name``; all
         samples of a study are laid side by side along these dimensions. A variable ``residual`` is taken as the
         certificate of the case (its largest value).
     fields : tuple of str
-        Variables of the record that are large: kept in a NetCDF file of their own, beside the database.
+        Large variables of the record: stored in a separate NetCDF file, beside the database.
 
     Examples
     --------
@@ -164,7 +164,7 @@ class Case:
     fields: tuple[str, ...] = ()
 
 
-Record: TypeAlias = "xarray.Dataset"  # what a case returns
+Record: TypeAlias = "xarray.Dataset"  # the result of a case
 
 _T = TypeVar("_T")
 Positive = Annotated[_T, Field(gt=0)]
@@ -172,7 +172,7 @@ Positive = Annotated[_T, Field(gt=0)]
 
 
 def _quantity(kind: Kind) -> BeforeValidator:
-    """Return what turns text with a unit of that kind into its number, and leaves numbers as they are."""
+    """Return a validator that converts text with a unit of this kind into its number; numbers stay unchanged."""
 
     def read(value: Any) -> Any:
         if isinstance(value, bool):
@@ -183,13 +183,13 @@ def _quantity(kind: Kind) -> BeforeValidator:
 
 
 def _without_names(value: Any) -> Any:
-    """Refuse the names of materials with the number to write instead: a reduced modulus is that of two bodies."""
+    """Raise an error for names of materials, with the number to write instead."""
     if isinstance(value, str) and value[:1].isalpha():
         names = [part.strip() for part in value.split(",")][:2]
         elastic = [name for name in (names * 2)[:2] if name != RIGID] or names
         written = f"{reduced_modulus(*elastic) / 1e9:.4g} GPa"
         raise InputError(
-            f"{value!r} is a name, and a reduced modulus is a number",
+            f"{value!r} is a name, but a reduced modulus is a number",
             f"write {written!r}, that of {names[0]} and {names[-1]}",
         )
     return value
@@ -219,7 +219,7 @@ _UNITS = (
 
 def _unit(field: FieldInfo) -> str | None:
     """Return the SI unit of a parameter that is declared as a quantity."""
-    # A quantity that may be none carries its marks one level down.
+    # The annotations of an optional quantity are one level down.
     parts = [getattr(part, "__metadata__", ()) for part in get_args(field.annotation)]
     marks = [*field.metadata, *chain(*parts)]
     return next((unit for kind, unit in _UNITS if get_args(kind)[1] in marks), None)

@@ -1,4 +1,4 @@
-"""Values that are checked as they are made, and refused in plain words."""
+"""Models that check their values and raise readable errors."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from roughcontact.study.study_errors import StudyError, mistakes_of, refusal
 
 __all__ = ["TOO_DEEP", "Checked"]
 
-TOO_DEEP = "its values are nested too deeply to be read: no parameter needs more than a list or two"
+TOO_DEEP = "its values are nested too deeply to be read: use no more than two levels of lists"
 
 
 class Checked(BaseModel):
-    """The base of a study, of its ranges and of the parameters of cases: known names only, frozen, finite.
+    """The base of a study, of its ranges and of the parameters of cases: only known names, frozen, finite.
 
     Raises
     ------
     StudyError
-        If a value is missing, unknown or wrong: all that is wrong, each with its name.
+        If a value is missing, unknown or invalid: all errors, each with its name.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)

@@ -1,4 +1,4 @@
-"""Records side by side: their variables, gathered one record after the other."""
+"""The variables of many records, collected one record after the other."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NOTHING: dict[str, Any] = {"f": math.nan, "b": False, "U": "", "i": 0, "u": 0}
 
 @dataclass(slots=True, eq=False)
 class GatheredColumn:
-    """A variable as the records bring it along, one after the other.
+    """A variable of the records, collected from one record after the other.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ class GatheredColumn:
     dims : tuple of str
         Its dimensions in every record.
     attributes : dict
-        Those that all records agree on.
+        The attributes that are equal in all records.
     same : bool
-        Whether no record differs from the first.
+        Whether all records are equal to the first.
     """
 
     name: str
@@ -47,11 +47,11 @@ class GatheredColumn:
     _values: list[Array] = field(default_factory=list)
 
     def __len__(self) -> int:
-        """Return the number of records that have it."""
+        """Return the number of records that contain the variable."""
         return len(self._places)
 
     def add(self, place: Place, variable: xarray.Variable) -> None:
-        """Take it from the record of the case at a place.
+        """Add the variable from the record of the case at a place.
 
         Raises
         ------
@@ -60,8 +60,8 @@ class GatheredColumn:
         """
         if variable.dims != self.dims:
             raise InputError(
-                f"{self.name!r} lies along {variable.dims} in one record and along {self.dims} in another: "
-                "such cases make two studies"
+                f"{self.name!r} has the dimensions {variable.dims} in one record and {self.dims} in another: "
+                "make two studies of such cases"
             )
         self._agree(variable.attrs)
         values = variable.to_numpy()
@@ -77,14 +77,14 @@ class GatheredColumn:
         return self._values[0]
 
     def longest(self) -> Array | None:
-        """Return the values of the longest record where all others begin like it, of one dimension; else None."""
+        """Return the values of the longest record, in one dimension, if all records begin like it; otherwise None."""
         longest = max(self._values, key=len)
         return longest if all(np.array_equal(each, longest[: len(each)]) for each in self._values) else None
 
     def spread(self, cases: tuple[int, ...], sizes: tuple[int, ...]) -> Array:
-        """Return the values of all cases, in an array of their shape with its own dimensions of these sizes behind.
+        """Return the values of all cases, in an array of the cases' shape followed by the dimensions of the variable.
 
-        What is missing is NaN, an empty word or False; whole numbers become real ones where one is missing.
+        Missing values are NaN, an empty word or False; whole numbers become real ones if one is missing.
         """
         dtype = np.result_type(*{each.dtype for each in self._values})
         there = sum(each.size for each in self._values)
@@ -102,7 +102,7 @@ class GatheredColumn:
         one, other = self.attributes.get("units"), attributes.get("units")
         if self._places and one != other:
             raise InputError(
-                f"{self.name!r} is in {one} in one record and in {other} in another: such cases make two studies"
+                f"{self.name!r} is in {one} in one record and in {other} in another: make two studies of such cases"
             )
         self.attributes = {
             key: value for key, value in self.attributes.items() if attributes.get(key) == value
@@ -118,7 +118,7 @@ class Collector:
     cases : dict of int
         Dimensions of the cases and their sizes.
     taken : set of str
-        Names that are not free: what a record calls so is called ``record_NAME``.
+        Reserved names: variables of these names are renamed to ``record_NAME``.
     """
 
     cases: Mapping[str, int]
@@ -135,7 +135,7 @@ class Collector:
         return self._columns.keys() | self._lengths.keys()
 
     def add(self, place: Place, record: xarray.Dataset) -> None:
-        """Take the record of the case at a place.
+        """Add the record of the case at a place.
 
         Raises
         ------
@@ -159,7 +159,7 @@ class Collector:
         self._count += 1
 
     def variables(self) -> tuple[Variables, Variables]:
-        """Return variables and coordinates, each with its dimensions and attributes; what was gathered is gone."""
+        """Return variables and coordinates, each with dimensions and attributes; the collected values are released."""
         data: Variables = {}
         coordinates: Variables = {}
         while self._columns:
@@ -173,17 +173,17 @@ class Collector:
                 spread = column.spread(tuple(self.cases.values()), sizes)
                 found = (*self.cases, *column.dims), spread, column.attributes
             if single is None and column.dims == (name,):
-                data[f"record_{name}"] = found  # coordinates of points that differ are no coordinate
+                data[f"record_{name}"] = found  # differing coordinates cannot be one coordinate
             else:
                 (coordinates if name in self._coordinates else data)[name] = found
         return data, coordinates
 
     def _kept_once(self, column: GatheredColumn, sizes: tuple[int, ...], coordinate: bool) -> Any:
-        """Return the values that all records agree on; None where they do not."""
+        """Return the values that are the same in all records; None if they differ."""
         if column.dims == (column.name,):
             longest = column.longest()
             return longest if longest is not None and longest.shape == sizes else None
-        # One record agrees with itself: this says nothing about a study.
+        # A single record trivially agrees, which does not make its values constant in a study.
         agree = column.same and len(column) == self._count and (self._count > 1 or coordinate)
         return column.once() if agree else None
 

@@ -1,4 +1,4 @@
-"""The combinations of a study: its parameters, its rows and its table put together, and all that is wrong with them."""
+"""The combinations of the parameters, rows and table of a study, and the errors in them."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 
 __all__ = ["MOST_CASES", "combined", "reads_files"]
 
-MOST_CASES = 10_000_000  # of a study: every one has a key in memory and a row in a database
-Study: TypeAlias = Any  # that of study/study.py, which imports this file
+MOST_CASES = 10_000_000  # of a study: each has a key in memory and a row in a database
+Study: TypeAlias = Any  # the class of study/study.py, which imports this file
 _OF_THE_STUDY = ("folder", "files")
 
 
 def reads_files(case: str) -> bool:
-    """Return whether a case reads files, whose names count from the folder of the study."""
+    """Return whether a case reads files, whose names are relative to the folder of the study."""
     with suppress(StudyError):
         return _is_of_the_study(find_case(case).parameters, "folder")
     return False
 
 
 def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
-    """Return the parameters of each combination by their canonical text, and all that is wrong with them."""
+    """Return the parameters of each combination by their canonical text, and all errors in them."""
     model = find_case(study.case).parameters
     mistakes = list(_misnamed(study, model))
     said = {one.place for one in mistakes}
@@ -49,7 +49,7 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
         much = f"they make {cases:,} cases, and a study has {MOST_CASES:,} at most"
         few = "take fewer samples or values, or several studies"
         return {}, [*mistakes, InputError(much, few, "samples, rows, table")]
-    # In place of a table whose values cannot be read nothing is given, which is not another mistake.
+    # A table with unreadable values counts as empty; this must not be reported as another error.
     said |= {f"table.{name}" for name in study.table.keys() - values.keys()}
     found: dict[str, Parameters] = {}
     rows: tuple[dict[str, Any], ...] = study.rows or ({},)
@@ -71,14 +71,14 @@ def combined(study: Study) -> tuple[dict[str, Parameters], list[InputError]]:
                 continue
             text = canonical(parameters)
             if text in found:
-                remedy = "take one of them out of the table or the rows"
-                mistakes.append(InputError(f"a case comes twice: {text}", remedy, "table, rows"))
+                remedy = "remove one from the table or the rows"
+                mistakes.append(InputError(f"a case appears twice: {text}", remedy, "table, rows"))
             found[text] = parameters
     return found, mistakes
 
 
 def _misnamed(study: Study, model: type[Parameters]) -> Iterator[InputError]:
-    """Yield the errors of names that the case does not take, and of such as are given in two places."""
+    """Yield the errors of unknown names, and of names that are given in two places."""
     known = {name for name in model.model_fields if not _is_of_the_study(model, name)}
     wholes = {name: [each for each in values if isinstance(each, Mapping)] for name, values in _lists(study)}
     places: dict[str, set[str]] = {
@@ -97,11 +97,11 @@ def _misnamed(study: Study, model: type[Parameters]) -> Iterator[InputError]:
     for one, other in itertools.combinations(places, 2):
         for name in sorted(places[one] & places[other]):
             words = f"{name!r} is given both in {one} and in {other}"
-            yield InputError(words, "take it out of one of them", f"{one}.{name}, {other}.{name}")
+            yield InputError(words, "remove it from one of them", f"{one}.{name}, {other}.{name}")
 
 
 def _is_of_the_study(model: type[Parameters], name: str) -> bool:
-    """Return whether a study gives this to its cases, where it is no parameter and no part of a key."""
+    """Return whether a study sets this field of its cases, which is neither a parameter nor part of a key."""
     return name in _OF_THE_STUDY and name in model.model_fields and bool(model.model_fields[name].exclude)
 
 
@@ -112,14 +112,14 @@ def _lists(study: Study) -> Iterator[tuple[str, tuple[Any, ...]]]:
 def _values(
     study: Study, model: type[Parameters], name: str, entry: Range | tuple[Any, ...]
 ) -> tuple[Any, ...]:
-    """Return the values that the table has for a parameter."""
+    """Return the values of a parameter in the table."""
     if not isinstance(entry, Range):
         return entry
     return entry.values(model.reader(name, merged(study.parameters, *study.rows[:1])))
 
 
 def _place(study: Study, places: str | None) -> str | None:
-    """Return where the study gives what is wrong: some places, separated by commas."""
+    """Return the places of an error in the study, separated by commas."""
     tables = {"table": set(study.table), "rows": {name for row in study.rows for name in flat(row)}}
 
     def found(place: str) -> str:

@@ -33,16 +33,16 @@ Triple = tuple[tuple[str, ...], Any, dict[str, str]]
 
 
 def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
-    """Return all records of a store side by side, without their fields; see `assemble`.
+    """Return all records of a store as one dataset, without their fields; see `assemble`.
 
-    A study that is not finished gives what is there.
+    For an unfinished study, it contains the finished cases.
 
     Parameters
     ----------
     store : Store
         An open store.
     seconds : bool
-        Whether the time that each case took is a variable, too.
+        Whether to include the computing time of each case as a variable.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def export(store: Store, *, seconds: bool = False) -> xarray.Dataset:
 
 
 def _per_area(dataset: xarray.Dataset) -> xarray.Dataset:
-    """Return a dataset of rough squares with what follows from their area; records hold forces and areas only."""
+    """Return a dataset of rough squares with quantities per area; records only hold forces and areas."""
     area = dataset["size"] ** 2
     pairs = {"nominal_pressure": "force", "contact_fraction": "contact_area"}
     pairs["interfacial_stiffness_per_area"] = "interfacial_stiffness"
@@ -83,27 +83,26 @@ def _per_area(dataset: xarray.Dataset) -> xarray.Dataset:
 
 
 def assemble(study: Study, rows: Iterable[Row], *, seconds: bool = False) -> xarray.Dataset:
-    """Return the records of a study side by side.
+    """Return the records of a study as one dataset.
 
-    Dimensions are the names of the study's table in their order (``row`` first, where it has rows), ``sample``, and
-    behind them those of the collector. Along each lie the values of the parameter, in SI; parameters that are the same
-    for all cases are coordinates without a dimension, unless the records say more by this name.
+    Dimensions are the names of the study's table in their order (after ``row`` if it has rows), ``sample``, and those
+    of the collector. Their coordinates are the values of the parameters, in SI. Parameters that are the same for all
+    cases are coordinates without a dimension, unless the records hold a variable of this name.
 
-    - A variable that is the same in all records is kept once, with the dimensions it has in a record. So is a
-      coordinate of points that goes on in longer records; one that differs is a variable ``record_NAME``.
-    - Shorter records are filled up, and so are cases that failed or are missing: real numbers by NaN, words by empty
-      ones, truths by False. Whole numbers become real ones where one is missing.
-    - A variable or a dimension of the records that is called like a parameter that varies is called ``record_NAME``.
+    - A variable that is the same in all records is stored once, with its dimensions in a record. So is a coordinate
+      of points that longer records continue; a coordinate that differs becomes a variable ``record_NAME``.
+    - Shorter records, and failed or missing cases, are filled with NaN, empty words or False. Whole numbers become
+      real ones if one is missing.
+    - A variable or dimension of the records with the name of a varying parameter is renamed to ``record_NAME``.
     - ``case_status`` is "done", "failed" or "missing".
 
     Parameters
     ----------
     study : Study
     rows : iterable of Row
-        In any order; what does not belong to the study is left out.
+        In any order; rows of other studies are left out.
     seconds : bool
-        Whether to have the time that each case took. Without, exports of the same study are the same wherever and
-        whenever it was computed.
+        Whether to include the computing time of each case. Without it, exports of the same study are always equal.
 
     Raises
     ------
@@ -153,11 +152,11 @@ class _Layout:
     sizes : dict of int
         By name, in order; ``sample`` is the last.
     coordinates : dict
-        What varies, by name: dimensions, values and attributes.
+        The varying parameters, by name: dimensions, values and attributes.
     constants : dict
-        What does not, in the same form.
+        The constant parameters, in the same form.
     places : dict
-        Of every case, by its key.
+        The place of every case, by its key.
     """
 
     sizes: Mapping[str, int]
@@ -169,8 +168,8 @@ class _Layout:
 def _layout_of(study: Study) -> _Layout:
     """Return the layout of a study.
 
-    A name of its table is a dimension, in the order of the table. Combinations spelt out as rows make a dimension
-    ``row``, along which lie the values of all names that occur in them.
+    Each name of the table is a dimension, in the order of the table. Rows make a dimension ``row``; the values of all
+    names in the rows are along it.
 
     Raises
     ------
@@ -183,7 +182,7 @@ def _layout_of(study: Study) -> _Layout:
     combinations = [{name: value for name, (value, _) in each.items()} for each in labelled]
     if taken := sorted({"row", "sample"} & {*in_rows, *study.table}):
         raise StudyError(
-            f"a parameter that varies cannot be called {taken[0]!r}: this is a dimension of its own"
+            f"a varying parameter cannot be called {taken[0]!r}: this is the name of another dimension"
         )
 
     values = {name: _distinct([each[name] for each in combinations]) for name in study.table}
@@ -216,7 +215,7 @@ def _distinct(values: Sequence[Any]) -> list[Any]:
 
 
 def _coordinate(dimensions: tuple[str, ...], values: Any, unit: str | None) -> Triple:
-    """Return values as numbers, truths or words; what is none of these, alone or among others, as JSON."""
+    """Return values as numbers, truth values or words; mixed values and all other types as JSON."""
     each = values if dimensions else [values]
     kinds = {type(value) for value in each}
     if kinds <= {int, float, type(None)} and kinds != {type(None)}:

@@ -1,4 +1,4 @@
-"""Large variables of a record: a NetCDF file a case, beside the database."""
+"""Large variables of a record: one NetCDF file per case, beside the database."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def read_fields(folder: Path, key: str) -> xarray.Dataset:
 
 
 def cleaned(folder: Path) -> None:
-    """Remove what a killed process has left half-written."""
+    """Remove half-written files of killed processes."""
     for path in (folder / _FOLDER).glob(".*.part"):
         with suppress(OSError):
             path.unlink()
@@ -80,7 +80,7 @@ def _file(folder: Path, key: str) -> Path:
 
 
 def _keep_names(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system knows this."""
+    """Wait until the names in a folder are on the disk, if the system supports this."""
     if os.name != "posix":
         return
     descriptor = os.open(folder, os.O_RDONLY)

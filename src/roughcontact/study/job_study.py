@@ -1,4 +1,4 @@
-"""A study made of a job that works: some of its fields vary, and surfaces that are made are drawn anew."""
+"""A study made from a job: some of its fields vary, and each sample draws new random phases."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["is_random", "job_study"]
 
 
 def job_study(job: Job, vary: Mapping[str, Sequence[Any]], *, samples: int, path: Path) -> Study:
-    """Return the study of a job for a file: named like it, with the names of files as they are from there.
+    """Return the study of a job for a file: named like the file, with file names relative to it.
 
     Parameters
     ----------
@@ -26,9 +26,9 @@ def job_study(job: Job, vary: Mapping[str, Sequence[Any]], *, samples: int, path
     vary : dict of sequence
         Values of fields by their dotted names, in place of those of the job.
     samples : int
-        Of every combination.
+        Number of samples of every combination.
     path : Path
-        Where the study is to be written.
+        The file of the study, which is not written here.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def job_study(job: Job, vary: Mapping[str, Sequence[Any]], *, samples: int, path
         for name in vary:
             field_at(plain, name)
     given = flat(plain)
-    # Of files the study itself keeps the fingerprints, and of random numbers the seed.
+    # The study itself holds the fingerprints of files and the seed.
     left = {
         name: each
         for name, each in given.items()

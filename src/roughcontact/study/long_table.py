@@ -20,17 +20,17 @@ _AT_ONCE = 10_000  # lines
 
 
 def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> list[str]:
-    """Write one line for every point of every case, laid out as `roughcontact.files.write.write_csv` lays out a curve.
+    """Write one line for every point of every case, in the layout of `roughcontact.files.write.write_csv` for a curve.
 
-    The first line names the columns with their units: the number or value along each dimension, then all that varies,
-    what is the same for all points, and words last. The points are those of the variable with the most values of each
-    case. One along a further dimension takes a column for each of its names (``lengths_y``, ``lengths_x``). Points
-    without any value are no lines, such as those of cases that failed. Equal datasets give equal files.
+    The first line names the columns with their units: the index or value along each dimension, then varying
+    quantities, then constant ones, and words last. The points are those of the variable with the most values in each
+    case. A variable along another dimension has a column for each name in it (``lengths_y``, ``lengths_x``). Points
+    without any value, such as those of failed cases, have no lines. Equal datasets give equal files.
 
     Returns
     -------
     list of str
-        Names of the variables that have no place in such a table.
+        Names of the variables that do not fit into such a table.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> lis
     """
     points = _points(dataset)
     columns, left_out = _columns(dataset, points)
-    sizes = {d: dataset.sizes[d] for d in points} or {"": 1}  # scalars alone make one line
+    sizes = {d: dataset.sizes[d] for d in points} or {"": 1}  # only scalars: one line
     cells = {name: _laid(values.variable, sizes) for name, values in columns.items()}
     kept = np.flatnonzero(_kept(dataset, points, sizes))
 
@@ -53,7 +53,7 @@ def write_long_csv(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> lis
 
 
 def _points(dataset: xarray.Dataset) -> tuple[Any, ...]:
-    """Return the dimensions of the points: those of the cases, and what most lies along."""
+    """Return the dimensions of the points: those of the cases, and those of the largest variable."""
     cases = set(dataset["case_status"].dims) if "case_status" in dataset else set()
     found = [values for values in dataset.data_vars.values() if cases <= set(values.dims)]
     return max(found, key=lambda values: values.size).dims if found else ()
@@ -62,8 +62,8 @@ def _points(dataset: xarray.Dataset) -> tuple[Any, ...]:
 def _columns(
     dataset: xarray.Dataset, points: tuple[Any, ...]
 ) -> tuple[dict[str, xarray.DataArray], list[str]]:
-    """Return the columns of a table of the points, and the names of what has no place in it."""
-    columns = {str(d): dataset[d] for d in points}  # where there is no coordinate, the number
+    """Return the columns of a table of the points, and the names of the variables that do not fit into it."""
+    columns = {str(d): dataset[d] for d in points}  # the index if there is no coordinate
     left_out = []
     for name, values in {**dataset.coords, **dataset.data_vars}.items():
         others = [d for d in values.dims if d not in points]
@@ -78,7 +78,7 @@ def _columns(
 
 
 def _rank(values: xarray.DataArray, points: tuple[Any, ...]) -> tuple[bool, bool]:
-    """Return the order of a column: what varies, what is the same for all points, and words after numbers."""
+    """Return the sort key of a column: varying before constant ones, numbers before words."""
     return values.dtype.kind in "OUT", bool(points) and not set(values.dims) & set(points)
 
 
@@ -94,7 +94,7 @@ def _kept(dataset: xarray.Dataset, points: tuple[Any, ...], sizes: dict[Any, int
 
 
 def _laid(variable: xarray.Variable, sizes: dict[Any, int]) -> npt.NDArray[Any]:
-    """Return values with all the dimensions of a point, as a view."""
+    """Return values broadcast to all dimensions of the points, as a view."""
     known = variable.transpose(*(d for d in sizes if d in variable.dims)).to_numpy()
     shaped = known[tuple(slice(None) if d in variable.dims else np.newaxis for d in sizes)]
     return np.broadcast_to(shaped, tuple(sizes.values()))

@@ -12,7 +12,7 @@ __all__ = ["at", "flat", "merged"]
 
 
 def at(values: Any, name: str) -> Any:
-    """Return the value of a dotted name in nested tables; None where there is none."""
+    """Return the value of a dotted name in nested tables; None if the name is missing."""
     return reduce(
         lambda table, key: table.get(key) if isinstance(table, Mapping) else None, name.split("."), values
     )
@@ -30,7 +30,7 @@ def flat(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def merged(*tables: Mapping[str, Any]) -> dict[str, Any]:
-    """Return tables as one, later values in place of earlier ones; a dotted name is a value in a nested table."""
+    """Return merged tables, later values replacing earlier ones; a dotted name is a value in a nested table."""
     whole: dict[str, Any] = {}
     for table in tables:
         for name, value in table.items():

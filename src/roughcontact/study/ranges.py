@@ -1,4 +1,4 @@
-"""Values of a parameter that are spaced evenly, or in equal ratios."""
+"""Ranges of values of a parameter, with equal differences or equal ratios."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ from roughcontact.units import as_text
 
 __all__ = ["Range"]
 
-# Of the largest value: -0.5 + 4 * 0.15 is meant to be 0.1, and to stay the same number when the range grows.
+# Relative to the largest value: -0.5 + 4 * 0.15 must be exactly 0.1, also if the range is extended.
 _DIGITS = 12
 _MOST = 1_000_000
-_HIT = 1e-9  # of a step: one that hits the end but for rounding hits it
+_HIT = 1e-9  # of a step: tolerance for rounding at the end of the range
 
 
 _Number = Annotated[float | str, BeforeValidator(as_text)]
 
 
 class Range(Checked):
-    """A range with both its ends, by the number of its values or by the step between them.
+    """A range that includes both ends, given by the number of values or by the step between them.
 
     Parameters
     ----------
     start, stop : float or str
-        The ends; text with a unit where the parameter takes it. A range by steps ends at the last value that does
-        not pass `stop`.
+        The ends; text with a unit if the parameter accepts it. A range by steps ends at the last value not beyond
+        `stop`.
     count : int, optional
         Number of values.
     step : float or str, optional
-        Difference from one value to the next; downwards where `stop` lies below `start`.
+        Difference from one value to the next; negative if `stop` is below `start`.
     spacing : "linear" or "log"
-        Even differences or even ratios.
+        Equal differences or equal ratios.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Range(Checked):
         Parameters
         ----------
         read : function
-            Takes an end or the step as it was written and returns the number.
+            Takes an end or the step as written and returns the number.
 
         Returns
         -------
@@ -97,7 +97,7 @@ class Range(Checked):
 
 def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError(f"{value!r} is not a number, and only numbers have ranges", "write a list")
+        raise InputError(f"{value!r} is not a number, and a range needs numbers", "write a list")
     return float(value)
 
 
@@ -116,7 +116,7 @@ def _by_steps(start: float, stop: float, step: float) -> tuple[float, ...]:
 
 
 def _rounded(values: np.typing.NDArray[np.floating[Any]], *, each: bool = False) -> tuple[float, ...]:
-    """Return values to twelve digits, of `each` or of the largest of them."""
+    """Return values rounded to twelve digits, relative to `each` or to the largest value."""
     if each or not values.any():
         return tuple(float(f"{value:.{_DIGITS}g}") for value in values)
     decimals = _DIGITS - 1 - math.floor(math.log10(float(np.abs(values).max())))

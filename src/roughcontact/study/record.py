@@ -1,4 +1,4 @@
-"""One case as it is stored: its row, and its record as text, a dataset in JSON and back to the last bit."""
+"""A stored case: its row, and its record as JSON, which is exact to the last bit."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ COLUMNS = (
     *("key", "sample", "parameters", "status", "message", "seconds", "version", "residual", "record"),
     "checksum",
 )
-# Variables that stores of earlier builds hold by another name: the key of a case does not depend on it.
+# Variables with another name in stores of earlier builds: keys of cases do not depend on these names.
 _RENAMED = {"largest_pressure": "max_pressure", "largest_tension": "max_tension"}
 _ATTRIBUTES = (str, int, float, bool, np.bool_, np.integer)
 
 
 def require_record(record: Any, fields: Iterable[str] = ()) -> None:
-    """Refuse what cannot be stored as the record of a case.
+    """Raise an error for a result that cannot be stored as the record of a case.
 
     Raises
     ------
     TypeError, ValueError
-        If it is no dataset, lacks one of its `fields`, or holds other values than numbers and words.
+        If it is not a dataset, lacks one of its `fields`, or holds values other than numbers and words.
     """
     import xarray
 
@@ -46,7 +46,7 @@ def require_record(record: Any, fields: Iterable[str] = ()) -> None:
             raise about("the record", f"lacks {name!r}, which the case declares as a field")
     for place, variable in record.variables.items():
         if variable.dtype.kind not in _KINDS or (variable.dtype.kind == "f" and variable.dtype.itemsize > 8):
-            raise TypeError(f"{place!r} has the type {variable.dtype}, and a record holds {_HELD}")
+            raise TypeError(f"{place!r} has the type {variable.dtype}, but a record can only hold {_HELD}")
         _require_attributes(repr(place), variable.attrs)
     _require_attributes("the record", record.attrs)
 
@@ -58,7 +58,7 @@ def _require_attributes(name: str, attributes: Mapping[Any, Any]) -> None:
 
 
 def encode(record: xarray.Dataset) -> str:
-    """Return a record as JSON: floats by the shortest digits that give them back, NaN and Infinity by name."""
+    """Return a record as JSON: floats with the shortest digits that restore them, NaN and Infinity by name."""
     whole = {
         "coords": {str(name): _encoded(values.variable) for name, values in record.coords.items()},
         "data": {str(name): _encoded(values.variable) for name, values in record.data_vars.items()},
@@ -68,7 +68,7 @@ def encode(record: xarray.Dataset) -> str:
 
 
 def decode(text: str) -> xarray.Dataset:
-    """Return the record of a text by `encode`; variables have the names of today."""
+    """Return the record from a text of `encode`; variables have their current names."""
     import xarray
 
     whole = json.loads(text)
@@ -80,7 +80,7 @@ def decode(text: str) -> xarray.Dataset:
 
 
 def residual_of(record: xarray.Dataset) -> float | None:
-    """Return the certificate of a record, the largest value of its variable ``residual``; None where it has none."""
+    """Return the certificate of a record, the largest value of its variable ``residual``; None if it has none."""
     if "residual" not in record.variables or record["residual"].size == 0:
         return None
     largest = float(record["residual"].max())
@@ -103,7 +103,7 @@ def _decoded(each: Mapping[str, Any]) -> tuple[Any, ...]:
 
 
 def _plain(value: Any) -> Any:
-    """Return a number of NumPy, as attributes may be, as one of Python."""
+    """Return a NumPy number, which attributes may be, as a Python number."""
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"{value!r} cannot be stored")
@@ -111,21 +111,21 @@ def _plain(value: Any) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One case as it is stored.
+    """A stored case.
 
     Parameters
     ----------
     key : str
     sample : int
     parameters : dict
-        In SI, those with their default included.
+        In SI, including defaults.
     status : "done" or "failed"
     message : str
-        Why it failed, empty otherwise.
+        Why the case failed; empty otherwise.
     seconds : float
         Wall time of the computation.
     version : str
-        Of roughcontact.
+        Version of roughcontact.
     residual : float or None
         Certificate.
     text : str or None
@@ -155,12 +155,12 @@ class Row:
 
     @property
     def record(self) -> xarray.Dataset | None:
-        """The record without its fields, read from its text; None of a failed case."""
+        """The record without its fields, read from its text; None for a failed case."""
         return None if self.text is None else decode(self.text)
 
     @classmethod
     def of(cls, values: tuple[Any, ...]) -> Row | None:
-        """Return the row of the values that a database holds.
+        """Return the row from the values in a database.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ class Row:
         Returns
         -------
         Row or None
-            None if they do not fit their checksum.
+            None if the checksum is wrong.
 
         Examples
         --------
@@ -186,5 +186,5 @@ class Row:
 
 
 def checksum(values: tuple[Any, ...]) -> str:
-    """Return what tells that one of the values before the last has changed on the disk."""
+    """Return a checksum of all values except the last, which detects changes on the disk."""
     return hashlib.sha256(json.dumps(values).encode()).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""Compute what is left of a study, and store every case as it comes."""
+"""Compute the cases of a study that are left, and store every case when it is done."""
 
 from __future__ import annotations
 
@@ -31,29 +31,29 @@ def run(
 ) -> Summary:
     """Compute the cases of a study that a folder does not hold yet.
 
-    Stopped at any moment, by Ctrl-C or a power cut, it goes on from there when it is called again.
+    After a stop at any moment, by Ctrl-C or a power cut, a new call resumes the study.
 
     Parameters
     ----------
     study : Study
     folder : str or path
-        Made where it is not there.
+        It is created if it does not exist.
     executor : Executor, optional
-        Where cases are computed; by default one after the other in this process.
+        Computes the cases; by default one after the other in this process.
     retry : bool, optional
-        Whether cases that failed before are tried again.
+        Whether to try failed cases again.
     on_result : function, optional
-        Called with every result, after it was stored.
+        Called with every result after it has been stored.
 
     Returns
     -------
     Summary
-        Of the whole study, and the seconds that this run took.
+        Numbers of cases of the whole study, and the seconds of this run.
 
     Raises
     ------
     StoreError
-        If the folder cannot be used, see `Store.open`, or takes no more; what was stored before is safe.
+        If the folder cannot be used, see `Store.open`, or cannot be written any more; stored cases are safe.
 
     Examples
     --------
@@ -63,8 +63,8 @@ def run(
     >>> summary = rc.study.run(study, "few")
     >>> summary.done, summary.left
     (2, 0)
-    >>> rc.study.run(study.with_samples(3), "few", on_result=lambda result: print("a case more")).done
-    a case more
+    >>> rc.study.run(study.with_samples(3), "few", on_result=lambda result: print("one more case")).done
+    one more case
     3
     """
     start = time.monotonic()

@@ -1,4 +1,4 @@
-"""One task, computed: whatever happens, there is a result."""
+"""Computation of a task, which always returns a result."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
 
 __all__ = ["run_task"]
 
-_LONGEST = 1000  # characters of a message that are worth keeping
+_LONGEST = 1000  # characters of a message that are stored
 
 
 def run_task(task: Task) -> Result:
-    """Return what comes of a task, computed on one thread.
+    """Compute a task on one thread, and return its result.
 
-    An exception makes it a failed one, and goes no further.
+    An exception of the case is not raised: the result is that of a failed task.
 
     Parameters
     ----------
     task : Task
-        What is computed.
+        The task.
 
     Returns
     -------
     Result
-        The record, or the reason why there is none.
+        The record, or the reason of the failure.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def run_task(task: Task) -> Result:
 
 
 def _of_a_signal(end: SystemExit) -> bool:
-    """Whether the program itself is asked to end, and not by its case: by convention the status is 128 and a signal."""
+    """Whether a signal ends the program, rather than its case: by convention the status is then 128 plus the signal."""
     return isinstance(end.code, int) and end.code > 128
 
 
@@ -66,14 +66,14 @@ def _reason(error: Exception | SystemExit) -> str:
     """Return the class, the message and the place of an error."""
     text = f"{type(error).__name__}: {error}".removesuffix(": ")
     text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
-    frames = traceback.extract_tb(error.__traceback__)[1:]  # without our own
+    frames = traceback.extract_tb(error.__traceback__)[1:]  # without the frame of this function
     if not frames:
         return text
     return f"{text} ({os.path.basename(frames[-1].filename)}, line {frames[-1].lineno}, in {frames[-1].name})"
 
 
 def _one_thread() -> AbstractContextManager[object]:
-    # A library that came with a module since the last case has threads of its own.
+    # A library that was imported since the last case has separate threads.
     import scipy.linalg  # noqa: F401  # its BLAS must be there to be limited
 
     limit: AbstractContextManager[object] = _controller(len(sys.modules)).limit(limits=1)

@@ -1,4 +1,4 @@
-"""The database of a store: its table, how it is made and opened, and its errors in words that help."""
+"""The database of a store: its table, its creation and opening, and its errors with remedies."""
 
 from __future__ import annotations
 
@@ -31,40 +31,38 @@ CREATE TABLE cases (
     checksum TEXT NOT NULL         -- of all these
 )
 """
-_PATIENCE = (
-    600.0  # seconds that the writer waits for readers: on a slow disk, looking through it all takes minutes
-)
+_PATIENCE = 600.0  # seconds that the writer waits for readers: on a slow disk, reading all rows takes minutes
 _BREATH = 5.0  # seconds at a time, in which Ctrl-C has no effect
 _BACKUP = (
-    "put a backup in its place, or save what can be read with the command .recover of sqlite3; "
-    "where it is moved away, its cases are computed again"
+    "put a backup in its place, or save the readable part with the command .recover of sqlite3; "
+    "if you move it away, its cases are computed again"
 )
-# By the beginning of SQLite's name of an error: the problem, and the remedy.
+# Problem and remedy, by the beginning of SQLite's name of an error.
 _TROUBLE = {
     "SQLITE_FULL": ("the disk is full", f"make room and run again; {SAFE}"),
     "SQLITE_IOERR": (
-        "the disk does not take what is written to it, or does not give it back ({})",
-        f"see whether it is full or gone, and run again; {SAFE}",
+        "the disk cannot be written or read ({})",
+        f"check whether it is full or disconnected, and run again; {SAFE}",
     ),
     "SQLITE_CORRUPT": (f"{DATABASE} is damaged ({{}})", _BACKUP),
-    "SQLITE_NOTADB": (f"{DATABASE} is damaged, or something else ({{}})", _BACKUP),
+    "SQLITE_NOTADB": (f"{DATABASE} is damaged, or is not a database ({{}})", _BACKUP),
     "SQLITE_BUSY": (
-        f"another program has kept {DATABASE} to itself for minutes",
+        f"another program has locked {DATABASE} for minutes",
         f"end it (an open sqlite3 shell?) and run again; {SAFE}",
     ),
     "SQLITE_READONLY": (
         f"{DATABASE} cannot be written ({{}})",
-        f"change its permissions, or copy the folder elsewhere and go on there; {SAFE}",
+        f"change its permissions, or copy the folder elsewhere and resume there; {SAFE}",
     ),
     "SQLITE_CANTOPEN": (
-        f"{DATABASE} cannot be opened or written beside ({{}})",
-        f"change the permissions of the folder, or copy it elsewhere and go on there; {SAFE}",
+        f"{DATABASE} cannot be opened, or its folder cannot be written ({{}})",
+        f"change the permissions of the folder, or copy it elsewhere and resume there; {SAFE}",
     ),
 }
 
 
 def made(folder: Path) -> None:
-    """Make the database of a folder unless it is there already.
+    """Make the database of a folder unless it exists.
 
     Raises
     ------
@@ -74,7 +72,7 @@ def made(folder: Path) -> None:
     path = folder / DATABASE
     if path.exists():
         return
-    # Aside, so that a database without its table never stands there.
+    # In a temporary file, so that a database without its table never exists.
     with (
         on_disk(folder, f"{DATABASE} cannot be made"),
         written_aside(path) as aside,
@@ -88,22 +86,23 @@ def made(folder: Path) -> None:
 
 
 def connected(folder: Path, *, write: bool) -> sqlite3.Connection:
-    """Return a connection to the database of a folder, after checking that it is whole.
+    """Return a connection to the database of a folder, after an integrity check.
 
     Raises
     ------
     StoreError
-        If it is not there, not ours, of a newer version, damaged, or cannot be written.
+        If it is missing, of another program, of a newer version, damaged, or cannot be written.
     """
     path = folder / DATABASE
     if not path.is_file():
         raise StoreError(
-            folder, f"there is no {DATABASE} in it", "run the study, or name the folder that it was run in"
+            folder, f"there is no {DATABASE} in it", "run the study, or name the folder of its results"
         )
     with guarded(folder):
         if path.stat().st_size == 0:
             raise StoreError(folder, f"{DATABASE} is empty", _BACKUP)
-        # A reader opens it for writing, too: what a killed writer left half-done is undone by whoever comes next.
+        # A reader also opens it for writing, because the next connection must undo an unfinished transaction of a
+        # killed writer.
         connection = sqlite3.connect(
             f"{path.absolute().as_uri()}?mode=rw", uri=True, timeout=_BREATH, isolation_level=None
         )
@@ -123,7 +122,7 @@ def connected(folder: Path, *, write: bool) -> sqlite3.Connection:
 
 
 def patiently(connection: sqlite3.Connection, statement: str) -> None:
-    """Execute a statement that may have to wait for other programs which read."""
+    """Execute a statement that may have to wait for reading programs."""
     end = time.monotonic() + _PATIENCE
     while True:
         try:
@@ -146,7 +145,7 @@ def _check(connection: sqlite3.Connection, folder: Path) -> None:
     if version != _VERSION:
         raise StoreError(
             folder,
-            f"{DATABASE} is of version {version}, and this roughcontact knows version {_VERSION}",
+            f"{DATABASE} has version {version}, but this roughcontact reads version {_VERSION}",
             "use the newer roughcontact that made it",
         )
     problems = [line for (line,) in connection.execute("PRAGMA integrity_check(1)")]
@@ -157,7 +156,7 @@ def _check(connection: sqlite3.Connection, folder: Path) -> None:
 
 @contextmanager
 def guarded(folder: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn errors of the database into a StoreError that says what to do."""
+    """Turn errors of the database into a StoreError with a remedy."""
     try:
         yield
     except sqlite3.Error as error:

@@ -1,4 +1,4 @@
-"""Where the cases of a study are kept: one folder, one database, one process that writes."""
+"""The store of a study: one folder with one database, written by one process."""
 
 from __future__ import annotations
 
@@ -35,22 +35,22 @@ INSERT INTO cases ({", ".join(COLUMNS)}) VALUES ({", ".join("?" * len(COLUMNS))}
 ON CONFLICT (key) DO UPDATE SET {", ".join(f"{name} = excluded.{name}" for name in COLUMNS)}
 WHERE status = 'failed'
 """
-_AT_ONCE = 200  # rows that are read in one go, so that a slow reader never keeps the writer waiting
+_AT_ONCE = 200  # rows per query, so that a slow reader never delays the writer
 
 
 class Store:
-    """Where the cases of a study are kept. It is opened by `Store.open`, in a ``with`` statement.
+    """The stored cases of a study. Open it by `Store.open`, in a ``with`` statement.
 
     Parameters
     ----------
     folder : Path
-        Where the cases are.
+        The folder of the cases.
     study : Study
-        What the folder holds cases of.
+        The study that the cases belong to.
     connection : sqlite3.Connection
-        To the database of the folder.
+        Connection to the database of the folder.
     held : ExitStack
-        What is released when the store is closed.
+        Resources that are released when the store is closed.
 
     Examples
     --------
@@ -78,26 +78,25 @@ class Store:
     def open(cls, folder: str | os.PathLike[str], study: Study | None = None) -> Store:
         """Open the store in a folder: to read it, or with a `study` to add cases of it.
 
-        One process at a time adds cases; any number may read, meanwhile too.
+        Only one process at a time can add cases; any number can read at the same time.
 
         Parameters
         ----------
         folder : str or path
-            With a `study`, made where it is not there.
+            With a `study`, it is created if it does not exist.
         study : Study, optional
-            The study that the folder is for, or that it holds already: then perhaps with more samples, and with more
-            combinations.
+            The study of a new folder; for an existing one, the same study, possibly with more samples and combinations.
 
         Returns
         -------
         Store
-            To be closed, as a ``with`` statement does.
+            Close it after use, as a ``with`` statement does.
 
         Raises
         ------
         StoreError
             If the folder holds no store, or that of another study; if another process adds cases to it; if it cannot
-            be written; if its database is damaged or of a newer version. Nothing in it is changed then.
+            be written; if its database is damaged or of a newer version. Its contents stay unchanged.
         """
         place = Path(folder)
         with ExitStack() as held:
@@ -106,7 +105,7 @@ class Store:
                 connection = connected(place, write=False)
                 held.callback(connection.close)
                 return cls(place, found, connection, held.pop_all())
-            with on_disk(place, "there is no such folder, and it cannot be made"):
+            with on_disk(place, "the folder does not exist and cannot be created"):
                 place.mkdir(parents=True, exist_ok=True)
             held.callback(_locked(place).release)
             study = study.pinned()
@@ -129,7 +128,7 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Let go of the folder.
+        """Close the store, and release the folder.
 
         Examples
         --------
@@ -143,35 +142,35 @@ class Store:
         self._held.close()
 
     def add(self, task: Task, result: Result) -> None:
-        """Store what came of a task, in one transaction.
+        """Store the result of a task, in one transaction.
 
-        A case that failed before is replaced; one that is done stays as it is.
+        A failed case is replaced; a case that is done stays unchanged.
 
         Parameters
         ----------
         task : Task
-            One of the study's.
+            A task of the study.
         result : Result
-            What came of it.
+            Its result.
 
         Raises
         ------
         StoreError
-            If it cannot be written; what was stored before stays.
+            If it cannot be written; stored cases stay.
         """
         record, residual = result.record, None
         if record is not None:
             residual = residual_of(record)
             if task.case.fields:
                 record, fields = split(record, task.case.fields)
-                # First, so that there is never a row without them.
+                # Fields first, so that no row exists without them.
                 write_fields(self.folder, task.key, fields)
         values = (
             task.key,
             task.sample,
             json.dumps(task.parameters.model_dump(mode="json")),
             "failed" if record is None else "done",
-            result.message.encode("utf-8", "replace").decode("utf-8"),  # bytes that are no letters become ?
+            result.message.encode("utf-8", "replace").decode("utf-8"),  # invalid characters become ?
             float(result.seconds),
             __version__,
             residual,
@@ -181,7 +180,7 @@ class Store:
             self._commit((*values, checksum(values)))
 
     def done_keys(self) -> frozenset[str]:
-        """Return the keys of all cases that are done, of earlier versions of the case too.
+        """Return the keys of all cases that are done, including those of earlier versions of the case.
 
         Returns
         -------
@@ -255,7 +254,7 @@ class Store:
         >>> fixed = {"points": 16, "size": "1 mm", "modulus": "1 GPa", "rms": "1 um", "hurst": 0.8, "loads": 3}
         >>> with rc.study.Store.open("few", rc.study.Study(name="few", case="curve", parameters=fixed)) as store:
         ...     try:
-        ...         store.fields("a key")  # this case keeps none
+        ...         store.fields("a key")  # this case stores none
         ...     except rc.study.StoreError as error:
         ...         print(error.problem.partition(",")[0])
         there are no fields of the case a key
@@ -263,7 +262,7 @@ class Store:
         return read_fields(self.folder, key)
 
     def summary(self) -> Summary:
-        """Return how far the study is.
+        """Return the progress of the study.
 
         Returns
         -------
@@ -275,12 +274,12 @@ class Store:
         return Summary(done, failed, len(keys) - done - failed)
 
     def outdated(self) -> int:
-        """Return how many cases an earlier version of the case has computed.
+        """Return the number of stored cases of earlier versions of the case.
 
         Returns
         -------
         int
-            They are kept, and not part of the study.
+            These cases stay stored, but are not part of the study.
         """
         keys = {task.key for task in self.study.tasks()}
         return len((self.done_keys() | self.failed_keys()) - keys)
@@ -317,27 +316,27 @@ class Store:
             connection.execute(_INSERT, values)
             patiently(connection, "COMMIT")
         except BaseException:
-            with suppress(sqlite3.Error):  # some errors have ended the transaction themselves
+            with suppress(sqlite3.Error):  # some errors already end the transaction
                 connection.execute("ROLLBACK")
             raise
 
 
 def _kept(folder: Path) -> Study:
-    """Return the study that a folder holds cases of."""
+    """Return the study of a folder."""
     if not (folder / STUDY).is_file():
-        raise StoreError(folder, f"there is no {STUDY} in it", "name the folder that a study was run in")
+        raise StoreError(folder, f"there is no {STUDY} in it", "name the folder of the results of a study")
     try:
         return Study.read(folder / STUDY)
     except StudyError as error:
         raise StoreError(
             folder,
             f"its {STUDY} cannot be used ({error})",
-            "where it is damaged, remove it and run with the study's own file: the cases stay",
+            "if it is damaged, remove it and run the original file of the study: the cases stay",
         ) from error
 
 
 def _locked(folder: Path) -> FileLock:
-    """Return the lock of a store, taken.
+    """Acquire the lock of a store, and return it.
 
     Raises
     ------
@@ -351,20 +350,20 @@ def _locked(folder: Path) -> FileLock:
         raise StoreError(
             folder,
             "another process is running a study in this folder",
-            "wait for its end, or stop it with Ctrl-C; 'roughcontact study status' works meanwhile",
+            "wait until it ends, or stop it with Ctrl-C; 'roughcontact study status' works meanwhile",
         ) from None
-    except (OSError, NotImplementedError) as error:  # the latter where a file system has no locks
+    except (OSError, NotImplementedError) as error:  # the latter for file systems without locks
         raise disk_trouble(folder, "the folder cannot be locked for writing", error) from error
     return lock
 
 
 def _require_growth(folder: Path, before: Study, now: Study) -> None:
-    """Refuse a study that is another than `before`, or less of it.
+    """Raise an error for a study that differs from `before`, or that is smaller.
 
     Raises
     ------
     StoreError
-        If name, case or seed differ, or if samples or combinations are gone.
+        If name, case or seed differ, or if samples or combinations are missing.
     """
     for what, one, other in (
         ("name", before.name, now.name),
@@ -372,11 +371,13 @@ def _require_growth(folder: Path, before: Study, now: Study) -> None:
         ("seed", before.seed, now.seed),
     ):
         if one != other:
-            raise StoreError(folder, f"it holds a study with the {what} {one!r}, not {other!r}", _ELSEWHERE)
+            raise StoreError(
+                folder, f"it holds results of a study with the {what} {one!r}, not {other!r}", _ELSEWHERE
+            )
     if now.samples < before.samples:
         raise StoreError(
             folder,
-            f"it holds {before.samples} samples, and this study has {now.samples}",
+            f"it holds {before.samples} samples, but this study has {now.samples}",
             f"give {before.samples} or more, run the folder itself, or {_ELSEWHERE}",
         )
     kept = {canonical(each) for each in now.combinations()}
@@ -385,6 +386,6 @@ def _require_growth(folder: Path, before: Study, now: Study) -> None:
         if text not in kept:
             raise StoreError(
                 folder,
-                f"it holds cases that this study has not ({text})",
-                f"add to its table and leave what is there, run the folder itself, or {_ELSEWHERE}",
+                f"it holds cases that are not in this study ({text})",
+                f"only add values to the table of the study, run the folder itself, or {_ELSEWHERE}",
             )

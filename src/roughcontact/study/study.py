@@ -1,4 +1,4 @@
-"""A study: a case, the parameters that it is computed for, and how many samples of each."""
+"""A study: a case, its parameters, and the number of samples of each combination."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ __all__ = ["Study"]
 
 
 def _study_name(name: str) -> str:
-    """Return the name of a study, which must do as the name of a folder on every system.
+    """Return the name of a study, which must be valid as the name of a folder on every system.
 
     Raises
     ------
     ValueError
-        If it does not.
+        If it is not.
     """
     if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name, re.ASCII) is None:
         raise InputError(
-            f"{name!r} is no name for a study",
+            f"{name!r} is not a valid name of a study",
             "use letters, digits, '-', '_' and '.', and begin with a letter or digit",
         )
     return name
@@ -78,7 +78,8 @@ def _plain(value: Any) -> Any:
     value = value.tolist() if hasattr(value, "tolist") else value
     if not isinstance(value, (bool, int, float, str, list)):
         raise InputError(
-            f"{value!r} has no place in a study file", "give numbers, text, truth values or lists of them"
+            f"{value!r} cannot be written to a study file",
+            "give numbers, text, truth values or lists of them",
         )
     return value
 
@@ -103,7 +104,7 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
         return Range(**value)
     if not isinstance(value, list):
         raise InputError(
-            f"{value!r} is neither a list nor a range: a single value is given under parameters, a range as "
+            f"{value!r} is neither a list nor a range: write a single value under parameters, and a range as "
             "{ start = 0.1, stop = 0.9, count = 9 }"
         )
     if not value:
@@ -112,36 +113,36 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
 
 
 class Study(Checked):
-    """A case, the parameters that it is computed for, and how many samples of each.
+    """A case, its parameters, and the number of samples of each combination.
 
     Parameters
     ----------
     name : str
-        What the study is called: letters, digits, ``-``, ``_`` and ``.``; folders are named by it.
+        Name of the study: letters, digits, ``-``, ``_`` and ``.``; folders are named after it.
     case : str
-        A case that comes with the package, or ``"module:attribute"`` for a `Case` of the user's.
+        A case of the package, or ``"module:attribute"`` for a `Case` of the user.
     seed : int
-        Of the random numbers. Sample 7 draws the same ones whatever the parameters are.
+        Seed of the random numbers. The numbers of a sample do not depend on the parameters.
     samples : int
-        Samples of every combination of parameters.
+        Number of samples of every combination of parameters.
     parameters : dict
         Parameters that are the same for all cases.
     table : dict
-        Parameters with lists of values, or a `Range`; every combination of them is computed.
+        Parameters with lists of values, or a `Range`; all combinations of them are computed.
     rows : sequence of dict
-        Combinations spelt out, instead of a table or crossed with it. Here and in the table a dotted name, such as
-        ``"preparation.level"``, is a parameter in a nested table.
+        Explicit combinations, in place of a table or combined with it. In rows and table, a dotted name such as
+        ``"preparation.level"`` is a parameter in a nested table.
     folder : str
-        From which the names of files count; in a study file relative to it. By default where the study file lies, in
-        Python the current folder.
+        File names are relative to this folder, which is itself relative to the study file. By default the folder of
+        the study file, in Python the current folder.
     files : dict of str to str
-        SHA-256 of the files that the parameters name. It is filled where a study is run: another file under one of the
-        names is refused then.
+        SHA-256 of the files that the parameters name. Running a study fills it in; a changed file raises an error
+        later.
 
     Raises
     ------
     StudyError
-        If it makes no sense: all mistakes, each with its place. The case is asked whether it takes the parameters.
+        If it is invalid: all errors, each with its place. The model of the case checks the parameters.
 
     Examples
     --------
@@ -199,19 +200,19 @@ class Study(Checked):
         Returns
         -------
         Study
-            Checked as one that is made in Python.
+            The study, checked like one that is made in Python.
 
         Raises
         ------
         StudyError
-            If the file cannot be read or makes no sense.
+            If the file cannot be read or is invalid.
         """
         try:
             values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
             if "job" in values and "case" not in values:
                 raise StudyError(
-                    "this is a job, and no study",
-                    f"do it by 'roughcontact run {path}', or vary it by 'roughcontact study from {path}'",
+                    "this is a job, not a study",
+                    f"run it by 'roughcontact run {path}', or vary it by 'roughcontact study from {path}'",
                 )
             if reads_files(str(values.get("case"))):
                 values["folder"] = os.path.normpath(Path(path).parent / str(values.get("folder", "")))
@@ -221,7 +222,7 @@ class Study(Checked):
                 f"{path}: {error.strerror}", "name the file of a study, such as study.toml"
             ) from error
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise StudyError(f"{path}: it is no TOML file: {error}") from error
+            raise StudyError(f"{path}: it is not a valid TOML file: {error}") from error
         except RecursionError:
             raise StudyError(f"{path}: {TOO_DEEP}") from None
         except StudyError as error:
@@ -233,7 +234,7 @@ class Study(Checked):
         Parameters
         ----------
         path : str or path
-            File to write; one that is there is replaced.
+            File to write; an existing file is replaced.
 
         Raises
         ------
@@ -251,7 +252,7 @@ class Study(Checked):
         Returns
         -------
         str
-            What `read` takes.
+            The contents of a file for `read`.
         """
         written = dict(self) | {
             "table": {
@@ -272,7 +273,7 @@ class Study(Checked):
         Returns
         -------
         Study
-            The samples that both have are the same.
+            The common samples of both studies are the same.
 
         Raises
         ------
@@ -287,7 +288,7 @@ class Study(Checked):
         Returns
         -------
         Study
-            Itself where they name none.
+            The study itself if they name no files.
 
         Raises
         ------
@@ -307,12 +308,12 @@ class Study(Checked):
         return self if files == self.files else Study(**(dict(self) | {"files": files}))
 
     def require_files(self) -> None:
-        """Check that each file is the one that `files` names.
+        """Check that no file has changed, by the fingerprints in `files`.
 
         Raises
         ------
         StudyError
-            If one is another, or cannot be read.
+            If a file has changed, or cannot be read.
 
         Examples
         --------
@@ -331,7 +332,7 @@ class Study(Checked):
             if fingerprint(Path(self.folder, name)) != digest:
                 raise StudyError(
                     f"{name} is not the file that the study was begun with: its SHA-256 differs",
-                    "put that file back, or take its line out of [files] and choose another folder",
+                    "put that file back, or remove its line from [files] and choose another folder",
                     f"files.{name}",
                 )
 
@@ -346,7 +347,7 @@ class Study(Checked):
         Raises
         ------
         StudyError
-            If the case does not take them, if two of them are the same, or if there are more than ``MOST_CASES`` cases.
+            If they are invalid, if two combinations are the same, or if there are more than ``MOST_CASES`` cases.
         """
         found, mistakes = combined(self)
         if mistakes:
@@ -370,7 +371,7 @@ class Study(Checked):
 
 
 def _others(values: Any, found: Sequence[InputError]) -> Any:
-    """Return the values of a study without those that are wrong, so that other mistakes are found."""
+    """Return the values of a study without invalid ones, so that further errors are found."""
     if not isinstance(values, Mapping):
         return values
     wrong = {each.place for each in found}
@@ -381,5 +382,5 @@ def _others(values: Any, found: Sequence[InputError]) -> Any:
 
 
 def _name(error: InputError) -> str:
-    """Return the parameter that an error is about, without the table that gives it."""
+    """Return the parameter of an error, without the name of its table."""
     return (error.place or "").partition(".")[2]

@@ -1,4 +1,4 @@
-"""What can be wrong with a study and with its store, in words that say what to do."""
+"""Errors of a study and of its store, with remedies."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ __all__ = [
     ),
 ]
 
-SAFE = "what was stored before is safe"
+SAFE = "stored cases are safe"
 MOST_MISTAKES = 20  # in one message
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class StudyError(InputError):
-    """A study that makes no sense; the message names the value and the remedy.
+    """An invalid study; the message names the value and the remedy.
 
     Examples
     --------
@@ -49,7 +49,7 @@ class StudyError(InputError):
 
 
 class StoreError(InputError):
-    """A folder of results that cannot be used as it is; nothing in it is lost.
+    """A folder of results that cannot be used; its contents are not lost.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class StoreError(InputError):
     problem : str
         What is wrong.
     remedy : str
-        What the reader of the message can do about it.
+        What the user can do about it.
 
     Examples
     --------
@@ -66,19 +66,19 @@ class StoreError(InputError):
     ...     rc.study.Store.open("nowhere")
     ... except rc.study.StoreError as error:
     ...     print(error.problem, "-", error.remedy)
-    there is no study.toml in it - name the folder that a study was run in
+    there is no study.toml in it - name the folder of the results of a study
     """
 
     def __init__(self, folder: str | os.PathLike[str], problem: str, remedy: str) -> None:
         super().__init__(f"{os.fspath(folder)}: {problem}", remedy, "folder")
-        self.args = os.fspath(folder), problem, remedy  # with which it is made again from a pickle
+        self.args = os.fspath(folder), problem, remedy  # the arguments for unpickling
         self.folder = os.fspath(folder)
         self.problem = problem
 
 
 def computed_again(key: str) -> str:
-    """Return how to have the case of that key computed again."""
-    return f"to have it computed again, run: sqlite3 cases.sqlite \"DELETE FROM cases WHERE key = '{key}'\""
+    """Return the command after which the case of a key is computed again."""
+    return f"to compute it again, first run: sqlite3 cases.sqlite \"DELETE FROM cases WHERE key = '{key}'\""
 
 
 def disk_trouble(folder: str | os.PathLike[str], what: str, error: BaseException | None) -> StoreError:
@@ -87,13 +87,13 @@ def disk_trouble(folder: str | os.PathLike[str], what: str, error: BaseException
         return StoreError(folder, f"{what}: the disk is full", f"make room and run again; {SAFE}")
     reason = (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
     return StoreError(
-        folder, f"{what}: {reason}", f"change its permissions, or copy it elsewhere and go on there; {SAFE}"
+        folder, f"{what}: {reason}", f"change its permissions, or copy it elsewhere and resume there; {SAFE}"
     )
 
 
 @contextmanager
 def on_disk(folder: str | os.PathLike[str], what: str) -> Iterator[None]:
-    """Make a `StoreError` that says `what` was not done of whatever the disk does not do within."""
+    """Turn an error of the disk within into a `StoreError` with the problem `what`."""
     try:
         yield
     except OSError as error:
@@ -106,7 +106,7 @@ def refusal(found: Sequence[InputError]) -> StudyError:
     """Return the error about all mistakes of a study, each with its place; at most the first `MOST_MISTAKES`."""
     shown = list(found[:MOST_MISTAKES])
     if len(found) > len(shown):
-        shown.append(StudyError("more mistakes like these follow", "correct these first"))
+        shown.append(StudyError("there are more errors", "correct these first"))
     if len(shown) == 1:
         [one] = shown
         text = in_place(InputError(one.message, None, one.place))
@@ -119,14 +119,14 @@ def refusal(found: Sequence[InputError]) -> StudyError:
 
 
 def mistakes_of(error: ValidationError, known: Iterable[str] = ()) -> list[InputError]:
-    """Return all that is wrong with the values of a model, which has fields of the `known` names."""
+    """Return all errors in the values of a model with fields of the `known` names."""
     return [each for found in error.errors(include_url=False) for each in _mistakes(found, known)]
 
 
 def _mistakes(found: Mapping[str, Any], known: Iterable[str]) -> Iterator[InputError]:
     loc = [str(part) for part in found["loc"]]
     place = ".".join(loc)
-    own = found.get("ctx", {}).get("error")  # of a validator, with words of its own
+    own = found.get("ctx", {}).get("error")  # of a validator, which has its own message
     if isinstance(own, InputError):
         for each in every(own):
             where = ".".join([*loc, *([each.place] if each.place else [])])

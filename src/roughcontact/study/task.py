@@ -1,4 +1,4 @@
-"""One case of a study to be computed: what names it, what its randomness is made of, and what came of it."""
+"""Tasks of a study: their keys, their random generators, and their results."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class Task:
     Parameters
     ----------
     key : str
-        Names it in the store: from the name and version of the case, canonical parameters, seed and sample.
+        Its name in the store: a hash of name and version of the case, canonical parameters, seed and sample.
     case : Case
     parameters : Parameters
     seed, sample : int
-        The generator of the sample is made of these two alone, so that samples are paired across parameters and
-        depend neither on order nor on executor.
+        The generator of the sample depends only on these two. Therefore samples are paired across parameters and do
+        not depend on order or executor.
 
     Examples
     --------
@@ -50,16 +50,16 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a task: a record, or the reason why there is none.
+    """The result of a task: a record, or the reason of the failure.
 
     Parameters
     ----------
     key : str
-        Of the task.
+        The key of the task.
     record : xarray.Dataset or None
         None if the case failed.
     message : str
-        Why it failed, empty otherwise.
+        Why the case failed; empty otherwise.
     seconds : float
         Wall time of the computation.
 
@@ -83,7 +83,7 @@ RunTask = Callable[[Task], Result]
 
 
 class Executor(Protocol):
-    """Where tasks are computed.
+    """The protocol of executors, which compute tasks.
 
     Examples
     --------
@@ -100,20 +100,20 @@ class Executor(Protocol):
 
     @property
     def workers(self) -> int:
-        """How many tasks are computed at once."""
+        """Number of tasks that are computed at once."""
 
     def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
-        """Yield one result for each task, in whatever order they come.
+        """Yield one result for each task, in any order.
 
-        `run_task` never raises. A task that takes its worker down is yielded as failed, and takes no other task with
-        it. Closing the iterator (or Ctrl-C while it waits) stops the workers; nothing goes on in the background.
+        `run_task` never raises. A task that kills its worker is yielded as failed, without effect on other tasks.
+        Closing the iterator (or Ctrl-C while it waits) stops the workers.
 
         Parameters
         ----------
         run_task : function
             Takes a task and returns its result; it never raises.
         tasks : iterable of Task
-            The tasks, which are taken one by one as workers become free.
+            The tasks; the next is taken when a worker becomes free.
 
         Yields
         ------
@@ -123,18 +123,18 @@ class Executor(Protocol):
         Raises
         ------
         WorkersError
-            If the workers do not start, cannot load the case, or are gone for good.
+            If the workers do not start, cannot load the case, or have ended.
         """
 
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """How far a study is.
+    """The progress of a study.
 
     Parameters
     ----------
     done, failed, left : int
-        Cases.
+        Numbers of cases.
     seconds : float
         Time that the run has taken.
 
@@ -157,7 +157,7 @@ class Summary:
         return self.done + self.failed + self.left
 
     def after(self, *, failed: bool, seconds: float) -> Summary:
-        """Return how far it is with one case more.
+        """Return the progress after one more case.
 
         Parameters
         ----------
@@ -169,12 +169,12 @@ class Summary:
         Returns
         -------
         Summary
-            With a case less that is left.
+            With one case less that is left.
         """
         return Summary(self.done + (not failed), self.failed + failed, self.left - 1, seconds)
 
     def with_failed_left(self) -> Summary:
-        """Return the same with the failed cases among those that are left, to be tried again.
+        """Return the progress with failed cases counted as left, to try them again.
 
         Returns
         -------
@@ -185,7 +185,7 @@ class Summary:
 
 
 def canonical(parameters: Parameters) -> str:
-    """Return parameters as JSON that is the same for equal ones: names sorted, no blanks, every digit of a number."""
+    """Return parameters as canonical JSON: names sorted, no blanks, all digits of numbers."""
     return json.dumps(
         parameters.model_dump(mode="json"), sort_keys=True, separators=(",", ":"), allow_nan=False
     )
@@ -198,5 +198,5 @@ def key_of(case: Case, parameters: str, *, seed: int, sample: int) -> str:
 
 
 def generator(seed: int, sample: int) -> np.random.Generator:
-    """Return the generator of a sample: of the seed of the study and its number alone, so that samples are paired."""
+    """Return the generator of a sample: only its number and the seed matter, so that samples are paired."""
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(sample,)))

@@ -48,5 +48,5 @@ def test_it_is_pure_and_survives_as_text():
 
 
 def test_without_a_hardness_it_is_refused():
-    with pytest.raises(StudyError, match="without a hardness nothing flows"):
+    with pytest.raises(StudyError, match="a loop with plastic flow needs a hardness"):
         run(relative_hardness=None)

@@ -101,7 +101,7 @@ def test_a_scheduler_that_goes_is_told_of(threads):
     results = Dask(threads.scheduler_address).results(run_task, tasks(NUMBERS, [{"seconds": 0.1}] * 9))
     next(results)
     threads.close()
-    with pytest.raises(WorkersError, match="the scheduler is gone: start it again"):
+    with pytest.raises(WorkersError, match="the scheduler has ended: start it again"):
         list(results)
 
 

@@ -15,7 +15,7 @@ __all__ = ["note_long_range"]
 
 
 def note_long_range(adhesion: Adhesion, surface: Surface) -> None:
-    """Say on standard error if the attraction reaches beyond the heights of a surface: a forgotten unit."""
+    """Print a note if the range exceeds the height of the surface: most likely its unit is missing."""
     import numpy as np
 
     span = float(np.nanmax(surface.heights) - np.nanmin(surface.heights))

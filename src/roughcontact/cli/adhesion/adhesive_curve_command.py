@@ -1,4 +1,4 @@
-"""The commands ``adhesion curve`` and ``adhesion loop``: approach and retreat of surfaces that stick, with jumps."""
+"""The commands ``adhesion curve`` and ``adhesion loop``: approach and retreat of adhesive surfaces, with jumps."""
 
 from __future__ import annotations
 
@@ -36,9 +36,10 @@ roughcontact adhesion loop part.x3p --depth 20nm --points 5 --modulus 1GPa --wor
 
 
 def curve(job: AdhesiveCurveJob, *, answer: Answer) -> None:
-    """Load a surface that sticks, up and down: force, area, stiffness and jumps.
+    """Load and unload an adhesive surface: force, area, stiffness and jumps.
 
-    States depend on the history: approach and retreat differ. Ctrl-C keeps what is done; a path cannot be resumed.
+    States depend on the history: approach and retreat differ. Ctrl-C keeps the computed states; a path cannot be
+    resumed.
     """
     from roughcontact.solver.loads import Loads
 
@@ -50,9 +51,9 @@ def curve(job: AdhesiveCurveJob, *, answer: Answer) -> None:
 
 
 def loop(job: AdhesiveLoopJob, *, answer: Answer) -> None:
-    """Bring a surface that sticks to a depth and back until it is off: pull-off force, jumps and the lost energy.
+    """Press an adhesive surface to a depth and retract it until it detaches: pull-off force, jumps and lost energy.
 
-    The approach begins ten ranges of the attraction apart.
+    The approach begins at a distance of ten ranges of the attraction.
     """
     from roughcontact.adhesion.adhesive_loop import loop_depths
     from roughcontact.solver.loads import Loads
@@ -71,7 +72,7 @@ def _follow(
     control: str,
     points: int | None = None,
 ) -> None:
-    """Follow loads, or a loop with `points` on its approach; print what was found, and write it where asked."""
+    """Follow loads, or a loop with `points` on its approach; print the answer and write its files."""
     from roughcontact.adhesion.adhesive_curve import collect_states
     from roughcontact.adhesion.adhesive_loading import followed, states_under
     from roughcontact.adhesion.adhesive_loop import until_off

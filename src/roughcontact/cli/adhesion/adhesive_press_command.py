@@ -37,9 +37,9 @@ roughcontact adhesion press part.x3p --mean-gap 0.2um --periodic --modulus 1GPa 
 
 
 def press(job: AdhesivePressJob, *, answer: Answer) -> None:
-    """Bring a surface that sticks to one load: map of pressure and tension, area, stiffness and stability.
+    """Bring an adhesive surface to one load: map of pressure and tension, area, stiffness and stability.
 
-    The state is the end of an approach from beyond the reach of the attraction. For a tension use 'adhesion curve'.
+    The approach begins beyond the range of the attraction. For a tensile force, use 'adhesion curve'.
     """
     with output(answer.out) as folder:
         known = contact_of(job)

@@ -1,4 +1,4 @@
-"""The command ``adhesion detach``: a surface that was pressed, stuck, and is drawn back."""
+"""The command ``adhesion detach``: a surface that was pressed, has stuck, and is retracted."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ roughcontact adhesion detach part.x3p --depth 100nm --depths 50nm:-50nm:11 --mod
 
 
 def detach(job: DetachJob, *, answer: Answer) -> None:
-    """Press a surface by one load, and draw it back as if it were stuck: pull-off force, and the cells that let go.
+    """Press a surface by one load, and retract it as if it had stuck: pull-off force and the cells that detach.
 
-    This is the limit of an attraction without a range, by Johnson, Kendall and Roberts. Nothing attracts the surface
-    while it is pressed. With an attraction that has a range use 'adhesion loop'.
+    This is the limit of zero range (Johnson, Kendall and Roberts). Nothing attracts the surface while it is pressed.
+    For an attraction with a range, use 'adhesion loop'.
     """
     from roughcontact.adhesion.detachment_curve import collect_detachments
     from roughcontact.adhesion.detachment_path import states_drawn_back

@@ -1,4 +1,4 @@
-"""The command ``conductance``: what a computed curve conducts, and the options that add it to a curve."""
+"""The command ``conductance``: conductance and resistance of a computed curve."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ _PROPERTIES = {
     "resistivities": ("electrical resistivities", "ohm m"),
     "conductivities": ("thermal conductivities", "W/(m K)"),
 }
-_CURVE = argument("curve.nc that the command curve wrote, or its folder.", "CURVE")
+_CURVE = argument("File curve.nc of the command curve, or its folder.", "CURVE")
 
 
 def conductors_of(conduction: Conduction) -> Conductors | None:
-    """Return the conducting bodies; None where nothing was said."""
+    """Return the conducting bodies; None if the job names no conduction."""
     from roughcontact.evaluation.conduction import Conductors
 
     known = known_names()
@@ -52,13 +52,13 @@ def conductors_of(conduction: Conduction) -> Conductors | None:
 
 
 def conductance(file: Path = _CURVE, *, conduction: Conduction, answer: Answer) -> None:
-    """Tell what a contact conducts: electrical and thermal resistance against pressure or force."""
+    """Print electrical and thermal conductance and resistance against pressure or force."""
     from roughcontact.evaluation.conduction import with_conductance
 
     conductors = conductors_of(conduction)
     if conductors is None:
         raise UsageError(
-            "a conductance follows from what the bodies conduct",
+            "a conductance needs the resistivity or conductivity of the bodies",
             "give --resistivity, --conductivity, or both, such as --resistivity 17nohm*m",
         )
     path = file / "curve.nc" if file.is_dir() else file
@@ -78,20 +78,20 @@ def conductance(file: Path = _CURVE, *, conduction: Conduction, answer: Answer) 
 
 
 def shown_columns(dataset: xarray.Dataset) -> list[str]:
-    """Return the names of what a contact conducts: per area where it is so given."""
+    """Return the names of conductance and resistance: per area if the curve is per area."""
     found, per_area = ([name for name in names if name in dataset] for names in _conduction())
     return per_area or found
 
 
 def conduction_facts(dataset: xarray.Dataset, conductors: Conductors, of: str) -> list[tuple[str, str]]:
-    """Return what the two bodies conduct, and what conductance and resistance are of, line by line."""
+    """Return lines on the conducting bodies, and on the part that conductance and resistance belong to."""
     from roughcontact.evaluation.conduction import part_words
 
     return [*conductor_facts(conductors), ("conductance of", part_words(dataset, of))]
 
 
 def conductor_facts(conductors: Conductors) -> list[tuple[str, str]]:
-    """Return a line for each property of the two bodies that a conductance follows from."""
+    """Return a line for each property of the two bodies that conductance depends on."""
     return [
         (_PROPERTIES[name][0], f"{one:.4g} and {other:.4g} {_PROPERTIES[name][1]}")
         for name, (one, other) in conductors.given().items()
@@ -99,7 +99,7 @@ def conductor_facts(conductors: Conductors) -> list[tuple[str, str]]:
 
 
 def _conduction() -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of what a contact conducts, in total and per area."""
+    """Return the names of conductance and resistance, in total and per area."""
     from roughcontact.labels.column import names_of
     from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
 
@@ -125,7 +125,7 @@ def _read(path: Path) -> xarray.Dataset:
         ) from error
     if "jump_lost" in curve or "detachment_lost" in curve:
         raise UsageError(
-            f"{path} holds a path of surfaces that stick, whose conductance is not computed",
+            f"{path} holds a path of adhesive states, whose conductance is not computed",
             "write a curve without adhesion with: roughcontact curve ... --out DIR",
         )
     return curve

@@ -1,4 +1,4 @@
-"""What the command ``curve`` answers: on the screen, as JSON, and in files."""
+"""The answer of the command ``curve``: on the screen, as JSON, and in files."""
 
 from __future__ import annotations
 
@@ -45,33 +45,33 @@ __all__ = ["CurveAnswer"]
 
 @dataclass(frozen=True)
 class CurveAnswer:
-    """A computed curve and what was asked to stand beside it.
+    """A computed curve with its notes, theories, conductors and errors.
 
     Parameters
     ----------
     job : CurveJob
-        What was asked for.
+        The job.
     curve : Curve
     surface : Surface
-        What was pressed.
+        The surface that was pressed.
     notes : tuple of Note
-        On the last load, and on loads that are left.
+        On the last load, and on loads that are not computed.
     theories : TheoriesOf
         Of the surface.
     conductors : Conductors or None
         The conducting bodies.
     per_area : bool
-        Whether table and picture are those of a joint, against nominal pressure.
+        Whether table and picture are per area, against nominal pressure.
     errors : tuple of LoadErrors
-        Of the first and the last resolved load, if they were asked for.
+        Errors of the first and the last resolved load, if they were asked for.
     pressed : Pressed
-        What the surface is to a contact.
+        The kind of the surface, and its plasticity index.
     loads : Loads
         Those of the curve.
     out : Path or None
         The folder of its files.
     loop : Loop or None
-        First loading, which is the curve, with unloading and loading again.
+        First loading, which is the curve, followed by unloading and reloading.
     """
 
     job: CurveJob
@@ -89,17 +89,17 @@ class CurveAnswer:
 
     @cached_property
     def tolerance(self) -> float:
-        """The largest residual that was asked for."""
+        """The required tolerance."""
         return float(value_of(self.job.contact, "tolerance"))
 
     @cached_property
     def units(self) -> dict[str, Scale]:
-        """Units that were asked for, by column."""
+        """The units that the job names, by column."""
         return units_of_job(self.job.units)
 
     @property
     def picture(self) -> str:
-        """The name of its picture, without the ending: a loop has one of all branches beside it."""
+        """The name of its picture, without the ending: a loop has a second one of all branches."""
         return "curve" if self.loop is None else "first_loading"
 
     @property
@@ -114,7 +114,7 @@ class CurveAnswer:
 
     @cached_property
     def _fitted(self) -> tuple[PowerLaw | None, str]:
-        """The power law, or why there is none."""
+        """The power law, or the reason why none is fitted."""
         try:
             return self.curve.fit(), ""
         except InputError as error:
@@ -127,7 +127,7 @@ class CurveAnswer:
 
     @property
     def drawn(self) -> tuple[LoadingLaw, ...]:
-        """The theories that apply, with what the curve has of them, by the names that they were asked for."""
+        """The theories that apply, with their quantities, by the names in the job."""
         return tuple(
             replace(
                 law,
@@ -145,7 +145,7 @@ class CurveAnswer:
 
     @property
     def left_out(self) -> dict[str, str]:
-        """Why a theory does not stand beside the curve, by its name."""
+        """Why a theory is left out, by its name."""
         return {**self.theories.refused, **self._compared[1]}
 
     @cached_property
@@ -161,7 +161,7 @@ class CurveAnswer:
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """The curve with the columns of theories and conductance, in the units that were asked for."""
+        """The curve with the columns of theories and conductance, in the units that the job names."""
         from roughcontact.contact.compare import with_theories
         from roughcontact.contact.dataset import curve_dataset
         from roughcontact.contact.loop_dataset import unloaded
@@ -216,7 +216,7 @@ class CurveAnswer:
         return record
 
     def source(self, control: str) -> dict[str, Any]:
-        """Return what files say of where they come from."""
+        """Return the provenance that files contain."""
         from roughcontact.files.provenance import provenance
 
         return provenance(
@@ -243,7 +243,7 @@ class CurveAnswer:
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
-        """Print the answer on standard output, and what a reader should know on standard error."""
+        """Print the answer on standard output, and its notes on standard error."""
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
@@ -274,7 +274,7 @@ class CurveAnswer:
         note_all([*self._notes(), *notes_on_errors(self.errors), *self.notes])
 
     def _notes(self) -> Iterator[Note]:
-        """Yield what is to be said of the curve as a whole."""
+        """Yield the notes on the curve as a whole."""
         from roughcontact.halfspace.operators.geometry import Geometry
         from roughcontact.labels.note import Note, Rank
 
@@ -293,12 +293,12 @@ class CurveAnswer:
         if self.per_area and not all(curve.periodic) and curve.geometry is Geometry.SURFACE:
             yield Note(
                 Rank.USUAL,
-                "K/A0 is of the interface alone; k of a free patch contains the compliance of the body under it: it is "
-                "in N/m only, never per area (docs/concepts/joints.md)",
+                "K/A0 is that of the interface only; k of a free patch contains the compliance of the body "
+                "under it: it is in N/m only, never per area (docs/concepts/joints.md)",
             )
 
     def _figure(self) -> Figure:
-        """Return the picture: of a joint against pressure, of a patch against force."""
+        """Return the picture: against pressure if per area, otherwise against force."""
         from roughcontact.plot.canvas import areal_figure, curve_figure
 
         laws, errors = self.drawn, {each.force: each.budget for each in self.errors}

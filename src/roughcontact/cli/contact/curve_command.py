@@ -74,14 +74,14 @@ CELLS: dict[str, Cells] = {
         "A/A0": lambda record: _shown(record, "contact_fraction", -1),
     }
 }
-_FEWEST = 3  # resolved loads that a power law takes
+_FEWEST = 3  # resolved loads that a power law needs
 
 
 def curve(job: CurveJob, *, answer: Answer) -> None:
-    """Press a rough surface by rising loads: stiffness, area and more against force, or per area against pressure.
+    """Press a rough surface by increasing loads: stiffness, area and more against force, or per area against pressure.
 
-    Per area for a periodic map, with --pressures and where a unit is named: the numbers of a joint of any size. For a
-    joint of which only rms height and slope are known, use 'surface specified' to make a map, or 'theory'.
+    Numbers per area hold for a joint of any size: they are printed for a periodic map, with --pressures, and where
+    you name such a unit. If you only know rms height and slope, use 'surface specified' to make a map, or 'theory'.
     """
     if job.tables.table is not None and answer.out is None:
         raise UsageError("--table writes files", "say where by --out", "tables.table")
@@ -120,7 +120,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         if job.errors.errors and not outer:
             note("no errors: no load is resolved")
         if plastic.loop and loop is None:
-            text = "stopped: the loop is not closed, only what was computed of first loading is kept"
+            text = "stopped: the loop is not closed; only the computed loads of first loading are kept"
             notes += (Note(Rank.LIMITED, text),)
         per_area = loads.kind == "pressure" or all(surface.grid.periodic) or bool(given(job.units))
         errors = errors_of(job.errors, outer)
@@ -162,7 +162,7 @@ def _computed(
     stored: StoredLoads | None,
     job: CurveJob,
 ) -> tuple[Curve, Array, tuple[Note, ...], list[Solution], Loop | None]:
-    """Return what `_load` returns of all loads that are known now, and which these are: the stored ones are kept."""
+    """Return what `_load` returns, for computed and stored loads together, and these loads."""
     import numpy as np
 
     from roughcontact.contact.join_curves import joined
@@ -181,7 +181,7 @@ def _computed(
 
 
 def _rest(loads: Loads, left: Array, out: Path | None, *, resumes: bool) -> str:
-    """Return how to compute the loads that a curve was stopped before."""
+    """Return how to compute the loads that are missing because the curve was stopped."""
     words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
     if resumes:
         return f"{words}; the same command computes the others"
@@ -191,7 +191,7 @@ def _rest(loads: Loads, left: Array, out: Path | None, *, resumes: bool) -> str:
 
 
 def _named_loads(job: CurveJob) -> Loads | None:
-    """Return the loads; None where they are to be found, which one process alone can do."""
+    """Return the named loads; None where they must be found, which only a single process can do."""
     from roughcontact.solver.loads import Loads
 
     named = job.loads.named(job.contact.profile)
@@ -205,7 +205,7 @@ def _named_loads(job: CurveJob) -> Loads | None:
 def _suggested(
     surface: Surface, modulus: Modulus, pressed: Pressed, *, operator: Operator | None, hardness: float | None
 ) -> Loads:
-    """Return the forces [N] that suit a surface, and say which they are."""
+    """Return forces [N] that suit a surface, and print a remark with their range."""
     from roughcontact.contact.loads.load_outlook import load_outlook
     from roughcontact.contact.loads.load_range import load_range
     from roughcontact.halfspace.operators.geometry import Geometry
@@ -217,10 +217,10 @@ def _suggested(
     kind = Geometry.SURFACE if operator is None else geometry_of(operator)
     low, high = (quantity("force", float(load), kind) for load in loads.values[[0, -1]])
     below = found.below
-    if kind is Geometry.LINE:  # whose forces are not searched for
+    if kind is Geometry.LINE:  # forces of line contacts are not searched for
         below = load_outlook(surface, modulus, loads, operator).below
     small = "below what the grid resolves"
-    if kind is Geometry.SURFACE:  # where the stiffness may be resolved already
+    if kind is Geometry.SURFACE:  # the stiffness may be resolved at these forces
         small = "so light that single cells set their area and pressure"
     remark(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
@@ -232,7 +232,7 @@ def _suggested(
 
 
 def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Operator | None) -> None:
-    """Say before the work if the grid resolves none of the named loads, or too few for a power law."""
+    """Print a note before the work if the grid resolves none of the named loads, or too few for a power law."""
     from roughcontact.contact.loads.load_outlook import load_outlook
 
     name = f"{loads.kind}s"
@@ -252,7 +252,7 @@ def _load(
 ) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
     """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
 
-    With `loop` the loads are unloaded and loaded again. Ctrl-C ends the curve with the loads that are done.
+    With `loop`, unloading and reloading follow. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along

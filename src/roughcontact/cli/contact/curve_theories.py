@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TheoriesOf", "deviations", "exponents", "parameters", "theories_of"]
 
-# In words and units: what a theory takes from the heights where the user does not say it.
+# Name and unit of each number that a theory takes from the heights where the user gives none.
 _TAKEN = {
     "hurst": ("H (fitted)", ""),
     "rms": ("rms height", "m"),
@@ -36,11 +36,11 @@ class TheoriesOf:
     Parameters
     ----------
     laws : mapping of str to LoadingLaw
-        By the names that they were asked for.
+        By the names in the job.
     taken : mapping of str to float
-        What they took from the surface, in SI units.
+        The numbers that they take from the surface, in SI units.
     refused : mapping of str to str
-        Why others do not apply to it.
+        Why other theories do not apply to it.
     """
 
     laws: Mapping[str, LoadingLaw]
@@ -49,7 +49,7 @@ class TheoriesOf:
 
 
 def theories_of(asked: Theories, surface: Surface, modulus: Modulus, hardness: float | None) -> TheoriesOf:
-    """Return the theories that were asked for, as far as they apply to a surface.
+    """Return the theories of the job, as far as they apply to a surface.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def theories_of(asked: Theories, surface: Surface, modulus: Modulus, hardness: f
 
 
 def parameters(taken: Mapping[str, float]) -> list[tuple[str, str]]:
-    """Return the line that states what theories took from the surface; none where they took nothing."""
+    """Return a line with the numbers that theories take from the surface; no line if they take none."""
     words = []
     for name, value in taken.items():
         label, unit = _TAKEN[name]
@@ -91,7 +91,7 @@ def parameters(taken: Mapping[str, float]) -> list[tuple[str, str]]:
 
 
 def deviations(comparisons: Mapping[str, Comparison]) -> list[tuple[str, str]]:
-    """Return one line for each theory: by what factor it lies off where the curve is resolved."""
+    """Return one line for each theory: its error factor over the resolved loads."""
     lines = [(comparison.name, comparison.words()) for comparison in comparisons.values()]
     return [("theories", "root mean square of ln(predicted/computed) over the resolved loads"), *lines]
 

@@ -29,7 +29,7 @@ _FILES = {
 def write_tables(
     tables: InterfaceTables, folder: Path, curve: Curve, surface: Surface, conductors: Conductors | None
 ) -> tuple[str, ...]:
-    """Write the tables into a folder, and return the names of their files; say why where a curve allows none."""
+    """Write the tables into a folder, and return the names of their files; print why a table is not possible."""
     from roughcontact.evaluation.interface_table import interface_table
     from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
     from roughcontact.files.provenance import provenance

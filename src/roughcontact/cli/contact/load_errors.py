@@ -1,4 +1,4 @@
-"""An error on every number of a load, and what it is made of."""
+"""An error on every number of a load, and its sources."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class LoadErrors:
         return {"force": self.force, **self.budget.to_record()}
 
     def tell(self, units: Mapping[str, Scale], *, patch: bool, joint: bool) -> None:
-        """Print the numbers of a patch, those of a joint, or both, with their errors, and what each source is."""
+        """Print the numbers of a patch, those per area, or both, with their errors and the sources of these."""
         names = (*(_PATCH if patch else ()), *(_JOINT if joint else ()), "mean_gap")
 
         def in_unit(name: str, value: float) -> tuple[float, str]:
@@ -58,14 +58,14 @@ class LoadErrors:
 
 
 def notes_on_errors(errors: Iterable[LoadErrors]) -> list[Note]:
-    """Return what is left out of errors, and why."""
+    """Return which errors are left out, and why."""
     from roughcontact.labels.note import Note, Rank
 
     return [Note(Rank.LIMITED, line) for each in errors for line in each.budget.notes]
 
 
 def require_errors(asked: Errors, surface: Surface) -> None:
-    """Refuse a surface or a shortest wave that errors are not known for, before it is pressed."""
+    """Raise an error before the work if no errors can be given for a surface or a shortest wave."""
     if not asked.errors:
         return
     from roughcontact.evaluation.error_sources import checked_cutoff
@@ -75,7 +75,7 @@ def require_errors(asked: Errors, surface: Surface) -> None:
 
 
 def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors, ...]:
-    """Return the errors of loads, if they are wanted; a note says where there are none, and why."""
+    """Return the errors of loads, if the job asks for them; print a note for each load without errors."""
     if not asked.errors:
         return ()
     from roughcontact.contact.convergence import ConvergenceError

@@ -1,4 +1,4 @@
-"""The files that show what flowed under a hardness."""
+"""The files that show the plastic flow under a hardness."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["write_flattened", "write_loop"]
 
 
 def write_flattened(surface: Surface, flow: Any, folder: Path, ending: str) -> tuple[str, ...]:
-    """Draw the surface as it was and as what has flowed leaves it; return the name of the picture."""
+    """Draw the surface before and after plastic flow; return the name of the picture."""
     from roughcontact.plot.canvas import save
     from roughcontact.plot.loops import flattened_figure
 

@@ -47,7 +47,7 @@ roughcontact press h.csv --unit nm --size 1mm --depth 5um --modulus 110GPa
 """,
 }
 
-_DRAWN = 2**22  # cells of a picture: more are not gathered by the one process of a job that draws
+_DRAWN = 2**22  # cells of a picture: one process draws, and it does not gather larger fields
 
 
 def press(job: PressJob, *, answer: Answer) -> None:
@@ -99,7 +99,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
 
 
 def _control(job: PressJob) -> str:
-    """Return what was prescribed, with its unit."""
+    """Return the prescribed load, with its unit."""
     [(name, value)] = job.load.named(job.contact.profile).items()
     words = f"{name} = {value!r} {kinds_of(job.contact.profile)[name].unit}"
     [loads] = job.loads().values()
@@ -133,7 +133,7 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed, elastic: Soluti
 
 
 def _source(solution: Solution, control: str, recipe: dict[str, Any]) -> dict[str, Any]:
-    """Return what files say of where they come from."""
+    """Return the provenance that files contain."""
     from roughcontact.files.provenance import provenance
 
     problem = solution.problem
@@ -156,7 +156,7 @@ def _write(
     ending: str,
     errors: ErrorBudget | None,
 ) -> tuple[str, ...]:
-    """Write a loaded state into the folder that the first process of a job has; return the names of its pictures."""
+    """Write a loaded state into a folder (by the first process only); return the names of its pictures."""
     from roughcontact.evaluation.theories import persson_pressures
     from roughcontact.files.save import write_solution
     from roughcontact.files.write import write_json

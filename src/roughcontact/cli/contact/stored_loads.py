@@ -1,4 +1,4 @@
-"""Loads of a curve that its folder holds already: they are not computed again."""
+"""Loads of a curve that are stored in its folder: they are not computed again."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ __all__ = ["StoredLoads", "can_be_continued", "stored_loads"]
 
 @dataclass(frozen=True, slots=True)
 class StoredLoads:
-    """What a folder holds of the loads that are wanted.
+    """The requested loads that a folder holds.
 
     Parameters
     ----------
     curve : Curve
-        With these loads alone.
+        With these loads only.
     values : array, shape (n,)
         The loads.
     notes : tuple of Note
-        On the last of them.
+        On the last load.
     """
 
     curve: Curve
@@ -46,12 +46,12 @@ class StoredLoads:
 
 
 def can_be_continued(job: CurveJob) -> bool:
-    """Return whether states do not depend on the loads before them, and none is wanted but for its numbers."""
+    """Return whether states do not depend on earlier loads, and only their numbers are needed."""
     return not (job.plastic.hardness or job.plastic.loop or job.plastic.flow or job.errors.errors)
 
 
 def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads | None:
-    """Return the wanted `loads` that a folder holds of the same contact, by this version; None where it holds none."""
+    """Return those of `loads` that a folder holds, of the same contact and version; None if it holds none."""
     if out is None or not can_be_continued(job):
         return None
     try:
@@ -64,13 +64,13 @@ def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads |
             for rank, text in zip(record["note_ranks"], record["notes"], strict=True)
             if not text.startswith("stopped")
         )
-    except (OSError, ValueError, KeyError, TypeError):  # none, or a damaged one, which is replaced
+    except (OSError, ValueError, KeyError, TypeError):  # no file, or a damaged one, which is replaced
         return None
     same = contact_in(recipe) == contact_in(carried(job, out)) and kind == f"{loads.kind}s"
     chosen = np.isin(stored, loads.values)
     if not same or version != f"roughcontact {__version__}" or len(stored) != len(curve) or not chosen.any():
         return None
     remark(
-        f"{int(chosen.sum())} of {loads.values.size} loads are in {out} already, of the same recipe: they are kept"
+        f"{int(chosen.sum())} of {loads.values.size} loads of the same recipe are in {out} already: they are kept"
     )
     return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)

@@ -1,4 +1,4 @@
-"""The command ``theory``: what theories say of a joint that is known by rms height and slope, without heights."""
+"""The command ``theory``: predictions for a joint of which only rms height and slope are known."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ _COLUMNS = (
     *("nominal_pressure", "contact_fraction", "interfacial_stiffness_per_area", "mean_gap"),
     *("thermal_conductance_per_area", "electrical_conductance_per_area"),
 )
-_VACUUM = "the spots in vacuum: gas in the gap, films and radiation are not in it"
+_VACUUM = "the spots in vacuum: gas in the gap, films and radiation are not included"
 
 
 @dataclass(frozen=True, slots=True)
 class TableAnswer:
-    """Where an answer goes that has no pictures; see `Answer`."""
+    """Folder and form of an answer that has no pictures; see `Answer`."""
 
     PANEL: ClassVar = Answer.PANEL
     out: Path | None = OUT
@@ -54,10 +54,10 @@ class TableAnswer:
 
 
 def theory(job: TheoryJob, *, answer: TableAnswer) -> None:
-    """Say what theories predict of a joint known by rms height and slope: area, stiffness, conductance, per area.
+    """Predict area, stiffness and conductance per area of a joint from its rms height and slope.
 
-    Both numbers suffice for cmy and mikic. Other theories need the bandwidth of the roughness, and the error says how
-    to give it.
+    The theories cmy and mikic need only these two numbers. Other theories also need the bandwidth of the roughness,
+    such as --nayak; the error lists the options.
     """
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
@@ -94,7 +94,7 @@ def _by_row(table: xarray.Dataset) -> xarray.Dataset:
 
 
 def _facts(job: TheoryJob, joint: SurfaceSpecification, table: xarray.Dataset) -> list[tuple[str, str]]:
-    """Return what the theories take, line by line."""
+    """Return the input of the theories, line by line."""
     words = [f"sigma {report.quantity('rms', joint.sigma)}"]
     if joint.slope is not None or joint.has_spectrum:
         mean = math.sqrt(2 * joint.m2 / math.pi)
@@ -117,7 +117,7 @@ def _facts(job: TheoryJob, joint: SurfaceSpecification, table: xarray.Dataset) -
 
 def _print(table: xarray.Dataset) -> None:
     """Print the predictions: a row for each theory and pressure."""
-    zero = table["nominal_pressure"] * 0  # of gaps that are differences of a depth, which these are not
+    zero = table["nominal_pressure"] * 0  # the origin of gaps, which are no differences here
     shown = [name for name in _COLUMNS if name in table]
     header, rows = report.load_table(table.assign(depth=zero), shown)
     names = table["theory"].to_numpy().tolist()
@@ -127,4 +127,4 @@ def _print(table: xarray.Dataset) -> None:
     ]
     report.print_table(["theory", *header], lines)
     if any("-" in line for line in lines):
-        note("-: the theory does not say, or the pressure is beyond the one up to which it holds")
+        note("-: the theory does not predict this quantity, or it does not hold at this pressure")

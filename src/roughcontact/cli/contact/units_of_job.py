@@ -20,7 +20,7 @@ _UNITS = {
 
 
 def units_of_job(units: Units) -> dict[str, Scale]:
-    """Return the units that were asked for, by column."""
+    """Return the units that the job names, by column."""
     from roughcontact.labels.engineering_units import Scale
 
     return {

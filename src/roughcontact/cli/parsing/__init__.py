@@ -1,1 +1,1 @@
-"""From the words of a command line to what a command does: options, their errors, their help, several files."""
+"""Parsing of the command line: options, their errors, their help, several files."""

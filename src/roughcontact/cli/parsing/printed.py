@@ -17,7 +17,7 @@ FORMS = ("toml", "command", "python")
 
 
 def print_job(job: Job, form: str, *, recipe: str = "job.toml", as_json: bool = False) -> None:
-    """Print a job in one of the forms; names of files count from the current folder, as does that of its `recipe`.
+    """Print a job in one of the forms; file names, and that of its `recipe`, are relative to the current folder.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""One command on several files: a table with a row a file, or one array of JSON; a file that fails keeps its row."""
+"""One command on several files: a table with one row for each file, also for one that fails, or a JSON array."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from roughcontact.cli.verbosity import is_quiet
 __all__ = ["Cells", "do_each"]
 
 Cells: TypeAlias = Mapping[str, Callable[[Mapping[str, Any]], str]]
-"""By the heading of a column, what stands in it of an answer in plain values."""
+"""Columns of the table: heading, and function of an answer in plain values."""
 
 _STATUS = {0: "ok", MISSED: "tolerance missed", INTERRUPTED: "stopped"}
 
@@ -23,14 +23,14 @@ _STATUS = {0: "ok", MISSED: "tolerance missed", INTERRUPTED: "stopped"}
 def do_each(
     files: Sequence[str], one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any], cells: Cells
 ) -> None:
-    """Do a command on one file after the other, and print what it answers of each.
+    """Run a command on one file after the other, and print the answers.
 
     Parameters
     ----------
     files : sequence of str
         As they were typed.
     one : function
-        Does the command, with its options by name, on one of them.
+        Runs the command on one file, with its options by name.
     given : mapping
         The options for all of them; ``out`` gets a folder for each.
     cells : mapping
@@ -39,7 +39,7 @@ def do_each(
     Raises
     ------
     typer.Exit
-        With the status of the file that went worst, if it is not 0. Ctrl-C ends the work with the files that are done.
+        With the worst status of all files, if it is not 0. Ctrl-C ends the work with the files that are done.
     """
     from roughcontact.cli.report import print_table
 
@@ -65,7 +65,7 @@ def do_each(
 def _answer(
     one: Callable[[Mapping[str, Any]], None], given: Mapping[str, Any]
 ) -> tuple[Mapping[str, Any], int]:
-    """Return what a command answers as plain values, and its status."""
+    """Return the answer of a command as plain values, and its status."""
     status = 0
     with kept() as answers:
         try:
@@ -84,7 +84,7 @@ def _row(file: str, record: Mapping[str, Any], status: int, cells: Cells) -> Ite
 
 
 def _folders(files: Sequence[str]) -> list[str]:
-    """Return the name of a folder for each file: without its ending, where it is the only one of that name."""
+    """Return the name of a folder for each file: without the file's ending, if this is unique."""
     stems = [Path(file).stem for file in files]
     if len(set(stems)) == len(stems):
         return stems

@@ -1,4 +1,4 @@
-"""The help of a command on one screen: what most users need; and all of it, where that is asked for."""
+"""The short help of a command, on one screen; ``--help-all`` prints the full help."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from typing import Any
 __all__ = ["write_short_help"]
 
 _IN_BRACKETS = re.compile(r" \([^()]*\)")
-_LONG = 60  # letters of a sentence that is cut at its colon
+_LONG = 60  # letters: longer sentences are cut at their colon
 
 
 def write_short_help(command: Any, context: Any, formatter: Any, more: Collection[str]) -> None:
-    """Write how a command is called, its everyday options under their headings, and the names of the others.
+    """Write the usage of a command, its everyday options under their headings, and the names of the other options.
 
     Parameters
     ----------
     command, context, formatter
         As click has them.
     more : collection of str
-        The parameters that are only named.
+        The parameters of which only the names are listed.
     """
     summary, lines = command.help.partition("\n\n")[0], command.epilog.split("\n\n")
     formatter.write_usage(context.command_path, " ".join(command.collect_usage_pieces(context)))
@@ -52,7 +52,7 @@ def _words(each: Any) -> str:
 
 
 def _first_sentence(text: str) -> str:
-    """Return a sentence without what stands in brackets; of a long one what its colon explains."""
+    """Return the first sentence without brackets; a long one only up to its colon."""
     sentence = re.split(r"(?<!\.)\.(?= |$)|; ", _IN_BRACKETS.sub("", text), maxsplit=1)[0]
     shown = sentence if len(sentence) <= _LONG else sentence.partition(": ")[0]
     return shown if shown.endswith(".") else f"{shown}."

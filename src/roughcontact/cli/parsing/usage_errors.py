@@ -1,4 +1,4 @@
-"""What the parser of the command line refuses, in the words of our own errors: what, where, and what to write."""
+"""Errors of the command line's parser in the form of ours: problem, place and remedy."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ __all__ = ["in_our_words", "no_such_command"]
 
 @contextmanager
 def in_our_words(context: Any = None) -> Iterator[None]:
-    """Turn what the parser refuses into a `UsageError`; a group that is called alone has shown its help.
+    """Turn errors of the parser into `UsageError`; a group without a command has printed its help.
 
-    The `context` of click is taken where the error does not carry its own.
+    The `context` of click is used if the error has none.
     """
     try:
         yield
-    except InputError as refused:  # of what reads the text of an option
+    except InputError as refused:  # by the function that reads the text of an option
         raise UsageError(refused.message, refused.remedy, refused.place) from refused
     except Exception as raised:
-        error: Any = raised  # typers differ in the module of the class
-        if type(error).__name__ == "NoArgsIsHelpError":  # which has shown it
+        error: Any = raised  # versions of typer differ in the module of the class
+        if type(error).__name__ == "NoArgsIsHelpError":  # the help is printed
             raise typer.Exit(error.exit_code) from None
         if not hasattr(error, "format_message"):
             raise
@@ -49,7 +49,7 @@ def _stated(error: Any, context: Any) -> UsageError:
     if name is not None:
         named = next((each for each in context.command.params if name in each.opts), None)
         if named is None or named.is_flag:
-            return UsageError("this option takes no value", f"write {name} alone", name)
+            return UsageError("this option takes no value", f"write only {name}", name)
         return UsageError("the value is missing", f"write {name} {named.metavar}", name)
     named = getattr(error, "param", None)
     if named is not None and type(error).__name__ == "MissingParameter":
@@ -58,7 +58,7 @@ def _stated(error: Any, context: Any) -> UsageError:
             return UsageError("this option must be given", f"write {option} {named.metavar}", option)
         return UsageError(f"{named.metavar} is missing", _as_in_example(context), named.metavar)
     if (extra := re.search(r"unexpected extra argument\S* \((.*)\)", error.message)) is not None:
-        words = f"there is no place for {extra[1]!r}"
+        words = f"unexpected argument {extra[1]!r}"
         return UsageError(words, "put quotes around a value that holds a space, such as '10 N'")
     return UsageError(error.message, place=None if named is None else named.opts[0])
 
@@ -66,10 +66,10 @@ def _stated(error: Any, context: Any) -> UsageError:
 def _instead(context: Any, option: str) -> str:
     """Return what to write instead of an option that a command does not have."""
     if option in _VERBOSITY and isinstance(context.command, TyperGroup):
-        return f"write it behind the name of a command: {context.command_path} COMMAND {option}"
+        return f"write it after the name of a command: {context.command_path} COMMAND {option}"
     arguments = [each.opts[0] for each in context.command.params if each.param_type_name == "argument"]
     if option.removeprefix("--") in arguments:
-        return f"write its value alone, without {option}"
+        return f"write only its value, without {option}"
     if found := _elsewhere(context, option):
         return f"use {' or '.join(found)} for it"
     known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]
@@ -83,13 +83,13 @@ def _instead(context: Any, option: str) -> str:
     return f"choose one that '{context.command_path} --help-all' lists"
 
 
-_SLIP = 0.8  # likeness of an option that is misspelt
-_MOST = 3  # commands that are named in place of one
+_SLIP = 0.8  # least likeness of an option to a misspelt one
+_MOST = 3  # most commands that a message names
 _VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
 
 
 def _elsewhere(context: Any, option: str, *, anywhere: bool = False) -> list[str]:
-    """Return which commands of the same name or of the same nested group take an option, or which of all do."""
+    """Return commands that take an option: those of the same name or group, if any, otherwise among all."""
     root = context.find_root()
     if isinstance(context.command, TyperGroup):
         return []

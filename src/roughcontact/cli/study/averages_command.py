@@ -1,4 +1,4 @@
-"""The commands ``study average`` and ``study plot``, and the averages that they and ``study table`` show."""
+"""The commands ``study average`` and ``study plot``, and the averages for them and ``study table``."""
 
 from __future__ import annotations
 
@@ -54,40 +54,44 @@ roughcontact study plot results --out pressed.png --at 1MPa --along rms
 FILE = option("File to write: .nc or .csv.", "FILE", default=...)
 PICTURE = option("Picture to write: .png, .pdf or .svg.", "FILE", default=...)
 QUANTITY = option(
-    "What to draw (default: stiffness over E* L, with its power laws; with --at the interfacial stiffness per area; "
-    "otherwise the first that differs).",
+    "Quantity to draw (default: stiffness over E* L, with its power laws; with --at the interfacial "
+    "stiffness per area; otherwise the first quantity that differs between samples).",
     "NAME",
 )
 ALONG = option(
-    "At one load, the parameter on the axis; with curves, the parameter that differs within a panel (default: the "
-    "number with most values; with curves, of those that change them).",
+    "With --at, the parameter on the axis; for curves, the parameter that differs within a panel (default: the "
+    "number with most values; for curves, among those that change them).",
     "NAME",
 )
-AT = option("For quantities along the loads: a pressure, a force, or a force over E* h L.", "1MPa")
+AT = option(
+    "Load at which quantities along the loads are taken: a pressure, a force, or a force over E* h L.", "1MPa"
+)
 
 USUAL = ("interfacial_stiffness_per_area", "stiffness", "contact_fraction", "mean_gap")  # at one load
 
 _STIFFNESS = "dimensionless_stiffness"
-_LEAST = 3  # forces that make a law, as in statistics.fit
+_LEAST = 3  # least number of forces for a law, as in statistics.fit
 
 
 def _window(text: str) -> tuple[float, float]:
-    """Return the two ends of a window of forces over E* h L."""
+    """Return the ends of a window of forces over E* h L."""
     parts = text.split(":")
     if len(parts) != 2:
-        raise InputError(f"{text!r} is no window", "write two forces over E* h L, 1e-3:0.07")
+        raise InputError(f"{text!r} is not a window", "write two forces over E* h L, 1e-3:0.07")
     low, high = (parse_number(part, "1e-3") for part in parts)
     if not 0 <= low < high:
-        raise InputError(f"a window goes from a force to a larger one, unlike {text!r}", "exchange the two")
+        raise InputError(
+            f"the first force of the window {text!r} must be smaller than the second", "exchange the two"
+        )
     return low, high
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LawWindow:
-    """Where the power laws are fitted."""
+    """The window of the power laws."""
 
     window: str | None = described(
-        "Window of F/(E* h L) that power laws are fitted in (default: where the mean stiffness is resolved, up to "
+        "Window of F/(E* h L) for the fit of power laws (default: where the mean stiffness is resolved, up to "
         "0.07).",
         "1e-3:0.07",
         read=_window,
@@ -98,7 +102,7 @@ class LawWindow:
         check(self)
 
     def value(self) -> Window | None:
-        """Return the window; None where it was left out."""
+        """Return the window; None if it is not given."""
         from roughcontact.statistics.fit_window import force_window
 
         ends = value_of(self, "window")
@@ -106,7 +110,7 @@ class LawWindow:
 
 
 def average(folder: Path = FOLDER, *, out: Path = FILE, window: LawWindow, json: bool = JSON) -> None:
-    """Write means, scatter and errors of all that a study computed, and its power laws, into one file."""
+    """Write means, scatter and errors of all results of a study, and its power laws, into one file."""
     with reported(folder, out, as_json=json), own_cases():
         write = dataset_writer(out)
         averaged = averaged_in(folder, window.value())
@@ -131,7 +135,7 @@ def plot(
     window: LawWindow,
     json: bool = JSON,
 ) -> None:
-    """Draw means with their errors: against force with power laws, or against what varies."""
+    """Draw means with their errors: against force with power laws, or against a parameter."""
     with reported(folder, out, as_json=json), own_cases():
         from roughcontact.files.aside import require_target
         from roughcontact.plot.canvas import require_picture, save
@@ -155,7 +159,7 @@ def plot(
 
 
 def load_of(at: str | None) -> tuple[str, float] | None:
-    """Return the variable that a load of ``--at`` is a value of, and the value in SI; None where it was left out."""
+    """Return the variable and the value in SI of ``--at``; None if it is not given."""
     if at is None:
         return None
     with placed("at"):
@@ -184,7 +188,7 @@ def _with_unit(text: str) -> tuple[str, float]:
 
 
 def averaged_in(folder: Path, window: Window | None, load: tuple[str, float] | None = None) -> xarray.Dataset:
-    """Return the averages of what a folder holds, all of it or at one load."""
+    """Return the averages of the results in a folder, at all loads or at one."""
     import numpy as np
 
     from roughcontact.statistics.averages import averages
@@ -207,7 +211,7 @@ def averaged_in(folder: Path, window: Window | None, load: tuple[str, float] | N
 
 
 def _require_between(dataset: xarray.Dataset, name: str, value: float) -> None:
-    """Refuse a load that no load of the study comes near."""
+    """Raise an error for a load outside the loads of the study."""
     from roughcontact.labels.variables import VARIABLES
     from roughcontact.statistics.power_law import ROUNDING
 
@@ -233,7 +237,7 @@ def _require_between(dataset: xarray.Dataset, name: str, value: float) -> None:
 
 
 def _first(averaged: xarray.Dataset, preferred: tuple[str, ...]) -> str:
-    """Return the default quantity: a preferred or usual one, else the first along the loads, else the first."""
+    """Return the default quantity: a preferred or usual one, or the first along the loads, or the first."""
     names = means_of(averaged)
     along = [name for name in names if "load" in averaged[f"{name}_mean"].dims and "force" not in name]
     found = [name for name in (*(preferred or USUAL), *along, *names) if name in names]
@@ -245,7 +249,7 @@ def _first(averaged: xarray.Dataset, preferred: tuple[str, ...]) -> str:
 
 
 def means_of(averaged: xarray.Dataset) -> list[str]:
-    """Return the names of what has a mean."""
+    """Return the names of the quantities that have a mean."""
     return [str(name).removesuffix("_mean") for name in averaged.data_vars if _is_mean(str(name))]
 
 
@@ -254,13 +258,13 @@ def _is_mean(name: str) -> bool:
 
 
 def resolved_in(averaged: xarray.Dataset) -> xarray.DataArray | None:
-    """Return in how many samples of each combination the load is resolved; None where there is not one load each."""
+    """Return the number of samples of each combination that resolve the load; None unless there is one load each."""
     found = averaged.get("resolved_samples")
     return found if found is not None and found.dims == averaged["cases"].dims else None
 
 
 def note_unresolved(averaged: xarray.Dataset, quantity: str) -> None:
-    """Print a note where means at one load contain samples in which it is not resolved, or lack samples."""
+    """Print a note if means at one load contain samples that do not resolve it, or lack samples."""
     resolved = resolved_in(averaged)
     if resolved is not None and bool((short := resolved < averaged["cases"]).any()):
         note(
@@ -275,7 +279,7 @@ def note_unresolved(averaged: xarray.Dataset, quantity: str) -> None:
 
 
 def note_laws(averaged: xarray.Dataset) -> None:
-    """Say where there is no power law, and why."""
+    """Print which power laws are missing, and why."""
     from roughcontact.statistics.averages import combinations
 
     if "no_power_law" in averaged.attrs:

@@ -61,14 +61,14 @@ roughcontact study add results --samples 100
 """,
 }
 
-SOURCE = argument("A study, or the folder that one was run in.", "STUDY.toml|DIR")
+SOURCE = argument("A study, or the folder of its results.", "STUDY.toml|DIR")
 OUT = option("Folder for the results (default: named like the study).", "DIR")
 RETRY = option("Try failed cases again.", default=False)
-FOLDER = argument("The folder that a study was run in.", "DIR")
+FOLDER = argument("Folder of the results of a study.", "DIR")
 FILE = option("File to write: .nc or .csv.", "FILE", default=...)
-FAILED = option("List all failed cases, and why they failed.", default=False)
+FAILED = option("List all failed cases and their errors.", default=False)
 SAMPLES = option(
-    "Samples that every combination shall have.", "N", default=..., read=whole(1, "the number of samples")
+    "Total number of samples of every combination.", "N", default=..., read=whole(1, "the number of samples")
 )
 
 
@@ -80,7 +80,7 @@ def run(
     retry: bool = RETRY,
     json: bool = JSON,
 ) -> None:
-    """Compute what is left of a study. Ctrl-C stops it; run again, it goes on."""
+    """Compute the cases of a study that are left. Ctrl-C stops it; the same command resumes it."""
     with reported(source, out, as_json=json), own_cases():
         from roughcontact.study.run import run as run_study
 
@@ -93,12 +93,14 @@ def run(
         if _is_unresolved(folder):
             remark("no load is resolved: compute more points or larger loads")
         if summary.failed:
-            note(f"{summary.failed} cases failed; why says: {_command('status', folder, '--failed')}")
+            note(
+                f"{summary.failed} cases failed; list their errors by: {_command('status', folder, '--failed')}"
+            )
             raise typer.Exit(MISSED)
 
 
 def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -> None:
-    """Say how far a study is; also while it runs."""
+    """Print the progress of a study; also while it runs."""
     with reported(folder, as_json=json), own_cases():
         from roughcontact.study.store import Store
 
@@ -106,7 +108,7 @@ def status(folder: Path = FOLDER, *, failed: bool = FAILED, json: bool = JSON) -
             study, summary, outdated = store.study, store.summary(), store.outdated()
             failures = store.failed() if failed else ()
         if outdated:
-            note(f"{outdated} more cases are kept, of another version of the case or of earlier parameters")
+            note(f"{outdated} more stored cases are of another version of the case or of earlier parameters")
         _tell(study, folder, summary, as_json=json, failures=failures if failed else None)
 
 
@@ -128,14 +130,16 @@ def export(folder: Path = FOLDER, *, out: Path = FILE, json: bool = JSON) -> Non
 
 
 def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> None:
-    """Give a study more samples; they are computed when it is run again."""
+    """Give a study more samples; 'study run' computes them."""
     with reported(folder, as_json=json), own_cases():
         from roughcontact.study.store import Store
 
         study, _ = _found(folder, None)
         if samples <= study.samples:
             raise UsageError(
-                f"the study has {study.samples} already", f"give more, not {samples}", place="--samples"
+                f"the study already has {study.samples} samples",
+                f"give more, not {samples}",
+                place="--samples",
             )
         with Store.open(folder, study.with_samples(samples)) as store:
             study, summary = store.study, store.summary()
@@ -144,7 +148,7 @@ def add(folder: Path = FOLDER, *, samples: int = SAMPLES, json: bool = JSON) -> 
 
 
 def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
-    """Return what writes a dataset as NetCDF or as a table, as the name of the file says; refuse other names."""
+    """Return a function that writes a dataset as NetCDF or as a table, by the ending of the file's name."""
     from roughcontact.files.aside import require_target
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_netcdf
@@ -165,7 +169,7 @@ def dataset_writer(out: Path) -> Callable[[xarray.Dataset], None]:
 
 
 def require_results(folder: Path, summary: Summary) -> None:
-    """Refuse a folder in which no case is done."""
+    """Raise an error for a folder without finished cases."""
     if not summary.done:
         raise UsageError(f"{folder} holds no results yet", _command("run", folder))
 
@@ -197,7 +201,7 @@ def _counted(number: int, noun: str) -> str:
 
 
 def _is_unresolved(folder: Path) -> bool:
-    """Return whether records state which loads are resolved, and none is."""
+    """Return whether the records list resolved loads, and no load is resolved."""
     from roughcontact.study.store import Store
 
     found = False
@@ -206,14 +210,14 @@ def _is_unresolved(folder: Path) -> bool:
             record = row.record
             if record is None:
                 continue
-            if "resolved" not in record or bool(record["resolved"].any()):  # one case has one kind of record
+            if "resolved" not in record or bool(record["resolved"].any()):  # as in all records of a case
                 return False
             found = True
     return found
 
 
 def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
-    """Return the study that was named, and the folder of its results."""
+    """Return the study that was given, and the folder of its results."""
     from roughcontact.study.schema import DATABASE
     from roughcontact.study.store import STUDY
     from roughcontact.study.study import Study
@@ -224,7 +228,7 @@ def _found(source: Path, out: Path | None) -> tuple[Study, Path]:
                 f"{source} is the folder of the results itself", "leave out --out", place="--out"
             )
         if not (source / STUDY).is_file():
-            raise UsageError(f"there is no {STUDY} in {source}", "name the folder that a study was run in")
+            raise UsageError(f"there is no {STUDY} in {source}", "name the folder of the results of a study")
         return Study.read(source / STUDY), source
     study = Study.read(source)
     if out is None and source.name == STUDY and (source.parent / DATABASE).exists():
@@ -238,7 +242,7 @@ def _command(name: str, folder: Path, *options: str) -> str:
 
 @contextmanager
 def own_cases() -> Iterator[None]:
-    """Let modules of the current folder be imported, after all others."""
+    """Make modules of the current folder importable, after all other modules."""
     here = os.getcwd()
     sys.path.append(here)
     try:
@@ -256,7 +260,7 @@ def _tell(
     failures: Sequence[Row] | None = None,
     file: Path | None = None,
 ) -> None:
-    """Print how far a study is, its `failures` if they were asked for, and the `file` that was written."""
+    """Print the progress of a study, its `failures` if given, and the `file` that was written."""
     if as_json:
         record: dict[str, Any] = {"study": study.name, "folder": str(folder), "samples": study.samples}
         record |= {"done": summary.done, "failed": summary.failed, "left": summary.left}

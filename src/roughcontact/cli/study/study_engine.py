@@ -1,4 +1,4 @@
-"""Where the cases of a study are computed, as options of the command line say it."""
+"""Options of the command line for the executor of a study."""
 
 from __future__ import annotations
 
@@ -19,13 +19,17 @@ _EXECUTORS = ("serial", "processes", "dask")
 
 @dataclass(frozen=True, slots=True)
 class Workplace:
-    """Where the cases of a study are computed, and how many at once."""
+    """The executor of a study, and its number of workers."""
 
-    executor: str = option("Where cases are computed.", default="processes", read=Choice(_EXECUTORS))
+    executor: str = option("Executor that computes the cases.", default="processes", read=Choice(_EXECUTORS))
     workers: int | None = option(
-        "Cases computed at once (default: one a core).", "N", read=whole(1, "the number of workers")
+        "Number of cases that run at once (default: one per core).",
+        "N",
+        read=whole(1, "the number of workers"),
     )
-    scheduler: str | None = option("Of a running Dask scheduler, such as tcp://node7:8786.", "ADDRESS")
+    scheduler: str | None = option(
+        "Address of a running Dask scheduler, such as tcp://node7:8786.", "ADDRESS"
+    )
 
     def open(self) -> Executor:
         """Return the executor that was asked for.
@@ -39,7 +43,7 @@ class Workplace:
 
         workers, scheduler = self.workers, self.scheduler
         if scheduler is not None and self.executor != "dask":
-            raise UsageError("only --executor dask has one", place="--scheduler")
+            raise UsageError("only --executor dask has a scheduler", place="--scheduler")
         match self.executor:
             case "serial":
                 if workers not in (None, 1):
@@ -50,14 +54,16 @@ class Workplace:
             case "dask":
                 if scheduler is not None and workers is not None:
                     raise UsageError(
-                        "a scheduler has workers of its own", "leave out one of the two", place="--workers"
+                        "the workers of a scheduler are already started",
+                        "leave out --workers or --scheduler",
+                        place="--workers",
                     )
                 return executors.Dask(scheduler, workers=workers)
             case _:
                 return executors.Processes(workers)
 
     def typed(self) -> list[str]:
-        """Return what is not by default, as it is typed."""
+        """Return the options that differ from their defaults, as typed."""
         given = {
             "--executor": None if self.executor == "processes" else self.executor,
             "--workers": self.workers,

@@ -1,4 +1,4 @@
-"""The command ``study from``: a study file made of a job that works."""
+"""The command ``study from``: a study file made from a job."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SOURCE = argument("A job, or a result that holds its recipe.", "JOB.toml|RESULT.
 
 
 def _fields(ctx: typer.Context, incomplete: str) -> list[str]:
-    """Return the fields of the job that is named already, for the completion of one."""
+    """Return the fields of the job on the command line, to complete the name of a field."""
     from roughcontact.recipe.written import fields_in
 
     found: dict[str, Any] = {}
@@ -42,14 +42,14 @@ def _fields(ctx: typer.Context, incomplete: str) -> list[str]:
 
 
 VARY = option(
-    "A field of the job and its values, which commas separate, or semicolons where a value holds commas. May be given "
-    "again, for another field.",
+    "A field of the job and its values, separated by commas, or by semicolons if a value contains commas. Repeat the "
+    "option for another field.",
     "FIELD=VALUE,...",
     default=(),
     autocompletion=_fields,
 )
 SAMPLES = option(
-    "Samples of every combination; each draws a surface of its own.",
+    "Samples of every combination; each draws a different surface.",
     "N",
     default="1",
     read=whole(1, "the number of samples"),
@@ -66,7 +66,7 @@ def from_(
     out: Path = OUT,
     json: bool = JSON,
 ) -> None:
-    """Make a study of a job that works: any of its fields may vary, and what is random is drawn anew."""
+    """Make a study from a job: any of its fields may vary, and each sample draws new random phases."""
     with reported(source, out, as_json=json):
         from roughcontact.files.aside import require_target
         from roughcontact.recipe.written import read_job, require_same_files
@@ -85,7 +85,7 @@ def from_(
         else:
             print_facts([("file", str(out)), ("cases", _counted(combinations, samples))])
         if is_random(job):
-            remark("each sample draws random phases of its own, from the seed of the study")
+            remark("each sample draws different random phases, from the seed of the study")
         remark(f"to compute them: roughcontact study run {out}")
 
 
@@ -102,7 +102,7 @@ def _varied(texts: Sequence[str]) -> dict[str, list[Any]]:
         parts = [part.strip() for part in values.split(between) if part.strip()]
         if not name or not parts:
             raise UsageError(
-                f"{text!r} names no field and values", "write preparation.level=plane,quadratic", "--vary"
+                f"{text!r} is not a field with values", "write preparation.level=plane,quadratic", "--vary"
             )
         if name in found:
             raise UsageError(f"{name} is given twice", "name all of its values in one --vary", "--vary")

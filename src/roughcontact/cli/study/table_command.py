@@ -41,15 +41,15 @@ roughcontact study table results --at 0.01 --quantity stiffness,contact_area
 }
 
 QUANTITIES = option(
-    "Whose mean and standard error to print (default: power laws; with --at the usual ones; otherwise all numbers "
-    "without loads).",
+    "Quantities of which to print mean and standard error (default: power laws; with --at the usual ones; otherwise "
+    "all numbers without loads).",
     "NAME,...",
 )
 
 _LAW = ("exponent", "prefactor")
-_EQUAL = 1e-12  # of a mean: samples that differ by no more are equal
-_CERTIFICATES = ("residual", "stiffness_residual")  # shown where they are asked for
-_MOST_DECIMALS = 5  # beyond these a power of ten is shorter
+_EQUAL = 1e-12  # relative to the mean: samples that differ by less are equal
+_CERTIFICATES = ("residual", "stiffness_residual")  # shown only with --quantity
+_MOST_DECIMALS = 5  # with more, a power of ten is shorter
 
 
 def table(
@@ -60,7 +60,7 @@ def table(
     window: LawWindow,
     json: bool = JSON,
 ) -> None:
-    """Print one line for each combination of what varies: power laws, or means with their standard errors."""
+    """Print one line for each combination of parameters: power laws, or means with their standard errors."""
     with reported(folder, as_json=json), own_cases():
         load = load_of(at)
         averaged = averaged_in(folder, window.value(), load)
@@ -83,7 +83,7 @@ def _quantities(
     single = [name for name in means_of(averaged) if averaged[f"{name}_mean"].dims == averaged["cases"].dims]
     if asked is None:
         if not single:
-            raise UsageError("all quantities lie along the loads", "choose a load by --at, such as --at 1MPa")
+            raise UsageError("all quantities depend on the load", "choose a load by --at, such as --at 1MPa")
         usual = tuple(name for name in USUAL if name in single) if load is not None else ()
         return usual or tuple(name for name in single if name not in _CERTIFICATES)
     names = tuple(part.strip() for part in asked.split(",") if part.strip())
@@ -96,7 +96,7 @@ def _quantities(
             )
         if name not in single:
             raise UsageError(
-                f"{name} lies along {_rest(averaged, name)}",
+                f"{name} depends on {_rest(averaged, name)}",
                 f"choose from {', '.join(single)}" if load else "choose a load by --at, such as --at 1MPa",
                 place="--quantity",
             )
@@ -121,7 +121,7 @@ def _table(averaged: xarray.Dataset, names: Sequence[str], laws: bool) -> tuple[
 
     for name, label in parameter_labels(averaged).items():
         add(label.title, [label.value(parameters[name]) for parameters, _ in points])
-    # A mean has the samples whose loads reach the load of --at.
+    # A mean is over the samples whose loads reach the load of --at.
     behind = [
         [point["cases"].item(), *(point[f"{name}_count"].item() for name in names)] for _, point in points
     ]

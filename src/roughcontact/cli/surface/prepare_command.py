@@ -1,4 +1,4 @@
-"""The command ``surface prepare``: from what was measured to what is analysed or pressed."""
+"""The command ``surface prepare``: from a measured surface to one that can be analysed or pressed."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ roughcontact surface prepare part.x3p clean.npz --despike filled --mask above=20
 roughcontact surface prepare rough.npz seen.npz --tip 2um --average 4
 """,
 }
-_BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the work of a filter
+_BYTES_PER_POINT = 120  # heights before and after a step, masks, weights and the workspace of a filter
 
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """Where a surface goes: a file. An `Answer` names a folder for it, or none."""
+    """The file of a surface; an `Answer` has a folder, or none."""
 
     out: Path = OUTPUT
     json: bool = JSON
@@ -50,14 +50,14 @@ class Saved:
 def prepare(job: SurfaceJob, *, answer: Saved) -> None:
     """Crop, despike, mask, level, remove form, fill, scan, filter, average, subsample and taper a surface; save it.
 
-    In this order, and nothing unasked. What is done stands in the file's history. Profiles are prepared alike.
+    The steps that you name are done in this order, for maps and profiles, and recorded in the history of the file.
     """
     source = job.source
     if isinstance(answer, Saved):
         original = Path(source.file) if isinstance(source, File) else None
         require_output(answer.file, original, as_json=answer.json)
     if job.preparation == Preparation():
-        remark("no step is asked for: the surface is written as it was read")
+        remark("no step is given: the surface is written as it was read")
     with nullcontext() if isinstance(answer, Saved) else output(answer.out):
         surface = prepared(job, _require_memory)["surface"]
         if answer.file is not None:

@@ -40,7 +40,7 @@ roughcontact surface spectrum h.csv --unit nm --size 1mm --shortest 10um --json
 roughcontact surface spectrum scan.csv --out result
 """,
 }
-_FINE = 200.0  # bins to a decade for the fit, which wants them narrow against the law
+_FINE = 200.0  # bins per decade for the fit, which must be narrow compared with changes of the law
 _COARSE = 20.0  # of the table and the moments
 _FILTERED = re.compile(r"Gaussian filter: waves (below|above) (\S+) m removed")
 _CLEAR = (
@@ -57,7 +57,7 @@ _UNITS = {
 }
 
 
-# The spectrum, the law fitted to it and, of a profile, C2D of the isotropic surface that has such profiles.
+# The spectrum, the fitted law, and for a profile C2D of the isotropic surface with such profiles.
 _Found = tuple["PowerSpectrum", "HurstFit", "PowerSpectrum | None"]
 
 
@@ -66,7 +66,7 @@ _WAVE = Amount(LENGTH, "a wavelength")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Asked:
-    """Which spectrum is asked for, and which law in it."""
+    """The spectrum and the law that are asked for."""
 
     TITLE: ClassVar = "Spectrum"
     direction: str = described(
@@ -77,7 +77,7 @@ class Asked:
         everyday=True,
     )
     limit: str = described(
-        "How the power law may end toward long waves.",
+        "How the power law ends at long waves.",
         read=Choice(("auto", "none", "rolloff", "long_cutoff")),
         default="auto",
         everyday=True,
@@ -92,7 +92,7 @@ class Asked:
         "Shortest wave that the instrument follows (default: two cells).", "1um", read=_WAVE, everyday=True
     )
     level: str | None = described(
-        "What is removed from the heights (default: a least-squares plane).",
+        "Trend to remove from the heights (default: a least-squares plane).",
         read=Choice(("plane", "mean", "none")),
         everyday=True,
     )
@@ -116,7 +116,7 @@ class Asked:
 def spectrum(source: File, *, asked: Asked, answer: Answer) -> None:
     """Power spectrum of a surface or profile: Hurst exponent with its error, roll-off or cut-off, rms, moments.
 
-    Of a profile it is C1D, and with it comes C2D of the isotropic surface that has such profiles.
+    For a profile it is C1D, together with C2D of the isotropic surface that has such profiles.
     """
     with output(answer.out) as folder:
         surface = _surface(source, asked.fill)
@@ -140,7 +140,7 @@ def _surface(source: File, fill: bool) -> Surface:
     surface: Surface = prepared(SurfaceJob(source=source), _require_memory)["surface"]
     if surface.missing and not fill:
         raise UsageError(
-            f"{source.file}: {surface.missing} points are missing, and a spectrum needs them all",
+            f"{source.file}: {surface.missing} points are missing, and a spectrum needs all points",
             "add --fill, or crop them away by 'roughcontact surface prepare'",
         )
     if surface.missing:
@@ -190,7 +190,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: str)
         "command": "surface spectrum",
         "file": file,
         "kind": spectrum.kind,
-        # JSON has no word for what is infinite or unknown.
+        # JSON cannot express infinite or unknown values.
         **{name: v if v is None or math.isfinite(v) else None for name, v in values.items()},
         "notes": _warnings(surface, law),
         "provenance": list(surface.provenance),
@@ -199,7 +199,7 @@ def _record(surface: Surface, spectrum: PowerSpectrum, law: HurstFit, file: str)
 
 
 def _warnings(surface: Surface, law: HurstFit) -> list[str]:
-    """Return a misfit beyond chance in words, with the filters that the fitted band runs into."""
+    """Return a note if the misfit exceeds chance, with the filters that overlap the fitted band."""
     if law.misfit <= law.chance:
         return []
     longest, shortest = (2 * math.pi / wavenumber for wavenumber in law.band)
@@ -256,7 +256,7 @@ def _facts(surface: Surface, record: Mapping[str, Any]) -> list[tuple[str, str]]
 
 
 def _isotropic(surface: Surface, spectrum: PowerSpectrum, law: HurstFit) -> PowerSpectrum | None:
-    """Return C2D of the isotropic surface that has such profiles, where there is one."""
+    """Return C2D of the isotropic surface that has such profiles, if one exists."""
     import roughcontact as rc
 
     if surface.grid.ndim == 2:
@@ -291,7 +291,7 @@ def _write(found: _Found, record: Mapping[str, Any], surface: Surface, folder: P
 
 
 def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:
-    """Return the table: a row a bin, and the numbers that are known about the whole."""
+    """Return the table: one row per bin, and the numbers of the whole spectrum."""
     import xarray
 
     spectrum, law, isotropic = found
@@ -308,7 +308,7 @@ def _table(found: _Found, record: Mapping[str, Any]) -> xarray.Dataset:
         columns["isotropic_density"] = (isotropic.density, "m4")
     reliable = (q >= spectrum.q_min * (1 - 1e-9)) & (q <= spectrum.q_max * (1 + 1e-9))
     scalars = {
-        # The column of that name is the densities'.
+        # The column of that name holds the densities.
         f"hurst_{name}" if name == "standard_error" else name: ((), record[name], {"units": units})
         for name, units in record["units"].items()
         if record[name] is not None

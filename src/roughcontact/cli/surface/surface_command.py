@@ -1,4 +1,4 @@
-"""The commands ``surface info``, ``make`` and ``specified``: look at a file, or make one."""
+"""The commands ``surface info``, ``make`` and ``specified``: inspect a file, or make one."""
 
 from __future__ import annotations
 
@@ -60,14 +60,14 @@ CELLS: dict[str, Cells] = {
     }
 }
 _BYTES_TO_LOOK = 100  # a point, beside the surface: its levelled twins, windows about its points, steps
-_BYTES_PER_POINT = 47  # of the synthesis 21, of its facts and the file up to 49: measured with NPZ and X3P
+_BYTES_PER_POINT = 47  # synthesis 21, facts and file up to 49: measured with NPZ and X3P
 
 
 def info(source: File, *, answer: Answer) -> None:
-    """Say what a file holds, a map or a profile: channels, size, unit, missing points, roughness.
+    """Print the contents of a file, a map or a profile: channels, size, unit, missing points, roughness.
 
-    What looks suspicious comes with the option of 'surface prepare' that mends it. With --out a picture of the heights,
-    their spikes ringed, and of their distribution.
+    Suspicious features are listed with the option of 'surface prepare' that removes them. With --out, the heights are
+    drawn with rings around spikes, beside their distribution.
     """
     with reported(Path(source.file), as_json=answer.json) as beside:
         from roughcontact.files.aside import output_folder
@@ -78,7 +78,7 @@ def info(source: File, *, answer: Answer) -> None:
         try:
             surface = prepared(SurfaceJob(source=source), _require_memory)["surface"]
         except ReadError:
-            # What the file leaves open, such as its size, does not hide what it holds.
+            # The channels are printed even if facts such as the size are missing.
             beside |= {"file": file, "channels": channels}
             if not answer.json:
                 print_facts([("file", file), *_channel_facts(channels)])
@@ -117,15 +117,15 @@ def make(out: Path = OUTPUT, *, source: SelfAffine, json: bool = JSON) -> None:
 
 
 def specified(out: Path = OUTPUT, *, source: Specified, json: bool = JSON) -> None:
-    """Make a random surface that has the rms height and the slope of a specification, and save its heights.
+    """Make a random surface with the rms height and slope of a specification, and save its heights.
 
-    Slope and rms height leave open how wide the band of its waves is: give the Hurst exponent and one number more.
+    Rms height and slope do not determine the bandwidth: also give the Hurst exponent and one more number.
     """
     _make(out, source, (), json=json)
 
 
 def _make(out: Path, source: SelfAffine | Specified, waves: Sequence[str], *, json: bool) -> None:
-    """Make a surface, save it, and tell its facts; its history names the `waves` of the source that were given."""
+    """Make a surface, save it, and print its facts; its history names the `waves` that were given."""
     import roughcontact as rc
 
     slabs, shape = slabs_of_job(), points(source.points)

@@ -1,1 +1,1 @@
-"""What a worker computes for the page."""
+"""The computations of a worker of the page."""

@@ -1,4 +1,4 @@
-"""What a page shows of the two bodies: their reduced modulus, hardness and grades, and the same in other numbers."""
+"""Facts about the two bodies on a page: reduced modulus, hardness, grades, and equivalent values of other fields."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["bodies"]
 
 
 def bodies(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send reduced modulus and hardness [Pa], lines about them, and what the other fields of the bodies would hold."""
+    """Send reduced modulus and hardness [Pa], lines about them, and equivalent values of the other fields."""
     from roughcontact.materials import as_modulus, handbook
 
     job = request.job

@@ -1,4 +1,4 @@
-"""What a page shows of a curve: points as they come, its law, jumps or flow at the end, theories beside it."""
+"""A curve on a page: points as they are computed, then its law, jumps or flow, and theories."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ __all__ = ["compared", "curve", "theories"]
 
 
 def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send the loads, every point when it is there, and what the curve says as a whole."""
+    """Send the loads, each point when it is computed, and the results of the whole curve."""
     job, done, stopped = request.job, 0, False
     path = cache.followed(job)
     loads = path.loads.values
@@ -45,7 +45,7 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
                 with uninterrupted():  # a state is collected whole, or not at all
                     yield state
         except Stopped:
-            if not done or not path.parts:  # nothing to keep
+            if not done or not path.parts:  # no answer that could be kept
                 raise
             stopped = True
 
@@ -71,7 +71,7 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 
 def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send what theories predict at the loads of the curve, and by how much they are off; or why they do not apply."""
+    """Send predictions of theories at the loads of the curve and their errors, or why a theory does not apply."""
     found: dict[str, tuple[LoadingLaw, Comparison]] = {}
     for name in request.more.get("theories") or ():
         try:
@@ -93,12 +93,12 @@ def theories(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 
 def compared(job: CurveJob, cache: SessionCache) -> dict[str, tuple[LoadingLaw, Comparison]]:
-    """Return each theory that a job names, beside its curve.
+    """Return each theory that a job names, evaluated at the loads of its curve.
 
     Raises
     ------
     InputError
-        If one does not apply.
+        If a theory does not apply.
     """
     computed = cache.curve(job)
     computed = getattr(computed, "loading", computed)
@@ -109,14 +109,14 @@ def compared(job: CurveJob, cache: SessionCache) -> dict[str, tuple[LoadingLaw, 
 
 
 def _with_theories(job: Job, names: Sequence[str]) -> CurveJob:
-    """Return a job of a curve beside which these theories stand."""
+    """Return the same job with these theories."""
     assert isinstance(job, CurveJob)
     theory = {"theory": ",".join(names)} if names else {}
     return replace(job, theories=type(job.theories)(**(given(job.theories) | theory)))
 
 
 def _as_far(job: Job, path: Followed, done: int) -> tuple[Job | None, dict[str, Any]]:
-    """Return the job of the loads that were reached, and its part that differs; None where no job has these alone."""
+    """Return the job of only the loads that were reached, and the part that differs; None if no such job exists."""
     name = next((name for name in ("loads", "retreat") if is_dataclass(getattr(job, name, None))), None)
     if name is None:
         return None, {}

@@ -1,4 +1,4 @@
-"""The numbers of one load that can stand on a curve: their names, units and values."""
+"""The quantities of one load that a curve can show: their names, units and values."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
 
 
 def _conducted(job: CurveJob) -> list[Column]:
-    """Return the conductances that a job asks for: those per nominal area of the interface, or the total ones."""
+    """Return the conductances of a job: of the interface per nominal area, or total."""
     electrical, _, thermal, _ = CONDUCTION_PER_AREA if job.conduction.of == "interface" else CONDUCTION
     columns = {"resistivities": electrical, "conductivities": thermal}
     return [columns[name] for name in job.conduction.named()]

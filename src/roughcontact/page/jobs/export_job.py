@@ -1,4 +1,4 @@
-"""What a page gives away: tables, fields and pictures as the command line writes them, alone or all in one archive."""
+"""Files that a page exports: tables, fields and pictures as the command line writes them, singly or in an archive."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _KINDS = ("csv", "nc", "png", "svg", "zip")
 
 
 def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send a file of the answer to a job, or an archive of all that belongs to it."""
+    """Send a file of the answer to a job, or an archive of all its files."""
     kind = request.more.get("kind")
     if kind not in _KINDS:
         raise InputError(f"files are exported as {', '.join(_KINDS)}, not as {kind!r}", "choose one of them")
@@ -47,7 +47,7 @@ def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
             send({"type": "file", "name": _name(request, "contact", kind)}, _zipped(folder))
             return
         if isinstance(request.job, SurfaceJob):
-            raise InputError("there is nothing to export yet", "press the surface, or start the curve")
+            raise InputError("there is no answer to export yet", "press the surface, or start the curve")
         written = _files(request, cache)
         file = next(file for file in written if file.endswith(f".{kind}"))
         written[file](folder / file)
@@ -55,7 +55,7 @@ def export(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 
 def _what(request: PageRequest) -> str:
-    """Return the load of one state, or what another job is called."""
+    """Return the load of one state, or the name of another job."""
     if isinstance(request.job, PressJob):
         [(name, text)] = given(request.job.load).items()
         return f"{name}-{text}"
@@ -63,7 +63,7 @@ def _what(request: PageRequest) -> str:
 
 
 def _name(request: PageRequest, what: str, ending: str) -> str:
-    """Return the name of a file: its surface, what it holds, and a mark of the recipes, which no other answer has."""
+    """Return the name of a file: surface, contents, and a mark that is unique for the recipes."""
     source = request.shown.source
     stem = Path(source.file).stem if isinstance(source, File) else "made-surface"
     recipes = [each.recipe for each in (request, request.beside) if each is not None]
@@ -72,7 +72,7 @@ def _name(request: PageRequest, what: str, ending: str) -> str:
 
 
 def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None:
-    """Write the surface, the answers to the jobs, and what makes them again."""
+    """Write the surface, the answers to the jobs, and their recipes."""
     import roughcontact as rc
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_json
@@ -87,7 +87,7 @@ def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None
             write(folder / file)
         name = each.job.NAME.replace(" ", "-")
         (folder / f"{name}-job.toml").write_text(toml_of(each.recipe), encoding="utf-8")
-    # What makes the surface stands once.
+    # The part that makes the surface is written once.
     commands = dict.fromkeys(line for each in asked for line in each.statement["command"].splitlines())
     (folder / "commands.sh").write_text("\n".join(commands) + "\n", encoding="utf-8")
     calls = [*calls_of(request.shown), *(call for each in asked[1:] for call in contact_calls(each.shown))]
@@ -98,7 +98,7 @@ def _everything(request: PageRequest, cache: SessionCache, folder: Path) -> None
 
 
 def _files(request: PageRequest, cache: SessionCache) -> Writers:
-    """Return how the files of an answer are written, by their names."""
+    """Return the writers of the files of an answer, by the names of the files."""
     return _load_files(request, cache) if isinstance(request.job, PressJob) else _curve_files(request, cache)
 
 
@@ -136,7 +136,7 @@ def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
 
 
 def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, Any], Callable[[], Figure]]:
-    """Return a curve of rising loads with its theories and what it conducts: as data, as a record and as a picture."""
+    """Return a curve of increasing loads with theories and conductance: as data, as a record and as a picture."""
     from roughcontact.contact.compare import with_theories
     from roughcontact.contact.dataset import curve_dataset, curve_record
     from roughcontact.evaluation.conduction import Conductors, with_conductance
@@ -174,7 +174,7 @@ def _provenance(request: PageRequest, cache: SessionCache, control: str) -> Mapp
     from roughcontact.files.provenance import provenance
 
     command = request.statement["command"]
-    job: Any = request.job  # of a kind that presses
+    job: Any = request.job  # a job that presses
     given: dict[str, Any] = {"control": control, "command": command, "recipe": request.recipe}
     tolerance = value_of(job.contact, "tolerance")
     modulus = performed(job.bodies.calls(), known_names())["modulus"]
@@ -190,7 +190,7 @@ def _writers(
     table: str = "",
     numbers: Any = None,
 ) -> Writers:
-    """Return how an answer is written in every form; of one state the table holds the numbers only."""
+    """Return the writers of an answer in every form; the table of a single state only holds numbers."""
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.plot.canvas import save
 

@@ -1,4 +1,4 @@
-"""States under one load after the other, as they are computed: of a curve, of loops, of surfaces that stick."""
+"""States under one load after the other, as they are computed: of curves, loops and adhesive paths."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ class Followed:
     Parameters
     ----------
     states : iterator
-        The states, each computed when it is asked for.
+        The states; each is computed when the iterator is advanced.
     loads : Loads
-        What is prescribed, one after the other; a path may end before them.
+        The prescribed loads in their order; a path may end before the last.
     collect : function
         Turns the states into the answer.
     branches : sequence of str
-        The branch of each load; none where there is only one.
+        The branch of each load; empty if there is only one branch.
     count : int or None
-        How many states there are, if that is known.
+        The number of states, if it is known.
     notes : tuple of str
-        What a reader should know of the loads.
+        Notes on the loads.
     parts : bool
-        Whether the first states alone are an answer.
+        Whether the first states without the rest are an answer.
     """
 
     states: Iterator[Any]
@@ -54,7 +54,7 @@ def collected(followed: Followed) -> Any:
 
 
 def follow(calls: Iterable[Call], known: dict[str, Any]) -> Followed:
-    """Perform calls up to the one that follows loads, and return the states that it follows."""
+    """Make the calls up to the one that follows loads, and return the states that it yields."""
     *before, last = up_to_path(calls)
     for call in before:
         perform(call, known)
@@ -95,7 +95,7 @@ def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:
 
 
 def _rising(surface: Any, modulus: Modulus, named: dict[str, Any]) -> tuple[Loads, tuple[str, ...]]:
-    """Return the loads that are named; otherwise name forces that suit the surface, with what is known of them."""
+    """Return the named loads; otherwise forces that suit the surface, with notes on them."""
     import roughcontact as rc
     from roughcontact.solver.loads import Loads
 

@@ -1,4 +1,4 @@
-"""What a page shows of a load: maps at once, then the numbers; and cuts through them."""
+"""A loaded state on a page: maps at once, then numbers, and cuts through the maps."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def press(request: PageRequest, cache: SessionCache, send: Send) -> None:
     profile = getattr(request.job, "contact", Contact()).profile
     units = {name: kind.unit for name, kind in kinds_of(profile).items()}
     send({"type": "span", "units": units, **cache.span(request.job)})
-    if not isinstance(request.job, PressJob):  # the page does not know yet which loads suit the surface
+    if not isinstance(request.job, PressJob):  # the page has no loads yet that suit the surface
         return
     solution = cache.solution(request.job)
     problem = solution.problem
@@ -95,7 +95,7 @@ def cut(request: PageRequest, cache: SessionCache, send: Send) -> None:
             "count": count,
             "x": x.tolist(),
             "across": float(across[0][at]) if across else None,
-            # The flat lies at 0, in both.
+            # The flat is at height 0 in both lines.
             "before": plain_values(
                 np.where(problem.measured[line], solution.depth - problem.separation[line], np.nan)
             ),

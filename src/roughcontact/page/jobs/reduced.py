@@ -10,7 +10,7 @@ __all__ = ["as_seen", "factor_for"]
 
 
 def factor_for(shape: tuple[int, ...], most: int) -> int:
-    """Return how many cells a side one point of the screen stands for."""
+    """Return the side of the block of cells that one point of the screen shows."""
     return max(1, -(-max(shape) // max(1, most)))
 
 
@@ -20,7 +20,7 @@ def as_seen(field: Array, factor: int, *, lowest: bool = False) -> Array:
     Parameters
     ----------
     field : array, shape (ny, nx)
-        NaN where nothing is known.
+        NaN where a value is missing.
     factor : int
     lowest : bool
 

@@ -1,4 +1,4 @@
-"""What the jobs of a page give: surfaces, loads and curves, of which the last few are kept."""
+"""Results of the jobs of a page: the last few surfaces, states and curves."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
 __all__ = ["SessionCache", "UploadedFile"]
 
 T = TypeVar("T")
-_KEPT = 2  # of each: the one that is looked at, and the one before it
-_MOST_POINTS = 4096  # a side of a surface that is made: more is for the command line
+_KEPT = 2  # of each kind: the current one and the one before it
+_MOST_POINTS = 4096  # per side of a surface that is made; the command line allows more
 
 
 @dataclass(frozen=True, slots=True)
 class UploadedFile:
-    """Where a file lies, and how its user calls it."""
+    """The path of a file, and its name for the user."""
 
     path: Path
     name: str
@@ -40,12 +40,12 @@ class UploadedFile:
 
 @dataclass(frozen=True, slots=True)
 class SessionCache:
-    """What was computed last, by the calls that compute it; each answer can be computed again."""
+    """The latest results, by the calls that compute them; each can be computed again."""
 
     kept: dict[str, dict[Hashable, Any]] = field(default_factory=dict)
 
     def read(self, job: Job) -> tuple[Surface, list[str]]:
-        """Return the surface as the file holds it, or as it is made, and what the reader warns of."""
+        """Return the surface as it is read or made, and the warnings of the reader."""
         calls = _calls_of_source(job)
 
         def made() -> tuple[Surface, list[str]]:
@@ -67,7 +67,7 @@ class SessionCache:
         return self._once("read", _key(calls), made)
 
     def surface(self, job: Job) -> Surface:
-        """Return the surface after its preparation; a step that is added begins with what is kept."""
+        """Return the surface after its preparation; an added step starts from the stored surface."""
         calls, first = list(surface_calls(job)), len(_calls_of_source(job))
         shelf = self.kept.setdefault("surface", {})
 
@@ -80,7 +80,7 @@ class SessionCache:
         return self._once("surface", _key(calls), prepared)
 
     def warnings(self, job: Job) -> list[dict[str, Any]]:
-        """Return what looks suspicious in the heights before any preparation, and whether such is left after it."""
+        """Return suspicious features of the heights before preparation, and whether they remain after it."""
         from roughcontact.plot.preparation_warnings import preparation_warnings
 
         found = self._once(
@@ -100,7 +100,7 @@ class SessionCache:
         return self._once("looked at", calls, lambda: preparation_warnings(self.surface(job)))
 
     def solution(self, job: Job) -> Solution:
-        """Return the loaded state; where the tolerance was missed, the best that was reached."""
+        """Return the loaded state; if it misses the tolerance, the best state."""
         import roughcontact as rc
 
         def pressed() -> Solution:
@@ -113,7 +113,7 @@ class SessionCache:
         return self._once("solution", _key([*surface_calls(job), *contact_calls(job)]), pressed)
 
     def span(self, job: Any) -> dict[str, tuple[float, float, float]]:
-        """Return between which loads a slider goes [Pa, N, m], and where it begins: a scale of numbers, no answer."""
+        """Return the ends of the slider of loads and its start [Pa, N, m], by estimates."""
         from roughcontact.materials import as_modulus
 
         surface, bodies = self.surface(job), getattr(job, "bodies", None)
@@ -121,7 +121,7 @@ class SessionCache:
             return {}
         slope = self._once("slope", _key(surface_calls(job)), lambda: _slope(surface))
         modulus, height = as_modulus(performed(bodies.calls(), known_names())["modulus"]), surface.rms
-        # A spring bears a force per length, the modulus times its depth.
+        # The force per length of a spring is the modulus times its depth.
         stress = modulus * (height if job.contact.profile == "winkler" else slope)
         if not (stress > 0 and height > 0):
             return {}
@@ -135,15 +135,15 @@ class SessionCache:
         }
 
     def followed(self, job: Job) -> Followed:
-        """Return the states of a job of many loads, each of which is computed when it is asked for."""
+        """Return the states of a job of many loads; each is computed when the iterator is advanced."""
         return follow(contact_calls(job), self._known(job))
 
     def keep_curve(self, job: Job, curve: object) -> None:
-        """Keep a curve for what is asked of it next."""
+        """Keep a curve for later requests."""
         self._keep("curve", _key_of_curve(job), curve)
 
     def curve(self, job: Job) -> Any:
-        """Return the curve, the loop or the path of a job; computed again if this worker has not seen it."""
+        """Return the curve, the loop or the path of a job; computed again if this worker does not hold it."""
         return self._once("curve", _key_of_curve(job), lambda: collected(self.followed(job)))
 
     def _known(self, job: Job) -> dict[str, Any]:
@@ -175,12 +175,12 @@ def _key(calls: Iterable[Call]) -> tuple[str, ...]:
 
 
 def _key_of_curve(job: Job) -> tuple[str, ...]:
-    """Return what a curve follows from: theories and tables beside it are not among it."""
+    """Return the calls that a curve depends on, without theories and tables."""
     return _key([*surface_calls(job), *up_to_path(contact_calls(job))])
 
 
 def _slope(surface: Surface) -> float:
-    """Return the rms slope; 0 where no two neighbours are measured."""
+    """Return the rms slope; 0 if no two neighbouring points are measured."""
     import roughcontact as rc
 
     try:

@@ -1,4 +1,4 @@
-"""What is shown and written of curves of every kind, and of one state of surfaces that stick."""
+"""Facts, figures and files of curves of every kind, and of single adhesive states."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ class ShownCurve:
     facts : list of (str, str)
         Facts about it as a whole: labels and values.
     figure : function
-        Draws it; of a curve of rising loads, which has theories, None.
+        Draws it; None for a curve of increasing loads, whose figure also shows theories.
     notes : list of str
     more : dict
-        What its chart has besides the points: a power law, or lines of force against depth.
+        Further elements of its chart: a power law, or lines of force against depth.
     maps : list of (str, array, Grid, str)
         Fields beside those of the load: name, values, cells, unit.
     """
@@ -54,12 +54,12 @@ class ShownCurve:
     maps: Sequence[tuple[str, Array, Any, str]] = ()
 
     def shown(self) -> dict[str, Any]:
-        """Return what a page shows of it, as plain values."""
+        """Return its values for a page, as plain values."""
         return {"facts": self.facts, "notes": [on_the_page(note) for note in self.notes], **self.more}
 
 
 def shown_curve(found: Any) -> ShownCurve:
-    """Return what is shown of a curve of any kind."""
+    """Return the shown values of a curve of any kind."""
     return _SHOWN[type(found).__name__](found)
 
 
@@ -149,7 +149,7 @@ _SHOWN: dict[str, Callable[[Any], ShownCurve]] = {
 
 
 def _line(label: str, depth: Iterable[float], force: Iterable[float]) -> dict[str, Any]:
-    """Return a line of a chart, which has one value a place: depths that are equal are put a rounding apart."""
+    """Return a line of a chart with one value at each place: equal depths are separated by a rounding error."""
     places: list[float] = []
     for each in map(float, depth):
         while each in places[-64:]:

@@ -1,4 +1,4 @@
-"""What a page shows of a surface: its map at once, and its roughness when there is time."""
+"""A surface on a page: its map at once, its roughness later."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["look", "study"]
 
 _MOST_SPIKES = 200  # rings on the map
 _MOST_CURVE = 600  # points of a curve on the screen
-# Parameters of ISO 25178-2, their names there and their units.
+# Parameters of ISO 25178-2 with their names and units.
 _AREAL = (
     ("Sq", "root mean square height", "m"),
     ("Sa", "arithmetic mean height", "m"),
@@ -51,7 +51,7 @@ _PROFILE = (
 
 
 def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send what the file holds, the heights after their preparation, and facts about them."""
+    """Send the channels of the file, the heights after preparation, and facts about them."""
     import numpy as np
 
     source = request.job.source
@@ -65,7 +65,7 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
         {
             "type": "surface",
             "facts": surface_facts(surface, surface_record(surface)),
-            "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # `study` says it
+            "warned": [on_the_page(line) for line in warned if "despiked()" not in line],  # in `study`
             "raw": {"lengths": raw.grid.lengths, "shape": raw.grid.shape},
             **request.statement,
         }
@@ -73,7 +73,7 @@ def look(request: PageRequest, cache: SessionCache, send: Send) -> None:
 
 
 def study(request: PageRequest, cache: SessionCache, send: Send) -> None:
-    """Send the distribution of the heights, what looks suspicious, their spectrum, and roughness parameters."""
+    """Send the distribution of the heights, their suspicious features, spectrum, and roughness parameters."""
     import numpy as np
 
     import roughcontact as rc
@@ -129,7 +129,7 @@ def _channels(source: File) -> list[dict[str, Any]]:
 
 
 def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
-    """Return what is shown of the roughness: symbol or name, what it means, and its value."""
+    """Return lines on the roughness: symbol or name, meaning and value."""
     import roughcontact as rc
 
     areal = surface.grid.ndim == 2
@@ -146,7 +146,7 @@ def _roughness(surface: Surface) -> list[tuple[str, str, str]]:
 
 
 def _hurst(surface: Surface) -> tuple[str, str]:
-    """Return in words where the Hurst exponent is from, or why there is none; and the exponent."""
+    """Return the origin of the Hurst exponent in words, or why there is none, and the exponent."""
     import roughcontact as rc
 
     try:

@@ -1,4 +1,4 @@
-"""Who may speak to the page: only a browser on this machine that was given the token."""
+"""Access to the page: only for a browser on this machine that has the token."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ HEADERS: Mapping[str, str] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A request that is not answered: its status, and why."""
+    """A request that is refused: status and reason."""
 
     status: int
     reason: str
@@ -36,17 +36,17 @@ class Refused:
 
 @dataclass(frozen=True, slots=True)
 class Guard:
-    """What a request must show.
+    """The conditions that a request must meet.
 
     Parameters
     ----------
     port : int
-        Of this server.
+        The port of this server.
     token : str
-        That its user was given.
+        The token for the user.
     once : str
-        Another, for the command that opens the browser, whose words all users of the machine can read: it opens the
-        page once, and whoever reads it later comes too late. None, if it is empty.
+        A second token, for the command that opens the browser: all users of the machine can read the words of that
+        command. It opens the page only once. Empty if there is no such command.
     """
 
     port: int
@@ -60,13 +60,13 @@ class Guard:
 
     @property
     def hosts(self) -> tuple[str, ...]:
-        """The names under which the server may be spoken to: another one points at it from elsewhere."""
+        """The allowed names of the server: another name points to it from elsewhere."""
         return (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
 
     def check(
         self, method: str, path: str, query: str, headers: Iterable[tuple[bytes, bytes]]
     ) -> Refused | None:
-        """Return why a request is refused; None where it is answered."""
+        """Return why a request is refused; None if it is allowed."""
         given: dict[str, list[str]] = {}
         for name, value in headers:
             given.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
@@ -87,11 +87,11 @@ class Guard:
         )
 
     def entered(self, query: str) -> bool:
-        """Return whether the address holds the token, or the one for the browser."""
+        """Return whether the address contains the token for the user or the one for the browser."""
         return self._holds(query, self.token) or self.entered_once(query)
 
     def entered_once(self, query: str) -> bool:
-        """Return whether the address holds the token that opens the page once."""
+        """Return whether the address contains the token that opens the page once."""
         return self.once != "" and self._holds(query, self.once)
 
     def _has_cookie(self, lines: list[str]) -> bool:
@@ -111,5 +111,5 @@ class Guard:
 
 
 def _same(given: str, token: str) -> bool:
-    """Return whether two tokens are the same, in a time that does not tell how far they are."""
+    """Return whether two tokens are the same, in a time that does not depend on the first difference."""
     return hmac.compare_digest(given.encode(), token.encode())

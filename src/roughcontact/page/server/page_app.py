@@ -34,16 +34,16 @@ _TYPES = {
 
 @dataclass(slots=True, eq=False)
 class PageServer:
-    """What the routes share.
+    """The common state of the routes.
 
     Parameters
     ----------
     guard : Guard
     sessions : Sessions
     closing : asyncio.Event
-        Set when the server is about to end: answers that are still on their way are broken off.
+        Set when the server is about to end: unfinished answers are broken off.
     opened : bool
-        Whether the token that opens the page once was used.
+        Whether the token that opens the page once has been used.
     """
 
     guard: Guard
@@ -52,11 +52,11 @@ class PageServer:
     opened: bool = False
 
     async def begin(self, request: Request) -> Response:
-        """Open a session for a tab, or give a tab that was loaded again the session that it had."""
+        """Open a session for a tab, or return the earlier session of a reloaded tab."""
         before = request.query_params.get("again", "")
         key = before if self.sessions.back(before) else await self.sessions.begin()
         if key is None:
-            words = f"{MOST_SESSIONS} tabs are open, which is the most: close one."
+            words = f"{MOST_SESSIONS} tabs are open, the maximum number: close one."
             return _refusal(503, words)
         file = self.sessions.given
         given = None if file is None else {"file": GIVEN, "name": file.name}
@@ -65,18 +65,18 @@ class PageServer:
         return JSONResponse(about | _choices())
 
     def in_session(self, answer: Callable[[Session, Request], Awaitable[ASGIApp]]) -> Callable[..., Any]:
-        """Return the endpoint of a route that answers only for a session that is open."""
+        """Return an endpoint that refuses requests without an open session."""
 
         async def endpoint(request: Request) -> ASGIApp:
             session = self.sessions.find(request.query_params.get("session", ""))
             if session is None:
-                return _refusal(410, "The session of this tab has ended: load the page again.")
+                return _refusal(410, "The session of this tab has ended: reload the page.")
             return await answer(session, request)
 
         return endpoint
 
     async def upload(self, session: Session, request: Request) -> Response:
-        """Take a file."""
+        """Store a file."""
         stated = request.headers.get("content-length", "")
         name = request.query_params.get("name", "file")
         try:
@@ -116,7 +116,7 @@ class PageServer:
         return JSONResponse({})
 
     async def alive(self, session: Session, request: Request) -> Response:
-        """Answer a tab that says that it is still there: a session whose tab is silent is ended."""
+        """Answer a sign of life from a tab; the session of a silent tab is ended."""
         return JSONResponse({})
 
 
@@ -128,7 +128,7 @@ def application(server: PageServer) -> ASGIApp:
     async def page(request: Request) -> Response:
         guard, query = server.guard, request.url.query
         if guard.entered(query):
-            # The token leaves the address line, where it would be read over a shoulder.
+            # The token is removed from the address line, where others could read it.
             response: Response = RedirectResponse("/", 303)
             if not (guard.entered_once(query) and server.opened):
                 server.opened = server.opened or guard.entered_once(query)
@@ -155,7 +155,7 @@ def application(server: PageServer) -> ASGIApp:
 
 @dataclass(frozen=True, slots=True)
 class _Guarded:
-    """An application behind a guard; every answer bears the headers of safety."""
+    """An application behind a guard; every answer has the security headers."""
 
     app: ASGIApp
     guard: Guard
@@ -179,13 +179,13 @@ class _Guarded:
 
 
 def _hung_up(refused: Refused) -> Response:
-    """Return an answer after which the connection is closed: no more is read from who has no key."""
+    """Return an answer after which the connection is closed: a client without the key is not read further."""
     return PlainTextResponse(refused.reason + "\n", refused.status, {"Connection": "close"})
 
 
 @dataclass(frozen=True, slots=True)
 class _Streamed:
-    """Messages as they come; where the browser goes away, or the server is to end, no more are asked for."""
+    """Messages as they come, until the browser disconnects or the server is about to end."""
 
     messages: AsyncGenerator[bytes]
     closing: asyncio.Event
@@ -216,7 +216,7 @@ async def _left(receive: Receive) -> None:
 
 
 def _asked(body: bytes) -> dict[str, Any] | None:
-    """Return what a body asks for; None where that is no object, or holds numbers that JSON does not know."""
+    """Return the object in a body; None for other values, or numbers that are not valid JSON."""
     try:
         asked = json.loads(body)
         json.dumps(asked, allow_nan=False)
@@ -227,22 +227,22 @@ def _asked(body: bytes) -> dict[str, Any] | None:
 
 
 def _refusal(status: int, words: str) -> Response:
-    """Return why a request is refused; the connection is closed, since the rest of a body may be on its way."""
+    """Return a refusal; the connection is closed, because the rest of a body may be on its way."""
     return JSONResponse({"message": words}, status, {"Connection": "close"})
 
 
 def _choices() -> dict[str, Any]:
-    """Return what can be chosen by name."""
+    """Return the values that can be chosen by name."""
     from roughcontact.page.forms import forms
     from roughcontact.theory.laws import LAWS
 
-    given = {"hardness", "radius"}  # what no surface shows
+    given = {"hardness", "radius"}  # numbers that a surface does not determine
     laws = {name: law.about for name, law in LAWS.items() if not given & {*law.needs} - {"hardness"}}
     return {"forms": forms(), "theories": laws}
 
 
 def _files() -> list[tuple[str, bytes]]:
-    """Return the files of the page by their paths: these, and no other of the disk, can be asked for."""
+    """Return the files of the page by their paths; no other file of the disk is served."""
     found: list[tuple[str, bytes]] = []
     folders = [("", resources.files("roughcontact.page") / "static")]
     while folders:

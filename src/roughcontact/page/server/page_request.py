@@ -1,4 +1,4 @@
-"""One thing that a page asks of its worker."""
+"""A request of a page to its worker."""
 
 from __future__ import annotations
 
@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PageJob", "PageRequest", "Send", "send_map", "sides"]
 
-_PART_OF_COLOURS = (
-    0.8  # where nearly all heights would have less, the colours end before the highest and the lowest
-)
+_PART_OF_COLOURS = 0.8  # least share of the colours for nearly all heights; otherwise the scale is clipped
 _BAND = 0.12  # height of the band of a profile, over its length
 
 
@@ -40,18 +38,18 @@ class Send(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class PageRequest:
-    """What is asked for.
+    """The job of a request, with its files.
 
     Parameters
     ----------
     job : Job
-        Its files where the server keeps them.
+        With the paths of its files on the server.
     shown : Job
-        The same, its files as their user calls them.
+        The same job, with the user's names of its files.
     beside : PageRequest or None
-        Of an archive that holds two answers, the other one.
+        The second answer of an archive that holds two.
     more : mapping
-        What else the worker needs to know.
+        Further values that the worker needs.
     """
 
     job: JobOfHeights
@@ -61,12 +59,12 @@ class PageRequest:
 
     @classmethod
     def of(cls, plain: Any, files: Mapping[str, UploadedFile], more: Mapping[str, Any]) -> PageRequest:
-        """Return the request of a job in plain values, whose files are named as the server calls them.
+        """Return the request of a job in plain values, whose files have the server's names.
 
         Raises
         ------
         InputError
-            If the values state no job, or the server has no such file.
+            If the values are not a job, or the server has no such file.
         """
 
         def known(file: File) -> UploadedFile:
@@ -97,7 +95,7 @@ class PageRequest:
 
     @property
     def recipe(self) -> dict[str, Any]:
-        """The job as a file carries it: its files as their user calls them, with their fingerprints."""
+        """The job as stored in a file: with the user's names of its files, and their fingerprints."""
         found: list[str] = []
 
         def kept(file: File) -> File:

@@ -1,4 +1,4 @@
-"""The server of the page, on this machine alone."""
+"""The server of the page, on this machine only."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from roughcontact.page.server.workers import Sessions
 __all__ = ["serve"]
 
 _LOOPBACK = "127.0.0.1"
-_MOMENT = 0.1  # seconds between two looks at whether the server is to end
+_MOMENT = 0.1  # seconds between two checks whether the server must end
 _SILENT = 5.0  # seconds in which a new connection must bring a request
 
 
@@ -35,12 +35,12 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
     Parameters
     ----------
     file : Path or None
-        What the page shows first. No other file of the disk can be reached through it.
+        The first file on the page. The page cannot reach other files of the disk.
     port : int
-        0 for any that is free.
+        0 for any free port.
     opened : callable
-        Called with two addresses when the page can be asked for: one that holds the token, for the user, and one that
-        opens the page once, for the command of a browser.
+        Called with two addresses when the page is available: one with the token, for the user, and one that opens the
+        page once, for the command of a browser.
 
     Raises
     ------
@@ -58,11 +58,11 @@ def serve(file: Path | None, port: int, opened: Callable[[str, str], None]) -> N
 
 
 def _bound(port: int) -> socket.socket:
-    """Return a socket of this machine alone, whose connections send what there is at once."""
+    """Return a socket for connections from this machine only, which send data without delay."""
     # asyncio sets TCP_NODELAY on sockets that name their protocol: otherwise each answer waits for an acknowledgement.
     bound = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
-        if os.name == "posix":  # elsewhere it would let two servers have one port
+        if os.name == "posix":  # elsewhere it would allow two servers on one port
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         bound.bind((_LOOPBACK, port))
     except OSError:
@@ -81,13 +81,13 @@ def _web(app: ASGIApp, silent: float = _SILENT) -> uvicorn.Server:
 
     settings = uvicorn.Config(
         app,
-        # What is installed beside them changes nothing.
+        # Other installed packages must not change these choices.
         http=connected,  # type: ignore[arg-type]  # called as the class would be
         ws="none",
         lifespan="on",
         proxy_headers=False,
         server_header=False,
-        access_log=False,  # addresses hold keys
+        access_log=False,  # addresses contain keys
         log_level="error",
         timeout_graceful_shutdown=1,
     )
@@ -100,7 +100,7 @@ def _close_if_silent(connection: H11Protocol) -> None:
 
 
 async def _run(web: uvicorn.Server, page: PageServer, listening: socket.socket) -> None:
-    """Serve until a signal ends it, and break off what is being answered."""
+    """Serve until a signal ends it, and break off unfinished answers."""
     serving = asyncio.create_task(web.serve(sockets=[listening]))
     while not (web.should_exit or serving.done()):
         await asyncio.wait({serving}, timeout=_MOMENT)
@@ -110,7 +110,7 @@ async def _run(web: uvicorn.Server, page: PageServer, listening: socket.socket) 
 
 @contextlib.contextmanager
 def _closed_terminal_ends() -> Iterator[None]:
-    """Have the signal of a terminal that is closed end the program as SIGTERM does, and not leave files behind."""
+    """Make a closed terminal end the program as SIGTERM does, which removes its files."""
     hangup = getattr(signal, "SIGHUP", None)  # Windows has none
     if hangup is None or signal.getsignal(hangup) is not signal.SIG_DFL:
         yield

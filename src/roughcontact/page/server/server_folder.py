@@ -1,4 +1,4 @@
-"""The folder of a running server, and those that servers left behind which were killed."""
+"""The folder of a running server; folders of killed servers are removed."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from roughcontact.kernels.disk import private
 
 __all__ = ["SCRATCH", "server_folder"]
 
-SCRATCH = "scratch"  # of a server's folder: made when it is locked, for the temporary files of workers
+SCRATCH = "scratch"  # subfolder for temporary files of workers, made after the folder is locked
 _PREFIX = "roughcontact-page-"
-# Somebody else holds it, it cannot be made, or there are no locks in this place.
+# Another process holds the lock, it cannot be made, or the file system has no locks.
 _UNLOCKABLE = (Timeout, OSError, NotImplementedError)
 _LOCK = "lock"  # held until the server ends, however it ends
 
 
 @contextlib.contextmanager
 def server_folder() -> Iterator[Path]:
-    """Keep a folder for this user alone for as long as the block runs; what killed servers left is removed."""
+    """Keep a private folder of this user while the block runs; folders of killed servers are removed."""
     _remove_left()
     with tempfile.TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True) as name:
         folder = Path(name)
@@ -35,7 +35,7 @@ def server_folder() -> Iterator[Path]:
 
 
 def _remove_left() -> None:
-    # A server that is starting has no such folder yet, or has locked its own.
+    # A server that is starting has no such subfolder yet, or has locked its folder.
     for scratch in Path(tempfile.gettempdir()).resolve().glob(f"{_PREFIX}*/{SCRATCH}"):
         folder = scratch.parent
         with contextlib.suppress(*_UNLOCKABLE):

@@ -1,6 +1,6 @@
 """The processes that compute for the open tabs: started, given requests, cancelled, killed, replaced and ended.
 
-Each tab has a session with two queues, so that a curve does not keep the slider waiting. Each queue has a worker, which
+Each tab has a session with two queues, so that the slider need not wait for a curve. Each queue has a worker, which
 answers one request after the other. One more worker is kept warm in reserve, for a new tab or in place of a killed one.
 """
 
@@ -26,9 +26,9 @@ from roughcontact.page.server.server_folder import SCRATCH
 __all__ = ["GIVEN", "MOST_SESSIONS", "Session", "Sessions"]
 
 MOST_SESSIONS = 8  # each has up to two processes
-GIVEN = "given"  # what the page calls the file of the command line
+GIVEN = "given"  # name of the command line's file on the page
 _DELAY = 3.0  # seconds before the next reserve is started: the first answer comes first
-_GRACE = 0.15  # seconds in which a cancelled request may end; its process is killed afterwards
+_GRACE = 0.15  # seconds for a cancelled request to end, before its process is killed
 _DIED = (
     "The computing process was killed, or it ran out of memory. A new one takes over: press Compute again, or Start "
     "for a curve."
@@ -41,10 +41,10 @@ class _Worker:
     """A process that answers one request at a time, and a task that listens to it."""
 
     process: asyncio.subprocess.Process
-    idle: asyncio.Event = field(default_factory=asyncio.Event)  # set while nothing is computed
+    idle: asyncio.Event = field(default_factory=asyncio.Event)  # set while no request is computed
     messages: asyncio.Queue[bytes] = field(default_factory=asyncio.Queue)
-    number: int = 0  # of the latest request, which `messages` answer
-    cancelled: bool = False  # whether the latest request was
+    number: int = 0  # of the latest request, to which `messages` belong
+    cancelled: bool = False  # whether the latest request was cancelled
     listener: asyncio.Task[None] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -57,9 +57,9 @@ class _Worker:
             *(sys.executable, "-m", page_worker.__name__),
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
-            limit=2**22,  # bytes: maps come in few parts
+            limit=2**22,  # bytes, so that maps come in few parts
             env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
-            start_new_session=sys.platform != "win32",  # Ctrl-C is for the server, which ends its workers
+            start_new_session=sys.platform != "win32",  # only the server gets Ctrl-C; it ends its workers
         )
         worker = cls(process)
         try:
@@ -73,7 +73,7 @@ class _Worker:
 
     @property
     def alive(self) -> bool:
-        out = self.process.stdout  # its end is seen before the process is reaped, which takes a thread
+        out = self.process.stdout  # it ends before the process is reaped, which needs a thread
         return out is not None and not out.at_eof() and not self.listener.done()
 
     def begin(self, request: Mapping[str, Any]) -> None:
@@ -95,7 +95,7 @@ class _Worker:
             await self.end()
 
     async def end(self) -> None:
-        """Kill the process, whatever it is doing."""
+        """Kill the process at once."""
         with contextlib.suppress(ProcessLookupError):
             self.process.kill()
         await asyncio.wait({self.listener})
@@ -129,11 +129,11 @@ def _end(how: str, **more: str) -> bytes:
 class _RequestQueue:
     """The requests of a session to one worker, answered one after the other."""
 
-    take: Callable[[], Awaitable[_Worker]]  # where workers come from
+    take: Callable[[], Awaitable[_Worker]]  # provides a worker
     worker: _Worker | None = None
     running: str | None = None  # key of the request that is computed
-    unwanted: set[str] = field(default_factory=set)  # keys of those that were stopped before their turn
-    turn: asyncio.Lock = field(default_factory=asyncio.Lock)  # held while one is answered
+    unwanted: set[str] = field(default_factory=set)  # keys of requests that were stopped before their turn
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)  # held while a request is answered
 
     async def perform(self, key: str, request: Mapping[str, Any]) -> AsyncGenerator[bytes]:
         """Yield the messages that answer a request; it is cancelled when the iterator is closed early."""
@@ -167,20 +167,20 @@ class _RequestQueue:
 
 @dataclass(slots=True, eq=False)
 class Session:
-    """What the server keeps of a tab; the page states everything else with every request.
+    """The server's state of a tab; every request of the page contains everything else.
 
     Parameters
     ----------
     front, back : _RequestQueue
-        For what must not wait, and for what takes long.
+        For requests that must not wait, and for long ones.
     folder : Path
-        Of its files; it is removed with the session.
+        The folder of its files; it is removed with the session.
     files : dict of str to UploadedFile
-        By the names that the page was given.
+        The files by their names on the page.
     heard : float
         When its tab last sent a request [s], on the clock of `time.monotonic`.
     leaving : asyncio.Task or None
-        Of a tab that was closed or is loaded again: ends the session shortly.
+        Of a tab that was closed or is being reloaded: ends the session after a short time.
     """
 
     front: _RequestQueue
@@ -192,7 +192,7 @@ class Session:
 
     @property
     def busy(self) -> bool:
-        """Whether a request is computed, or waits."""
+        """Whether a request is being computed or waiting."""
         return self.front.turn.locked() or self.back.turn.locked()
 
     def queue(self, name: object) -> _RequestQueue:
@@ -200,7 +200,7 @@ class Session:
         return self.back if name == "back" else self.front
 
     def perform(self, asked: Mapping[str, Any]) -> AsyncGenerator[bytes]:
-        """Return the messages that answer a request of the page, the last of which states how it ended."""
+        """Return the messages that answer a request; the last one states the outcome."""
         files = {key: {"path": str(each.path), "name": each.name} for key, each in self.files.items()}
         request = {**{name: asked.get(name) for name in ("job", "recipe", "more")}, "files": files}
         return self.queue(asked.get("queue")).perform(str(asked.get("key", "")), request)
@@ -219,20 +219,20 @@ class Sessions:
     Parameters
     ----------
     folder : Path
-        Of the server: each session has a folder in it, and their workers one for temporary files.
+        The folder of the server: each session has a folder in it, and the workers have one for temporary files.
     given : UploadedFile or None
         The file of the command line, which all sessions may read.
     silent : float
-        A session whose tab sends nothing for this time [s] is ended.
+        A session is ended when its tab sends nothing for this time [s].
     room : float
-        The same where a new session would be one too many.
+        The same time if a new session would exceed the maximum number.
     grace : float
-        A session whose tab was closed is kept for this time [s]: the tab may only be loaded again.
+        The session of a closed tab is kept for this time [s], because the tab may be reloading.
     """
 
     folder: Path
     given: UploadedFile | None = None
-    silent: float = 3600.0  # tabs report twice a minute, hidden ones once, frozen ones not at all
+    silent: float = 3600.0  # tabs report twice a minute, hidden tabs once, frozen tabs never
     room: float = 180.0
     grace: float = 5.0
     known: dict[str, Session] = field(default_factory=dict)
@@ -247,7 +247,7 @@ class Sessions:
         try:
             yield
         finally:
-            tasks = watching, self._prepare()  # a delayed call finds a reserve, and starts none
+            tasks = watching, self._prepare()  # a delayed call then finds a reserve
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
@@ -276,12 +276,12 @@ class Sessions:
         return session
 
     def leave(self, key: str) -> None:
-        """End a session, if it is open, unless its tab comes back at once."""
+        """End a session, if it is open, unless its tab is back within a short time."""
         if (session := self.known.get(key)) is not None and session.leaving is None:
             session.leaving = asyncio.create_task(self._end_left(key))
 
     def back(self, key: str) -> bool:
-        """Return whether a session is open whose tab has left it: it has come back."""
+        """Return whether a session is open whose tab was closed; keep it, because the tab is back."""
         if (session := self.find(key)) is None or session.leaving is None:
             return False
         session.leaving.cancel()
@@ -313,7 +313,7 @@ class Sessions:
         return self.reserve
 
     async def _take(self) -> _Worker:
-        """Return the worker in reserve, or a new one if that has ended."""
+        """Return the worker in reserve, or a new worker if the former has ended."""
         reserve, self.reserve = self._prepare(), None
         asyncio.get_running_loop().call_later(_DELAY, self._prepare)
         with contextlib.suppress(OSError):

@@ -1,13 +1,13 @@
-// Curves on uPlot: distributions, cuts, loading curves; redrawn when the room or the colours change.
+// Curves on uPlot: distributions, cuts, loading curves; redrawn when their size or the colours change.
 
 import { digits, scaleFor } from "./words.js";
 
 /* global uPlot */
 
-// Only the decades of a logarithmic axis have lines: all lines would be a band of ink.
+// Only the decades of a logarithmic axis have lines: with all lines the chart would be unreadable.
 const decade = (at) => at !== null && Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-6;
 const decades = (_, splits) => splits.map((at) => (decade(at) ? at : null));
-// Where labels of all decades would overlap, every second or third decade has one.
+// If labels of all decades would overlap, only every second or third decade has one.
 function labelled(ticks, log, most) {
   const every = log ? Math.ceil(ticks.filter(decade).length / most) : 1;
   return every > 1 ? ticks.map((at) => (decade(at) && Math.round(Math.log10(at)) % every === 0 ? at : null)) : ticks;
@@ -16,7 +16,7 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 const shown = new Set();
 
 // Series: { label, x, y, kind: "line" | "points" | "rings" | "mark" | "area", colour, dash, gaps }. Axes: { label, unit, log };
-// `y.per` stands for a density over x, `beyond` is a line about what lies outside. `clicked(x)` and `hovered(k)` get places in the units of the series.
+// `y.per` marks a density over x, `beyond` is a note on values outside. `clicked(x)` and `hovered(k)` get positions in the units of the series.
 export function chart(root, spec) {
   root.spec = spec;
   if (!shown.has(root)) {
@@ -37,7 +37,7 @@ export function clear(root) {
   root.replaceChildren();
 }
 
-// A line across a chart at a place along x; null takes it away.
+// A line across a chart at a position along x; null removes it.
 export function mark(root, x) {
   if (!root.plot) return;
   root.quiet = true;
@@ -116,7 +116,7 @@ function apart(low, high) {
   return high - low > 1e-6 * size ? [low, high] : [low - (0.05 * size || 1), high + (0.05 * size || 1)];
 }
 
-// What lies under the cursor, in words.
+// The values under the cursor, in words.
 function pointed(root, plot, readout, units) {
   const { idx, left } = plot.cursor;
   const on = idx !== null && idx !== undefined && left >= 0;
@@ -133,7 +133,7 @@ function pointed(root, plot, readout, units) {
 
 function legend(series) {
   const list = Object.assign(document.createElement("ul"), { className: "legend" });
-  // Of several pieces of one thing, the one with marks speaks for all.
+  // For several series with the same label, the legend shows the one with marks.
   const named = new Map([...series].reverse().sort((a, b) => Boolean(b.silent) - Boolean(a.silent)).map((each) => [each.label, each]));
   for (const each of series.filter((one) => named.get(one.label) === one)) {
     const item = document.createElement("li");
@@ -166,14 +166,14 @@ function drawn(each) {
   };
 }
 
-// Values without a neighbour, which no line shows.
+// Values without a neighbour, which a line would not show.
 function lone(plot, series) {
   const values = plot.data[series];
   const there = (k) => values[k] !== null && values[k] !== undefined;
   return values.map((_, k) => k).filter((k) => there(k) && !there(k - 1) && !there(k + 1));
 }
 
-// All series on one axis, as uPlot wants them; what a logarithm cannot show is left out, and what is mere rounding on it.
+// All series on one axis, as uPlot requires; values that a logarithmic axis cannot show, and rounding errors on it, are left out.
 function together(series, factorX, factorY, logX, logY) {
   const places = new Set();
   for (const each of series) for (const value of each.x) if (!logX || value > 0) places.add(value);

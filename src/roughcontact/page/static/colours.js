@@ -40,7 +40,7 @@ function table(text) {
   const colours = new Uint32Array(256);
   for (let k = 0; k < 256; k++) {
     const [r, g, b] = [0, 2, 4].map((at) => parseInt(text.slice(6 * k + at, 6 * k + at + 2), 16));
-    colours[k] = (255 << 24) | (b << 16) | (g << 8) | r; // as the bytes of a picture lie in memory
+    colours[k] = (255 << 24) | (b << 16) | (g << 8) | r; // in the byte order of a picture in memory
   }
   return colours;
 }

@@ -1,4 +1,4 @@
-// Two surfaces side by side under one load: the one that was kept, and the one that is open.
+// Two surfaces side by side under one load: the kept one and the open one.
 
 import { mapView } from "./map.js";
 import { element } from "./numbers.js";
@@ -21,7 +21,7 @@ export function comparison({ recipe, jobOf, map, failed, changed, curveFacts }) 
   let asked = null; // of the kept surface: { load, sent }
   let current = null;
 
-  // Press the kept surface by the load of the other one; only the newest load counts.
+  // Press the kept surface by the load of the open one; only the newest load counts.
   async function follow() {
     const { load } = recipe.now;
     if (!kept || asked || !load || JSON.stringify(load) === kept.answered) return;

@@ -1,6 +1,6 @@
-// The part of the map that is kept, as the command line writes it: rows and columns, an open end left out.
+// The part of the map that a crop keeps, in the form of the command line: rows and columns, open ends left out.
 
-// A part that was dragged over a map, whose cells count from the crop before it and may stand for several.
+// A part that was dragged over a map; its cells are counted from the earlier crop, and each may show several.
 export function dragged(part, before, raw, cells) {
   const given = before ? before.split(",").map((ends) => ends.split(":")) : [["", ""], ["", ""]];
   return given.map(([from, to], axis) => {

@@ -1,4 +1,4 @@
-// The points of a curve as a table: each row leads to its contact, by mouse and by keys.
+// The points of a curve as a table: each row opens its contact, by mouse and by keys.
 
 import { element } from "./numbers.js";
 import { digits, scaleFor } from "./words.js";
@@ -7,10 +7,10 @@ const COLUMNS = [
   "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "residual",
 ];
 
-// Without `chosen` no row leads anywhere.
+// Without `chosen` the rows are not clickable.
 export function curveTable(root, { columns, points }, current, chosen) {
   const clickable = Boolean(chosen);
-  // The keys stay where they are.
+  // Keep the focus of the keyboard.
   const focused = [...root.querySelectorAll("button")].indexOf(document.activeElement);
   const shown = COLUMNS.map((name) => columns.find((each) => each.name === name)).filter(Boolean);
   const branched = points.some(({ branch }) => branch);

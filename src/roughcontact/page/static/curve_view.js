@@ -1,4 +1,4 @@
-// The curve: rising loads, a loop, or surfaces that stick; its points as they come, what stands beside it.
+// The curve: increasing loads, a loop, or adhesive surfaces; its points as they come, and theories.
 
 import { chart, clear } from "./charts.js";
 import { curveTable } from "./curve_table.js";
@@ -13,7 +13,7 @@ import { request } from "./wire.js";
 import { loadText } from "./words.js";
 
 const ALONG = { force: "force", pressure: "nominal_pressure", depth: "depth" };
-// What follows from the predictions of a theory by a fixed factor.
+// Quantities that are predictions of a theory times a constant.
 const OVER_AREA = { interfacial_stiffness_per_area: "interfacial_stiffness", contact_fraction: "contact_area" };
 const COLOURS = { unloading: "--second", reloading: "--third", retreat: "--second", jump: "--ink-soft", "pull-off force": "--mark" };
 const DASHES = { jump: [3, 3], "pull-off force": [8, 4] };
@@ -23,19 +23,19 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
   let running = null;
   let current = null; // { job, columns, points, end }
   let kept = null;
-  let state = null; // the load under the hand, and its numbers
-  let shape = ""; // of the curve whose quantities are offered
-  let own = { kind: null, parts: [] }; // the forms of what this kind of curve has beside a load
+  let state = null; // the current load, and its numbers
+  let shape = ""; // kind of the curve whose quantities are listed
+  let own = { kind: null, parts: [] }; // the forms that this kind of curve has and a single load has not
   const [command, python] = [statement(by("curve_command")), statement(by("curve_python"))];
   const theories = theoryList(by("theories"), known, beside);
   const say = (text) => (by("curve_said").textContent = text);
-  const search = progressBar(by("progress"), by("curve_said")); // for the loads: of those, every point counts
+  const search = progressBar(by("progress"), by("curve_said")); // for the search of loads; points of the curve have a separate count
   const sticks = (run) => run.job.job !== "curve";
   // The kind of load that is prescribed.
   const controlOf = ({ job }) => (Object.keys(job.loads || {})[0] || "forces").slice(0, -1);
   const along = (run) => (sticks(run) ? "depth" : ALONG[controlOf(run)]);
 
-  // The job that the user wants; theories are asked for when the points are there.
+  // The job of the curve; theories are requested when its points are complete.
   function wanted() {
     const { theories: _, ...job } = jobOf(recipe.now.kind, recipe.now, forms);
     const { materials } = job.bodies;
@@ -45,7 +45,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     return job;
   }
 
-  // The loads that are numbers alone: which unit they have is asked.
+  // Loads without a unit: the user must give it.
   function bare(job) {
     return own.parts.flatMap(({ part, fields }) => fields.flatMap(({ name, example }) => {
       const text = (job[part] || {})[name];
@@ -95,7 +95,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
       draw();
     } else if (header.type === "curve") {
       run.end = header;
-      if (header.stopped) run.points.length = Math.min(run.points.length, header.count); // the last may not have been kept
+      if (header.stopped) run.points.length = Math.min(run.points.length, header.count); // the last point may have been dropped
       facts(by("curve_facts"), header.facts);
       list(by("curve_notes"), [...run.notes, ...header.notes]);
       draw();
@@ -114,7 +114,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     say(run.count === 1 ? "" : `${stopped}${done}${run.count ? ` of ${run.count}` : ""} points${open ? `, ${open} of them not resolved by the grid (open circles)` : ""}.`);
   }
 
-  // The quantities that can be shown: by usage the stiffness, of a loop the depth, of surfaces that stick the force.
+  // The quantities that can be shown. The default is the stiffness, for a loop the depth, for adhesive surfaces the force.
   function offer(run) {
     const looped = Boolean(run.job.plastic && run.job.plastic.loop);
     const usually = sticks(run) ? "force" : looped ? "depth" : "stiffness";
@@ -127,7 +127,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     by("beside").hidden = sticks(run);
   }
 
-  // Theories are asked for when the points are there.
+  // Theories are requested when the points are complete.
   async function beside() {
     const run = current;
     if (!run || running || !job()) return;
@@ -142,14 +142,14 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     draw();
   }
 
-  // The job of the curve as far as it is computed, with what stands beside it.
+  // The job of the computed part of the curve, with its theories.
   function job() {
     if (!current || !current.end || !current.end.again) return undefined;
     const theory = theories.chosen.join(",");
     return { ...current.job, ...current.end.part, ...(sticks(current) || !theory ? {} : { theories: { theory } }) };
   }
 
-  // Points that follow one another on one branch.
+  // Consecutive points of one branch.
   function runs(points) {
     const found = [];
     for (const point of points) {
@@ -212,7 +212,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     recipe.change((next) => (next.load = { [control]: loadText(point.load, load.unit(control), 6) }));
   }
 
-  // Loads of a range that suits the surface, as the command line takes them.
+  // A range of loads that suits the surface, in the form of the command line.
   function range(name) {
     const control = name.slice(0, -1);
     if (!load.usual(control)) return undefined;
@@ -237,7 +237,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
     by("of_curve").hidden = !current || !current.columns.length;
   }
 
-  // A curve belongs to its surface and bodies: with others it ends.
+  // A curve belongs to its surface and bodies: a change of these ends it.
   function forget() {
     if (running) running.sent.stop().catch(failed);
     running = current = null;
@@ -268,7 +268,7 @@ export function curveView({ recipe, forms, known, load, failed, ended, mapped })
       kept = other;
       draw();
     },
-    // The load that is shown, with its numbers.
+    // The current load, with its numbers.
     answered(record) {
       state = record;
       draw();

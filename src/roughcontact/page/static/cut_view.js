@@ -7,7 +7,7 @@ import { written } from "./words.js";
 const ROUNDING = 1e-13; // metres
 const by = (id) => document.getElementById(id);
 
-// `map` shows where the cut lies; `ask(axis, place)` has it computed.
+// `map` shows the position of the cut; `ask(axis, place)` requests its computation.
 export function cutView(map, ask) {
   let chosen = false;
   let last = null;
@@ -30,7 +30,7 @@ export function cutView(map, ask) {
     get wanted() {
       return by("of_cut").hidden ? null : { axis: by("cut_axis").value, place: Number(by("cut_place").value) };
     },
-    // Where nothing was chosen the cut goes through the highest pressure.
+    // By default the cut goes through the highest pressure.
     answered({ highest: [row] }) {
       by("of_cut").hidden = false;
       if (!chosen) {
@@ -43,13 +43,13 @@ export function cutView(map, ask) {
       last = null;
       by("of_cut").hidden = true;
     },
-    // The map says where its pointer is.
+    // The map reports the position of its pointer.
     pointed(cell) {
       if (last) mark(by("cut"), cell ? last.x[last.axis === "row" ? cell.column : cell.row] : null);
     },
     heard(header) {
       last = header;
-      // What is closed is closed but for rounding.
+      // A closed gap may differ from 0 by rounding.
       const [gap, under] = [header.gap, header.under].map((line) => line.map((value) => (value !== null && Math.abs(value) < ROUNDING ? 0 : value)));
       by("cut_place").max = header.count;
       put(by("cut_place"), header.place + 1);

@@ -1,10 +1,10 @@
-// Files that the server writes: of the load, of the curve, or all in one archive.
+// Files that the server writes: for the load, for the curve, or all in one archive.
 
 import { request } from "./wire.js";
 
 const KINDS = { csv: "CSV", nc: "NetCDF", png: "PNG", svg: "SVG" };
 
-// `load()` and `curve()` give the jobs of what is shown.
+// `load()` and `curve()` return the current jobs.
 export function exports(root, { load, curve, source, say, failed }) {
   const group = (label, of) => {
     const made = Object.assign(document.createElement("optgroup"), { label });
@@ -18,7 +18,7 @@ export function exports(root, { load, curve, source, say, failed }) {
     target.value = "";
     if (!kind) return;
     if (!source()) return say("There is nothing to export yet: drop a file, or choose an example.");
-    // What is under the hand is known in front; the curve behind.
+    // The front worker holds the current load, the back worker the curve.
     const queue = kind === "zip" || of === "curve" ? "back" : "front";
     if (of === "curve" && !curve()) return say("There is no curve to export yet: press Start.");
     const [job, beside] = of === "curve" ? [curve()] : [load(), kind === "zip" ? curve() : null];

@@ -1,4 +1,4 @@
-// The form of a part of a job, made from the server's description of its fields: those that most users need first, the others folded.
+// The form of a part of a job, made from the server's description of its fields: everyday fields first, all others folded.
 
 import { put } from "./typing.js";
 
@@ -11,8 +11,8 @@ const option = (value, text = value) => new Option(text, value);
 const words = (text) => text.replaceAll("-", " ");
 const TRUTHS = [["", "by the file"], ["yes", "yes"], ["no", "no"]];
 
-// `usual(name)` gives what a field begins with when it is chosen among several. A form that is no group of its own has its
-// title on the choice, or where it is folded.
+// `usual(name)` returns the first value of a field that is chosen among several. A form without a separate group has its
+// title on the choice, or on its folded part.
 export function form(recipe, part, { title, fields, one_of, at_most }, { usual = () => undefined, alone = false } = {}) {
   const group = [...one_of, ...at_most];
   const field = (name) => fields.find((each) => each.name === name);
@@ -27,7 +27,7 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
       const now = (next[part] = { ...next[part] });
       if (value === "" || value === false || value.length === 0) delete now[name];
       else now[name] = value;
-      if (group.includes(name) && value === "") now[name] = ""; // it stays the one that is chosen
+      if (group.includes(name) && value === "") now[name] = ""; // it stays the chosen field
       for (const { name: other, needs } of fields) if (needs && !(needs in now)) delete now[other];
     });
   }
@@ -41,7 +41,7 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
     });
   }
 
-  // What a field is filled in with: { root, show(value), said } of the elements that it is made of.
+  // The input element of a field, with a function that shows a value in it.
   function control(each) {
     const { name, label, kind, choices, names, example } = each;
     const id = `${part}.${name}`;
@@ -108,14 +108,14 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
   return {
     root,
     show,
-    // What a file says itself stands in an empty field.
+    // An empty field shows the value from the file.
     hint(name, text) {
       const input = document.getElementById(`${part}.${name}`);
       if (input) input.placeholder = text || field(name).example;
     },
-    // The names that a file offers for a field.
+    // The names in a file that can be chosen in a field.
     offer(name, list) {
-      if (offered === JSON.stringify(list)) return; // what has the focus keeps it
+      if (offered === JSON.stringify(list)) return; // keeps the focus
       offered = JSON.stringify(list);
       const picked = make("select", { id: `${part}.${name}`, onchange: () => set(name, picked.value) }, option("", "by name"), ...list.map((entry) => option(...entry)));
       controls.get(name).root.replaceWith(picked);
@@ -125,13 +125,13 @@ export function form(recipe, part, { title, fields, one_of, at_most }, { usual =
   };
 }
 
-// A form of what one job has and another has not.
+// A form of the fields that one job has and another has not.
 export function rest({ fields, ...form }, other) {
   const known = (other ? other.fields : []).map(({ name }) => name);
   return { ...form, fields: fields.filter(({ name }) => !known.includes(name)) };
 }
 
-// The help of the field that has the focus, where no pointer can hover over it.
+// The help of the field with the focus, for devices without a hovering pointer.
 export function helpLine(root) {
   const tell = ({ target }) => {
     const about = target.closest("[data-help]");

@@ -1,4 +1,4 @@
-// The load: what is prescribed, a slider on a logarithmic scale, and its text.
+// The load: its kind, a slider on a logarithmic scale, and its text.
 
 import { put } from "./typing.js";
 import { loadText, loadValue } from "./words.js";
@@ -8,11 +8,11 @@ const by = (id) => document.getElementById(id);
 
 export function loadBar(recipe) {
   let spans = null;
-  let units = {}; // of the loads: on a profile others than on a map
-  let state = null; // the loads of the last answer, each in its own words
+  let units = {}; // of the loads; those of a profile differ from those of a map
+  let state = null; // the load of the last answer as pressure, force and depth
   let dragged = null;
-  let automatic = ""; // the load that this page has chosen, as long as nobody has chosen another
-  let renewed = false; // whether it is chosen again, for another surface
+  let automatic = ""; // the load that the page has chosen, until the user chooses another
+  let renewed = false; // whether it must be chosen again, for another surface
 
   function show() {
     const { load } = recipe.now;
@@ -30,12 +30,12 @@ export function loadBar(recipe) {
 
   by("control").onchange = ({ target: { value: control } }) => {
     if (!spans) return;
-    // The same state in other words, where it is known.
+    // The same state by another kind of load, if its value is known.
     const text = state ? loadText(state[control], units[control], 4) : loadText(spans[control][2], units[control]);
     recipe.change((next) => (next.load = { [control]: text }));
   };
   by("load").onchange = ({ target }) => {
-    // A number alone has the unit of what stood there before.
+    // A number without a unit has the unit of the value before it.
     const [unit] = /[a-zµ].*$/i.exec(Object.values(recipe.now.load)[0]) || [units[by("control").value]];
     const text = /^\s*[\d.]+(e[+-]?\d+)?\s*$/i.test(target.value) ? `${target.value.trim()} ${unit}` : target.value;
     recipe.change((next) => (next.load = { [by("control").value]: text }));
@@ -62,7 +62,7 @@ export function loadBar(recipe) {
     get ready() {
       return Boolean(spans && recipe.now.load);
     },
-    // Between which loads the slider goes; without any the surface is flat.
+    // The ends of the slider; a flat surface has none.
     spanned({ pressure, force, depth, units: all }) {
       units = all;
       spans = pressure ? { pressure, force, depth } : null;
@@ -75,7 +75,7 @@ export function loadBar(recipe) {
       return Boolean(spans);
     },
     answered: (header) => (state = header),
-    // Of another surface, or of another preparation, the loads are other ones.
+    // Another surface, or another preparation, has other loads.
     forget(another) {
       spans = state = null;
       renewed ||= another && JSON.stringify(recipe.now.load) === JSON.stringify({ pressure: automatic });

@@ -1,4 +1,4 @@
-// The page: the user changes the recipe, and the page computes what the recipe asks for.
+// The page: the user changes the recipe, and the page computes its answers.
 
 import { comparison } from "./comparison.js";
 import { dragged } from "./crop.js";
@@ -18,23 +18,23 @@ import { begin, request, upload } from "./wire.js";
 import { welcome } from "./welcome.js";
 import { written } from "./words.js";
 
-const PATIENCE = 400; // milliseconds that a load may take before a newer one stops it
-const MAPS = ["look", "press", "cut"]; // what the middle of the page waits for
-const LATER = ["flattened", "traction"]; // maps that a curve gives
-const LULL = 250; // milliseconds without another wish, before what takes longer is begun
-const BLANK = { kind: "example", example: "ground" }; // stands for a surface in questions that are about none
+const PATIENCE = 400; // milliseconds after which a newer load stops the current one
+const MAPS = ["look", "press", "cut"]; // jobs that the middle of the page shows
+const LATER = ["flattened", "traction"]; // maps from the curve
+const LULL = 250; // milliseconds without another request, before a longer job begins
+const BLANK = { kind: "example", example: "ground" }; // placeholder in requests that need no surface
 const by = (id) => document.getElementById(id);
 let largest = Infinity;
 let front = null;
 let lull = null;
-let forms = null; // the fields as the server describes them
+let forms = null; // the server's description of the fields
 let curve = null;
 let raw = null; // the surface before its preparation
-let same = {}; // the bodies in other words
+let same = {}; // equivalent values of other fields of the bodies
 let examples = [];
 let place = null;
-const shown = { source: null }; // the forms that are on the page, by their parts
-const names = {}; // of files, by what the server calls them
+const shown = { source: null }; // the current forms, by their parts
+const names = {}; // names of files, by their names on the server
 const wanted = { look: false, press: false, cut: false, bodies: true, study: false };
 
 const say = (text) => (by("said").textContent = text);
@@ -55,7 +55,7 @@ const numbers = numbersView();
 const cut = cutView(map, () => { wanted.cut = true; pump(); });
 const compare = comparison({ recipe, jobOf: (state) => jobOf("press", state, forms), map, failed, changed: (kept) => curve.keep(kept), curveFacts: () => curve.facts });
 
-// Which job of the recipe a question is about.
+// The job of the recipe for a request.
 const JOBS = { look: "surface", study: "surface", bodies: "curve", press: "press", cut: "press" };
 function asked(question) {
   const { now } = recipe;
@@ -119,28 +119,28 @@ function failed(error) {
 
 function ended(end, job) {
   const field = trouble(job, end);
-  // The first field that a file needs gets the focus.
+  // The first field that the file requires gets the focus.
   if (field && field.id.startsWith("source.") && document.activeElement === document.body) field.focus();
   if (end.message) say(field === by("load") ? "" : end.message);
   by("again").hidden = end.how !== "died";
   return end.how === "done";
 }
 
-// What is grey waits for a computation: it says so.
+// Grey parts of the page are marked as busy.
 function busy(now) {
   for (const id of ["view", "numbers"]) by(id).setAttribute("aria-busy", String(now));
   by("curves").setAttribute("aria-busy", String(now && by("start").disabled));
   by("load").placeholder = now && by("load").disabled ? "computing …" : "";
 }
 
-// Ask for everything again that the recipe says: a process may have died over it.
+// Request all answers to the recipe again, after a process has died.
 function again() {
   by("again").hidden = true;
   Object.assign(wanted, { look: true, press: true, bodies: true, study: true });
   pump();
 }
 
-// Of what runs, only what is no longer asked for is stopped; under a moving slider maps follow as fast as they come.
+// Only obsolete requests are stopped; while the slider moves, maps are shown as fast as they are computed.
 async function pump() {
   busy(MAPS.some((job) => wanted[job] || (front && front.job === job)));
   if (front) {
@@ -162,9 +162,9 @@ async function perform(job) {
   if (!more) return pump();
   const basis = () => JSON.stringify(asked(job));
   const before = basis();
-  const answers = asked(job).job; // of a press the loads that suit come first, and then the contact
+  const answers = asked(job).job; // a press without a load first gets suitable loads, then the contact
   const sent = request("front", job, asked(job), more, (header, data) => {
-    // An answer to what is no longer asked for is dropped; while the slider moves, its maps still follow.
+    // Obsolete answers are dropped, except maps while the slider moves.
     if ((wanted.look && JOBS[job] === "press") || (before !== basis() && !load.dragged)) return;
     heard(header, data);
   });
@@ -280,7 +280,7 @@ function listen() {
   for (const each of document.querySelectorAll("#settings .group[open], #curves details[open]")) each.open = innerWidth >= 760;
 }
 
-// What is done before a surface is pressed: a group of its own for each part, by its title.
+// The parts before a surface is pressed: one group for each part, with its title.
 function groups() {
   for (const part of ["preparation", "bodies", "plastic", "contact"]) {
     const made = forms.jobs.press[part];
@@ -294,7 +294,7 @@ function groups() {
   }
 }
 
-// What the tab keeps while it is loaded again; a file must still be the one that the server had.
+// The state that the tab keeps when it is reloaded; its file must still be on the server.
 const KEPT = "roughcontact";
 const kept = JSON.parse(sessionStorage.getItem(KEPT) || "{}");
 function goesOn({ recipe: before, names: had }, files) {
@@ -312,11 +312,11 @@ try {
   groups();
   curve = curveView({ recipe, forms, known: begun.theories, load, failed, ended: compare.show, mapped: (header, data) => { map.set(header.map, header, data); show(); } });
   listen();
-  document.querySelector("main").inert = false; // before, no handler answers
+  document.querySelector("main").inert = false; // handlers are only set now
   show();
   pump();
   const before = goesOn(kept, begun.files);
-  const [early] = by("file").files; // chosen before the server had answered
+  const [early] = by("file").files; // chosen before the first answer of the server
   if (early) opened(early);
   else if (before) recipe.change((next) => Object.assign(next, before));
   else if (begun.given) given(begun.given);

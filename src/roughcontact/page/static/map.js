@@ -1,12 +1,12 @@
-// The map: a canvas with the heights, the contact, the pressure or the gap; cropped and cut by hand or by keys.
+// The map: a canvas with heights, contact, pressure or gap; for crops and cuts by pointer or keys.
 
 import { COLOURS } from "./colours.js";
 import { written } from "./words.js";
 
-const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from greys by everybody
-const MOST = 0.995; // of the cells that carry pressure lie below the end of the scale
+const CONTACT = [0, 0xd5, 0x5e, 0x00]; // vermilion, distinct from grey also for the colour-blind
+const MOST = 0.995; // share of the cells with pressure that lie below the end of the scale
 const STEPS = [1, 2, 5];
-const RING = "#ff4fa3"; // in neither colour map; as #ringed
+const RING = "#ff4fa3"; // in neither colour map; the colour of #ringed
 
 export function mapView(canvas, bar, heard) {
   const state = { fields: {}, which: "heights", colours: "viridis", mode: "cut", axis: "row", place: null, mark: null, drag: null, spikes: [] };
@@ -14,7 +14,7 @@ export function mapView(canvas, bar, heard) {
   const context = canvas.getContext("2d");
 
   const fieldOf = (which) => state.fields[which === "contact" ? "pressure" : which];
-  // What was chosen, as soon as it is computed; until then the heights.
+  // The chosen map if it is computed; otherwise the heights.
   const kind = () => (fieldOf(state.which) ? state.which : "heights");
   const shown = () => fieldOf(kind());
 
@@ -22,7 +22,7 @@ export function mapView(canvas, bar, heard) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   }
 
-  // Where the picture lies on the canvas, in its points.
+  // The rectangle of the picture on the canvas, in points.
   function frame() {
     const field = shown();
     const [height, width] = field.lengths;
@@ -67,7 +67,7 @@ export function mapView(canvas, bar, heard) {
     else {
       for (let k = 0; k < out.length; k++) {
         const value = field.values[k];
-        if (Number.isNaN(value)) continue; // what was not measured shows the ground
+        if (Number.isNaN(value)) continue; // missing points show the background
         if (kind() === "pressure" && value === 0) out[k] = none;
         else out[k] = table[Math.min(255, Math.max(0, (value - low) * scale)) | 0];
       }
@@ -77,7 +77,7 @@ export function mapView(canvas, bar, heard) {
     draw();
   }
 
-  // The cells in contact on the heights in grey.
+  // The cells in contact, over the heights in grey.
   function paintContact(out, field) {
     const heights = state.fields.heights;
     const alike = heights && heights.shape[0] === field.shape[0] && heights.shape[1] === field.shape[1];
@@ -100,7 +100,7 @@ export function mapView(canvas, bar, heard) {
     if (bar.ringed) bar.ringed.hidden = kind() !== "heights" || !state.spikes.length;
   }
 
-  // Colours end where few values lie beyond; the words at the ends say so.
+  // The colour scale is clipped if few values lie outside; the labels at its ends show this.
   function paintBar(low, high, below, beyond, unit) {
     const contact = kind() === "contact";
     bar.root.classList.toggle("keyed", contact);
@@ -191,7 +191,7 @@ export function mapView(canvas, bar, heard) {
     context.strokeRect(x, y, w, h);
   }
 
-  // The cell under a point of the screen; null beside the map.
+  // The cell under a point of the screen; null outside the map.
   function cellAt(event, clamped = false) {
     const field = shown();
     if (!field) return null;
@@ -288,7 +288,7 @@ export function mapView(canvas, bar, heard) {
     paint,
     draw,
     fit,
-    // How many cells a side can be shown.
+    // The number of cells per side that can be shown.
     pixels: () => Math.min(2048, Math.max(256, Math.round(Math.max(canvas.width, canvas.height) / 64) * 64)),
     set(name, header, buffer) {
       state.fields[name] = { ...header, values: new Float32Array(buffer) };
@@ -296,12 +296,12 @@ export function mapView(canvas, bar, heard) {
       fit();
       if (state.fields[name] === shown()) paint();
     },
-    // Where the cut lies.
+    // The position of the cut.
     place(axis, place) {
       Object.assign(state, { axis, place });
       draw();
     },
-    // Cells that stand out of all around them.
+    // Spikes: cells far from all their neighbours.
     spikes(places) {
       state.spikes = places;
       showRinged();

@@ -1,4 +1,4 @@
-// What is shown of a load: notes first, then facts, the distribution of the pressure, and how to compute the same.
+// The numbers of a load: notes, facts, the distribution of pressure, and the commands that compute the same.
 
 import { chart, clear } from "./charts.js";
 import { statement } from "./statement.js";
@@ -24,7 +24,7 @@ export function numbersView() {
         series: [{ x, y, label: "density", kind: "area", colour: "--accent" }],
       });
     },
-    // What was shown of another preparation; of another surface not even the facts stay.
+    // Clear the numbers of another preparation; for another surface, also the facts.
     forget(all) {
       clear(by("pressures"));
       if (!all) return;

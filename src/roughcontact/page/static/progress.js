@@ -1,4 +1,4 @@
-// How far the worker is: words while an outer task lasts, and a bar once it lasts long.
+// The progress of the worker: words during an outer task, and a bar if it takes long.
 
 export function progressBar(bar, said) {
   let before = "";

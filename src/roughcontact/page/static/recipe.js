@@ -1,4 +1,4 @@
-// What the user has asked for: the parts of a job, as texts. Undo and redo go through it.
+// The recipe of the user: the parts of a job, as texts, with undo and redo.
 
 const BEGIN = { source: null, preparation: {}, bodies: { materials: "steel,aluminium" }, load: null, kind: "curve" };
 
@@ -14,7 +14,7 @@ const PATCHES = [
 const SPECIFIED = { name: "Specified joint", about: "rms height 1.2 µm, mean slope 0.12, 256 × 256 cells", source: { kind: "specified", sigma: "1.2um", slope: "0.12", hurst: "0.8", rolloff: "64um", size: "512um", points: "256", seed: "1", periodic: true } };
 const BALL = { name: "Ball", about: "a sphere, 256 × 256 cells", source: { kind: "shape", shape: "sphere", radius: "5mm", size: "0.2mm", points: "256" } };
 
-// What the page begins with where there is no file: with the maps that come with the package.
+// Examples to begin with, including the maps of the package.
 export const examplesOf = ({ sources }) => [
   ...PATCHES, SPECIFIED, BALL,
   ...sources.example.fields[0].choices.map((example) => ({ name: `Example ${example}`, about: "a map that comes with the package", source: { kind: "example", example } })),
@@ -37,8 +37,8 @@ export function history(changed) {
     get can() {
       return { undo: past.length > 0, redo: future.length > 0 };
     },
-    // Change it; while something is dragged, `kept` is false until it is let go of.
-    // Undo ends at the first surface: before it there is nothing to go back to.
+    // Change the recipe; during a drag, `kept` is false until the pointer is released.
+    // Undo ends at the first surface.
     change(edit, kept = true) {
       const next = structuredClone(now);
       edit(next);
@@ -49,7 +49,7 @@ export function history(changed) {
       }
       set(next, now);
     },
-    // Remember a state from before something was dragged.
+    // Store the state before a drag.
     remember(before) {
       if (JSON.stringify(before) === JSON.stringify(now)) return;
       past.push(before);
@@ -69,24 +69,24 @@ export function history(changed) {
   };
 }
 
-// A job as the server takes it: of each of its parts the fields that it has.
+// A job for the server: each part with only its own fields.
 export function jobOf(name, state, { jobs }) {
   const job = { job: name, source: state.source };
   for (const [part, { fields }] of Object.entries(jobs[name])) {
     const given = Object.entries(state[part] || {}).filter(([field]) => fields.some((each) => each.name === field));
     job[part] = Object.fromEntries(given);
   }
-  job.preparation.level ??= "none"; // a page shows the heights that it presses
+  job.preparation.level ??= "none"; // the page shows the heights that it presses
   return job;
 }
 
-// How a state presses a profile; none where it presses a map.
+// The model of a profile; empty for a map.
 export const profileOf = ({ contact }) => (contact || {}).profile;
 
 // The parts of a state on which an answer of a kind depends.
 export const partsOf = (name, { jobs }) => ["source", ...Object.keys(jobs[name])];
 
-// How the user calls a source: a file by its name, an example by its own.
+// The user's name of a source: that of the file or the example.
 export function titleOf(source, names, examples) {
   if (!source) return "";
   if (source.kind === "file") return names[source.file] || "";
@@ -94,5 +94,5 @@ export function titleOf(source, names, examples) {
   return same ? same.name : "Made surface";
 }
 
-// Preparation of a new source: measured heights are levelled, a shape is as it is.
+// Preparation of a new source: heights are levelled, shapes are unchanged.
 export const fresh = ({ kind }) => (kind === "shape" ? {} : { level: "plane" });

@@ -1,4 +1,4 @@
-// Keys for the whole page: undo and redo, but not where text is being written, which has its own.
+// Keys for the whole page: undo and redo, except in text fields, which have their own.
 
 const TEXT = "input:not([type=range]):not([type=checkbox]):not([type=file]), textarea";
 

@@ -11,7 +11,7 @@ export function statement(pre) {
       await navigator.clipboard.writeText(pre.textContent);
       button.textContent = "Copied";
     } catch {
-      getSelection().selectAllChildren(pre); // the browser keeps its clipboard: the text is ready for Ctrl-C
+      getSelection().selectAllChildren(pre); // the clipboard is not accessible: select the text for Ctrl-C
       button.textContent = "Selected";
     }
     setTimeout(() => (button.textContent = "Copy"), 1500);

@@ -5,7 +5,7 @@ import { facts as listed, list } from "./numbers.js";
 import { written } from "./words.js";
 
 const by = (id) => document.getElementById(id);
-// What the button beside a warning says, by the step that mends it.
+// The label of the button beside a warning, by its step of the preparation.
 const MEND = {
   despike: "Fill the spikes",
   level: "Remove the plane",
@@ -21,7 +21,7 @@ function element(kind, text, more = {}) {
 
 export function surfaceView(recipe) {
   let warnings = [];
-  let rough = false; // whether the heights have a distribution, which those of a flat have not
+  let rough = false; // whether the heights have a distribution; a flat has none
 
   function mended([step, value]) {
     const given = recipe.now.preparation[step];
@@ -67,7 +67,7 @@ export function surfaceView(recipe) {
       by("read_warnings").replaceChildren();
       by("channels").replaceChildren();
     },
-    // What is shown belongs to another preparation, until its study is done.
+    // Until the study is done, the page shows that of another preparation.
     wait() {
       rough = false;
       by("surface").setAttribute("aria-busy", "true");

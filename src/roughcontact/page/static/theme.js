@@ -1,4 +1,4 @@
-// Light or dark: as the system has it, until the button chooses. It runs before the page is drawn.
+// Light or dark: the setting of the system, until the user chooses. It runs before the page is drawn.
 
 (() => {
   const WORDS = { system: "System", light: "Light", dark: "Dark" };

@@ -1,4 +1,4 @@
-// Theories to lay over a curve: which ones, by how much they are off, and why others do not apply.
+// Theories to overlay on a curve: the choice, their errors, and why a theory does not apply.
 
 import { element } from "./numbers.js";
 
@@ -35,7 +35,7 @@ export function theoryList(root, known, changed) {
     forget() {
       for (const row of rows.values()) [row.found, row.said.textContent] = [null, ""];
     },
-    // The lines of what is chosen, as far as a theory gives the quantity.
+    // The lines of the chosen theories that predict the quantity.
     lines(quantity) {
       return [...rows.values()]
         .filter(({ box, found }) => box.checked && found && found.predicted[quantity])

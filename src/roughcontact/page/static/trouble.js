@@ -1,8 +1,8 @@
-// What is wrong with a field, in a sentence beside it; each job takes back what it said itself.
+// Errors of fields, as sentences beside them; each job removes its own errors.
 
 const said = new Map();
 
-// The field of a place such as "preparation.crop": it, or else the first of its part that is there.
+// The field of a place such as "preparation.crop", or the first visible field of its part.
 function fieldOf(place) {
   for (let name = place; name; name = name.includes(".") ? name.slice(0, name.lastIndexOf(".")) : "") {
     const field = document.getElementById(name);
@@ -31,7 +31,7 @@ function show(field, text) {
   field.setAttribute("aria-errormessage", place);
 }
 
-// Show how a job ended beside the fields that it names; return the first of them.
+// Show the error of a job beside the fields that it names; return the first field.
 export function trouble(job, { faults = [] }) {
   for (const field of said.get(job) || []) show(field, "");
   const fields = new Map();

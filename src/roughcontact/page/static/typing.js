@@ -1,4 +1,4 @@
-// What is being typed stays: an answer that comes meanwhile shows its value in every other field.
+// The field in which the user types keeps its text: an answer only updates the other fields.
 
 let typed = null;
 addEventListener("input", ({ target }) => (typed = target), true);

@@ -1,4 +1,4 @@
-// What stands in place of the map: how to begin, what is being read, or why there is no map.
+// The text in place of the map: how to begin, the file that is being read, or an error.
 
 const by = (id) => document.getElementById(id);
 const BEGIN = ["Drop a measured surface anywhere", "X3P, SUR, OPD, Gwyddion, NetCDF, NumPy, text and the formats of most instruments. Or choose an example:"];
@@ -21,7 +21,7 @@ export function welcome(examples, open) {
   show(...BEGIN, true);
 
   return {
-    // There is a source, or none any more.
+    // A source was opened, or removed.
     of: (title) => (title ? show(`Reading ${title} …`, "") : show(...BEGIN, true)),
     refused: ({ message, places = [] }, title) => show(places.length ? `${title} needs your input` : `${title} cannot be shown`, message),
     done: () => (by("welcome").hidden = true),

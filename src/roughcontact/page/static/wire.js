@@ -10,16 +10,16 @@ async function asked(path, options = {}) {
   try {
     words = JSON.parse(words).message;
   } catch {
-    // Said in plain text.
+    // An error in plain text.
   }
   throw new Error(words.trim() || `The server answered with ${response.status}.`);
 }
 
-// A tab that was loaded again has the session from before, with its files, if the server still has it.
+// A reloaded tab gets its earlier session with its files, if this is still open.
 export async function begin(before = "") {
   const given = await (await asked(`/session?again=${before}`, { method: "POST" })).json();
   session = given.session;
-  // The server ends a session of which it has not heard for long: its browser may have been killed.
+  // The server ends a session without requests for a long time: its browser may have been killed.
   setInterval(() => asked(`/alive?session=${session}`, { method: "POST" }).catch(() => {}), 30000);
   addEventListener("pagehide", (event) => {
     if (!event.persisted) navigator.sendBeacon(`/end?session=${session}`);
@@ -32,7 +32,7 @@ export async function upload(file) {
   return (await asked(path, { method: "PUT", body: file })).json();
 }
 
-// Send a request; every message goes to `heard(header, data)` as it comes. The last one is returned.
+// Send a request; every message is passed to `heard(header, data)` as it comes, and the last one is returned.
 export function request(queue, job, recipe, more, heard) {
   const key = String(++count);
   const body = JSON.stringify({ queue, job, recipe, more, key });
@@ -51,7 +51,7 @@ async function listen(body, heard) {
     if (done) throw new Error("The server has ended: start roughcontact serve again.");
     parts.push(value);
     held += value.length;
-    // Joined when a whole message may be there: maps come in many parts.
+    // Join the parts only when the message may be complete: maps come in many parts.
     while (held >= 8) {
       const start = parts[0].length >= 8 ? parts[0] : joined(parts, held);
       if (start !== parts[0]) parts = [start];

@@ -1,16 +1,16 @@
-// Numbers as people read them, and as the command line takes them.
+// Numbers in the form for people, and for the command line.
 
 const PREFIXES = { "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T" };
-// Units whose prefix counts as often as they do: their name without it, and the power.
+// Units with a power, which also applies to their prefix.
 const POWERS = { "m²": 2, "m³": 3, "m⁴": 4 };
-// Of machine design, whatever the number.
+// Customary unit in machine design, for any number.
 const FIXED = { "Pa/m": { factor: 1e-12, unit: "N/µm/mm²" } };
 
 function scaleOf(value, unit) {
   if (!unit || !Number.isFinite(value) || value === 0) return { factor: 1, unit };
   if (FIXED[unit]) return FIXED[unit];
   const power = POWERS[unit] || 1;
-  // The hair keeps 1e-6, which floating point may put just below, at one micro.
+  // The margin keeps 1e-6, which rounding may put just below, at one micro.
   let exponent = 3 * Math.floor((Math.log10(Math.abs(value) * (1 + 1e-9)) + 2 * (power - 1)) / (3 * power));
   exponent = Math.min(Math.max(exponent, -12), unit.startsWith("m") ? 3 : 12);
   return { factor: 10 ** (-exponent * power), unit: PREFIXES[exponent] + unit };
@@ -45,14 +45,14 @@ export function written(value, unit, count = 4) {
   return `${digits(value * factor, count)} ${shown || ""}`.trim();
 }
 
-// A load as the command line takes it: a few digits, a unit without letters beyond ASCII.
+// A load in the form of the command line: a few digits, and a unit in ASCII.
 export function loadText(value, unit, count = 3) {
   const rounded = Number(value.toPrecision(count));
   const { factor, unit: shown } = scaleOf(rounded, unit);
   return `${Number((rounded * factor).toPrecision(count))} ${shown.replace("µ", "u")}`;
 }
 
-// The number in a text such as "12.3 MPa", where it is one with a prefix that this page writes; else null.
+// The number in a text such as "12.3 MPa", with a prefix that this page writes; otherwise null.
 export function loadValue(text, unit) {
   const found = /^\s*([\d.]+(?:e[+-]?\d+)?)\s*([a-zA-Zµ/]*)\s*$/i.exec(text);
   if (!found) return null;

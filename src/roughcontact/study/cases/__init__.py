@@ -1,4 +1,4 @@
-"""The cases that come with the package, and those of the user's own, by name."""
+"""The cases of the package and those of the user, by name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from roughcontact.recipe.texts import choose
 from roughcontact.study.case import Case
 from roughcontact.study.study_errors import StudyError
 
-if TYPE_CHECKING:  # bundlers of programs read this
+if TYPE_CHECKING:  # tools that bundle programs read this
     from roughcontact.study.cases import (
         adhesion_case,  # noqa: F401
         asperities_case,  # noqa: F401
@@ -28,10 +28,10 @@ if TYPE_CHECKING:  # bundlers of programs read this
 
 __all__ = ["CASES", "find_case"]
 
-# A case is opened when it is first asked for.
+# The module of a case is imported when the case is first used.
 _NAMES = ("adhesion", "asperities", "cells", "curve", "job", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
-_OWN = "a case of your own is named as module:attribute"
+_OWN = "write your case as module:attribute"
 
 
 def find_case(name: str) -> Case:
@@ -40,7 +40,7 @@ def find_case(name: str) -> Case:
     Parameters
     ----------
     name : str
-        Of a case that comes with the package, or ``"module:attribute"`` for a `Case` of the user's.
+        Name of a case of the package, or ``"module:attribute"`` for a `Case` of the user.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def find_case(name: str) -> Case:
     found = getattr(_module(module, name), attribute, None)
     if not isinstance(found, Case):
         raise StudyError(
-            f"the case {name!r} is not there: {module} has no Case named {attribute!r}, such as "
+            f"the case {name!r} does not exist: {module} has no Case named {attribute!r}, such as "
             f"{attribute} = Case(...)",
             place="case",
         )
@@ -82,10 +82,10 @@ def _module(module: str, name: str) -> ModuleType:
                 f"the case {name!r} needs the module {error.name}", "install it", "case"
             ) from error
         raise StudyError(
-            f"the case {name!r} is not there: no module {error.name} is found",
-            f"run where {top} lies, or put the folder that holds it on PYTHONPATH",
+            f"the case {name!r} does not exist: no module {error.name} is found",
+            f"run in the folder that contains {top}, or add this folder to PYTHONPATH",
         ) from error
-    except Exception as error:  # importing a module of the user's runs it: anything may come of that
+    except Exception as error:  # the import runs code of the user, which may raise anything
         raise StudyError(
             f"the module of the case {name!r} cannot be imported: {type(error).__name__}: {error}",
             place="case",

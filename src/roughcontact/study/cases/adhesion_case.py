@@ -1,4 +1,4 @@
-"""A case: one rough surface that sticks, brought to a depth and taken back until it is off."""
+"""A case: one adhesive rough surface, pressed to a depth and retracted until it detaches."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SCALARS = {"pull_off_force": "pull_off_force", "jump_in_force": "jump_in_force"
 
 
 class AdhesionParameters(RoughSquare):
-    """A rough surface that sticks: an approach to a depth, and the retreat.
+    """An adhesive rough surface: an approach to a depth, and the retreat.
 
     Parameters
     ----------
@@ -34,15 +34,15 @@ class AdhesionParameters(RoughSquare):
     work : float
         Work of adhesion w [J/m^2].
     range : float
-        Length over which the attraction falls [m].
+        Length over which the attraction decreases [m].
     law : {"exponential", "dugdale"}
-        How it falls.
+        Law of the decrease.
     allow_unresolved : bool
-        Whether to compute although the attraction varies from cell to cell; a case that does is refused otherwise.
+        Whether to compute if the grid does not resolve the attraction; such a case is refused otherwise.
     turn : float
         Depth at which the loop turns, over the rms height.
     loads : int
-        Depths of the approach, from ten ranges of the attraction apart, in even steps.
+        Number of depths of the approach, in even steps from a distance of ten ranges of the attraction.
     """
 
     work: Positive[EnergyPerArea]
@@ -60,8 +60,8 @@ def run(parameters: AdhesionParameters, rng: np.random.Generator) -> Record:
     -------
     xarray.Dataset
         Along ``load`` the depths of the approach and where it turns, with force, contact area, mean gap and energy of
-        the approach, and as ``retreat_force`` and so on those of the retreat at the same depths; NaN where the bodies
-        were off before. Without a dimension ``pull_off_force``, ``jump_in_force`` (NaN without a jump),
+        the approach; ``retreat_force`` and so on are those of the retreat at the same depths, NaN where the bodies
+        have detached. Without a dimension ``pull_off_force``, ``jump_in_force`` (NaN without a jump),
         ``lost_energy``, the number of ``jumps``, ``ambiguous`` and ``unresolved``, ``status``, ``residual``, the
         largest of all states, and ``rms`` of the roughness.
     """
@@ -92,11 +92,11 @@ def run(parameters: AdhesionParameters, rng: np.random.Generator) -> Record:
         "residual": variable("residual", (), float(loop.residual.max())),
         "rms": variable("rms", (), roughness.rms),
     }
-    return xarray.Dataset(data, attrs={"title": "loops of rough surfaces that stick"})
+    return xarray.Dataset(data, attrs={"title": "loops of adhesive rough surfaces"})
 
 
 def _retreat(loop: AdhesiveCurve, values: Array, parameters: AdhesionParameters) -> Array:
-    """Return the values of the retreat at the depths of the approach; NaN where it ended before."""
+    """Return the values of the retreat at the depths of the approach; NaN where it has ended."""
     back = values[parameters.loads : 2 * parameters.loads + 1]
     return np.pad(back, (0, parameters.loads + 1 - back.size), constant_values=np.nan)[::-1].copy()
 

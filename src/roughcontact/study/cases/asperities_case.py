@@ -1,4 +1,4 @@
-"""A case: the summits of one rough surface as spheres, with and without their influence on each other."""
+"""A case: the summits of one rough surface as spheres, with and without interaction."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["CASE", "AsperityParameters", "run", "summits_of"]
 
 
 class AsperityParameters(ForceRange):
-    """A self-affine surface and the forces that press its summits, all without dimension.
+    """A self-affine surface and the forces on its summits, all dimensionless.
 
     Parameters
     ----------
@@ -47,9 +47,9 @@ def run(parameters: AsperityParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        Along ``load``: ``dimensionless_force``, F/(E* h L); ``dimensionless_stiffness``, k/(E* L), of summits that push
-        each other down; ``independent_stiffness``, that of summits that do not; ``spots`` in contact and ``merged``,
-        those of them that overlap another, both with influence.
+        Along ``load``: ``dimensionless_force``, F/(E* h L); ``dimensionless_stiffness``, k/(E* L), with interaction;
+        ``independent_stiffness``, the same without interaction; ``spots``, the number of summits in contact, and
+        ``merged``, the number of spots that overlap another, both with interaction.
     """
     import xarray
 

@@ -15,10 +15,10 @@ __all__ = ["CASE", "CellsParameters", "run"]
 
 
 class CellsParameters(CurveParameters):
-    """Those of the case ``curve``.
+    """The parameters of the case ``curve``.
 
-    The surface is divided into square cells as long as its longest waves: `long_cutoff`, else `rolloff`, else the
-    side; if that is no whole part of the side, the next one.
+    The surface is divided into square cells as long as its longest waves: `long_cutoff`, otherwise `rolloff`,
+    otherwise the side, rounded to a whole fraction of the side.
     """
 
     @property
@@ -29,17 +29,17 @@ class CellsParameters(CurveParameters):
 
 
 def run(parameters: CellsParameters, rng: np.random.Generator) -> Record:
-    """Return the loading curve of one sample, and how far the maxima of its cells lie below the highest.
+    """Return the loading curve of one sample, and the distances of the maxima of its cells from the highest.
 
     Returns
     -------
     xarray.Dataset
-        That of the case ``curve``; ``below`` (cell), the distance of the highest point of every cell from the top of
-        the surface [m], growing; ``peak``, the top above the mean plane [m].
+        The record of the case ``curve``, with ``below`` (cell), the sorted distances of the highest points of the
+        cells from the top of the surface [m], and ``peak``, the height of the top above the mean plane [m].
     """
     heights = parameters.on_body(
         parameters.roughness(deepcopy(rng))
-    ).heights  # the curve draws the same phases
+    ).heights  # the curve uses the same phases
     record = loading_curve(parameters, rng)
     edges = np.linspace(0, parameters.points, parameters.cells + 1).round().astype(int)
     maxima = [heights[y0:y1, x0:x1].max() for y0, y1 in pairwise(edges) for x0, x1 in pairwise(edges)]

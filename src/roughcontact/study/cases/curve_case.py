@@ -30,11 +30,11 @@ _ARRAYS = (
     *("residual", "stiffness_residual", "resolved", "status"),
 )
 _SCALES = ("cell_stiffness", "full_contact_stiffness")
-_LIMIT = 1e-3  # of the displacement: enough for a full-contact stiffness, of which nine tenths are a limit
+_LIMIT = 1e-3  # of the displacement: enough for a full-contact stiffness, which only bounds the resolved range at 0.9
 
 
 class CurveParameters(PressedSquare, ForceRange):
-    """A rough surface pressed on an elastic half-space by growing forces.
+    """A rough surface pressed on an elastic half-space by increasing forces.
 
     Parameters
     ----------
@@ -58,16 +58,16 @@ def run(parameters: CurveParameters, rng: np.random.Generator) -> Record:
     -------
     xarray.Dataset
         Along ``load`` the points of a `roughcontact.Curve`, with ``dimensionless_force``, F/(E* h L), where h is the
-        rms height of the parameters. A load that missed its tolerance says so in ``status``. Without a dimension:
-        ``cell_stiffness`` and ``full_contact_stiffness``, between which a curve is resolved; ``rms``, ``rms_slope`` and
-        ``rms_curvature`` of the roughness, without the body under it; ``hardness`` where there is one.
+        rms height of the parameters. ``status`` marks loads that missed their tolerance. Without a dimension:
+        ``cell_stiffness`` and ``full_contact_stiffness``, between which a curve is resolved; ``rms``, ``rms_slope``
+        and ``rms_curvature`` of the roughness, without the body under it; ``hardness`` if one is given.
     """
     roughness = parameters.roughness(rng)
     return curve_of(roughness, moments_of(roughness), parameters)
 
 
 def moments_of(roughness: Surface) -> Moments:
-    """Return the moments of a surface that is made of waves: exact."""
+    """Return the exact moments of a surface that is made of waves."""
     return surface_moments(roughness, derivative="spectral")
 
 
@@ -94,7 +94,7 @@ def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) 
 
 
 def _with_limit(path: Iterator[Solution], parameters: CurveParameters) -> Iterator[Solution]:
-    """Yield a path whose full-contact stiffness is known: where few cells touch, finding it takes half of the time."""
+    """Yield a path with a known full-contact stiffness; computing it can take half of the time."""
     unit = parameters.modulus * parameters.size
     for solution in path:
         solution.problem.once(
@@ -106,7 +106,7 @@ def _with_limit(path: Iterator[Solution], parameters: CurveParameters) -> Iterat
 
 @lru_cache(maxsize=16)
 def _full_contact_stiffness(points: int, periodic: bool) -> float:
-    """Return k/(E* L) of a square in full contact; it depends on the number of cells alone."""
+    """Return k/(E* L) of a square in full contact; it only depends on the number of cells."""
     grid = Grid((points, points), 1 / points, periodic)
     return contact_stiffness(np.ones(grid.shape, dtype=bool), grid, 1.0, tolerance=_LIMIT)
 

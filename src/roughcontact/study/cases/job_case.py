@@ -1,4 +1,4 @@
-"""A case: a job as a recipe states it. Any field of it may vary in a study."""
+"""A case: a job from a recipe. Any of its fields may vary in a study."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from roughcontact.study.nested_names import at, flat
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
-_ANSWERS = ("loop", "curve", "state", "solution")  # whichever comes first is what the others were made for
-_KEPT = {"load", "axis"}  # dimensions of a record: no maps, no spots
+_ANSWERS = ("loop", "curve", "state", "solution")  # the first that exists is the answer
+_KEPT = {"load", "axis"}  # dimensions of a record, without those of maps and spots
 
 
 class JobParameters(Parameters):
     """A recipe: the name of its ``job``, and its parts as nested tables of texts, as `roughcontact run` takes them.
 
-    A surface that is made has no ``seed``: each sample of a study draws phases of its own. What a job shows beside its
-    numbers (theories, errors, tables, units) is left out.
+    A generated surface has no ``seed``: each sample of a study draws different phases. Outputs beside the numbers of
+    a job (theories, errors, tables, units) are left out.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class JobParameters(Parameters):
             job = from_plain(plain)
             if job.NAME in ("surface", "theory"):
                 raise InputError(
-                    "a study keeps numbers of surfaces that are pressed", "take press or curve", "job"
+                    "a study only supports jobs that press surfaces", "take press or curve", "job"
                 )
             with placed("source"):
                 job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
@@ -76,11 +76,11 @@ class JobParameters(Parameters):
 
     @classmethod
     def reader(cls, name: str, beside: Mapping[str, Any]) -> Callable[[Any], Any]:
-        """Return what turns the text of a field into its value in SI."""
+        """Return the function that converts the text of a field into its value in SI."""
         return number_reader(beside, name)
 
     def labelled(self, names: Iterable[str] = ()) -> dict[str, tuple[Any, str | None]]:
-        """Return fields by dotted names: numbers in SI with their unit, and what is no number as it is written."""
+        """Return fields by dotted names: numbers in SI with their unit, other values unchanged."""
         plain, job, found = self.model_dump(), self.recipe, {}
         for name in dict.fromkeys([*flat(plain), *names]):
             try:
@@ -102,8 +102,8 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        What ``to_dataset()`` of the answer holds without a dimension and along ``load``; of a job with conductors also
-        what the interface conducts.
+        The variables of ``to_dataset()`` of the answer without a dimension and along ``load``; for a job with
+        conductors also the conductance of the interface.
     """
     job = located(parameters.recipe, Path(parameters.folder))
     require_same_files(job)
@@ -121,7 +121,7 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
 
 
 def without_outputs(job: Job) -> Job:
-    """Return a job without what is shown beside its numbers."""
+    """Return a job without the outputs beside its numbers."""
     parts = {each.name: getattr(job, each.name) for each in fields(job)}
     aside: Any = {name: type(part)() for name, part in parts.items() if isinstance(part, OUTPUTS)}
     return replace(job, **aside)
@@ -131,7 +131,7 @@ def _seeds(source: Any, place: str) -> Iterator[InputError]:
     """Yield the error of each seed of a source, and of the sources in it."""
     for name, value in source.items() if isinstance(source, Mapping) else ():
         if name == "seed":
-            words = "each sample of a study draws phases of its own, from the seed of the study"
+            words = "each sample of a study draws different phases, from the seed of the study"
             yield InputError(words, "leave seed out", f"{place}.seed")
         yield from _seeds(value, f"{place}.{name}")
 

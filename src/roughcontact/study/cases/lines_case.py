@@ -17,18 +17,18 @@ __all__ = ["CASE", "LineParameters", "run"]
 
 
 class LineParameters(ForceRange):
-    """Lines, and the forces that press them; all without dimension, so that no length and no modulus is asked for.
+    """Lines and the forces on them, all dimensionless; therefore there is no length and no modulus.
 
     Parameters
     ----------
     hurst : float
         Hurst exponent H of the lines, C1D ~ q^(-(2H+1)), from -1 to 3.
     points : int
-        Points N of a line, and springs under it.
+        Number N of points of a line, and of springs under it.
     lines : int
-        Lines a sample: one alone would take less time than its row in the store.
+        Number of lines per sample: a single line would take less time than its row in the store.
     lowest_force, highest_force, loads
-        See `ForceRange`; by default twelve to a decade, 0.07 among them, from one spring to all of them.
+        See `ForceRange`; by default twelve per decade including 0.07, from one spring in contact to all.
     """
 
     hurst: float = Field(ge=-1, le=3)
@@ -42,14 +42,14 @@ class LineParameters(ForceRange):
 def run(parameters: LineParameters, rng: np.random.Generator) -> Record:
     """Return the stiffness of every line at every force (thesis, section 4.5.2).
 
-    The answer is exact: there is no residual. Lines have random phases and the power spectrum of the law exactly, and
-    so one rms height.
+    The answer is exact: there is no residual. Lines have random phases and exactly the power spectrum of the law,
+    therefore also the same rms height.
 
     Returns
     -------
     xarray.Dataset
-        ``dimensionless_force`` (load), F/(E* h L), and ``dimensionless_stiffness`` (line, load), k/(E* L): the part of
-        the springs that carries load.
+        ``dimensionless_force`` (load), F/(E* h L), and ``dimensionless_stiffness`` (line, load), k/(E* L): the share
+        of springs that carry load.
     """
     import xarray
 

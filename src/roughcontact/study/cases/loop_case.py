@@ -1,4 +1,4 @@
-"""A case: one rough surface that flows when it is first pressed, unloaded and pressed again."""
+"""A case: one rough surface that flows plastically when it is loaded, unloaded and reloaded."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SCALARS = ("residual_depth", "residual_gap", "work", "dissipated_work")
 
 
 class LoopParameters(CurveParameters):
-    """A rough surface under a hardness, pressed by growing forces, unloaded by the same and pressed again.
+    """A rough surface under a hardness, loaded by increasing forces, unloaded by the same forces and reloaded.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class LoopParameters(CurveParameters):
     lowest_force, highest_force, loads
         See `ForceRange`; by default from the first cells in contact to the end of the power law.
     flow : {"removed", "raised"}
-        Where material that flows goes.
+        Where plastically displaced material goes.
     """
 
     loads: int = Field(default=12, ge=2)
@@ -44,7 +44,9 @@ class LoopParameters(CurveParameters):
     @model_validator(mode="after")
     def _some_hardness(self) -> Self:
         if self.hardness is None and self.relative_hardness is None:
-            raise InputError("without a hardness nothing flows", "give hardness or relative_hardness")
+            raise InputError(
+                "a loop with plastic flow needs a hardness", "give hardness or relative_hardness"
+            )
         return self
 
 
@@ -54,8 +56,8 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        Along ``load`` the points of first loading and what flows, as in a `roughcontact.Curve`; under the same loads
-        those of the unloaded state, ``unloaded_depth``, ``unloaded_stiffness`` and others. ``residual`` is the largest
+        Along ``load`` the points of first loading with plastic flow, as in a `roughcontact.Curve`; and for the same
+        loads those of unloading, ``unloaded_depth``, ``unloaded_stiffness`` and others. ``residual`` is the largest
         of the three branches. Without a dimension: ``residual_depth``, ``residual_gap``, ``work``,
         ``dissipated_work``, ``hardness``, and ``rms`` of the roughness.
     """
@@ -63,7 +65,7 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     loop = loading_loop(
         parameters.on_body(roughness),
         parameters.modulus,
-        hardness=parameters.hardness_on(moments_of(roughness).rms_slope),  # type: ignore[arg-type]  # there is one
+        hardness=parameters.hardness_on(moments_of(roughness).rms_slope),  # type: ignore[arg-type] # checked to be given
         forces=parameters.forces * (parameters.modulus * parameters.size * parameters.rms),
         flow=parameters.flow,
         tolerance=parameters.tolerance,
@@ -78,7 +80,7 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     for name in _SCALARS:
         record[name] = variable(name, (), getattr(loop, name))
     record["rms"] = variable("rms", (), roughness.rms)
-    return record.assign_attrs(title="first loading and unloading of rough surfaces that flow")
+    return record.assign_attrs(title="first loading and unloading of rough surfaces with plastic flow")
 
 
 CASE = Case("loop", 1, LoopParameters, run)

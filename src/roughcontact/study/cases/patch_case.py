@@ -17,15 +17,15 @@ __all__ = ["CASE", "PatchParameters", "run"]
 
 
 class PatchParameters(CurveParameters):
-    """Those of the case ``curve``, and how large the surface is that the patch is cut from.
+    """The parameters of the case ``curve``, and the size of the surface that the patch is cut from.
 
     `points`, `size` and all wavelengths are those of the patch, or over its side; `rms` is that of the whole surface.
-    The patch is the first corner of it, without its tilt, and free: nothing carries beside it.
+    The patch is the first corner of the surface, with its tilt removed, and free: no neighbouring area carries load.
 
     Parameters
     ----------
     period : int
-        Sides of the whole surface over those of the patch.
+        Side of the whole surface over that of the patch.
     """
 
     period: int = Field(ge=2)
@@ -33,7 +33,7 @@ class PatchParameters(CurveParameters):
     @model_validator(mode="after")
     def _free(self) -> Self:
         if self.periodic:
-            raise InputError("a patch does not repeat itself", "leave periodic out, or take the case curve")
+            raise InputError("a patch is not periodic", "leave periodic out, or take the case curve")
         return self
 
     @property
@@ -49,8 +49,8 @@ def run(parameters: PatchParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        That of the case ``curve``; forces over E* h L with the rms height of the whole surface and the side of the
-        patch. ``rms`` is that of the patch, ``rms_slope`` and ``rms_curvature`` those of the whole surface.
+        The record of the case ``curve``; forces over E* h L with the rms height of the whole surface and the side of
+        the patch. ``rms`` is that of the patch, ``rms_slope`` and ``rms_curvature`` those of the whole surface.
     """
     part = slice(0, parameters.points)
     whole = parameters.roughness_on(parameters.whole, rng)

@@ -23,7 +23,7 @@ _LIMITS = ("rolloff", "long_cutoff", "short_cutoff")
 
 
 def require_rising(parameters: Any, what: str) -> None:
-    """Refuse parameters whose lowest load is not below the highest."""
+    """Raise an error unless the lowest load is below the highest."""
     low, high = (getattr(parameters, f"{end}_{what}") for end in ("lowest", "highest"))
     require(low < high, f"lowest_{what} must be below highest_{what}, not {low:g} and {high:g}")
 
@@ -34,9 +34,9 @@ class ForceRange(Parameters):
     Parameters
     ----------
     lowest_force, highest_force : float
-        The first and the last.
+        The first and the last force.
     loads : int
-        How many.
+        Number of forces.
     """
 
     lowest_force: float = Field(gt=0)
@@ -57,8 +57,8 @@ class ForceRange(Parameters):
 class RoughSquare(Parameters):
     """Parameters of a case on a square with self-affine roughness.
 
-    The waves' phases come from the generator of the sample: surfaces of one sample are alike for all other parameters,
-    and for all numbers of points but for the waves that are too fine.
+    The generator of the sample draws the phases of the waves: surfaces of one sample have the same phases for all
+    other parameters. A larger number of points only adds finer waves.
 
     Parameters
     ----------
@@ -71,21 +71,21 @@ class RoughSquare(Parameters):
     rms : float
         Root mean square height h of the roughness [m].
     rms_band : tuple of float, optional
-        The longest and the shortest of the waves whose rms height is `rms`, over the side. Without: all waves of the
-        grid. With it a larger number of points adds finer waves to the same surface.
+        The longest and the shortest of the waves whose rms height is `rms`, over the side. By default all waves of
+        the grid. With a band, a larger number of points adds finer waves to the same surface.
     rolloff, long_cutoff, short_cutoff : float, optional
         Limits of the power law, as wavelengths over the side: waves longer than the roll-off have its amplitude, and
-        those beyond the long or the short cut-off are absent. Without: all waves of the grid.
+        those beyond the long or the short cut-off are absent. By default all waves of the grid.
     amplitudes : {"exact", "gaussian"}
-        The spectrum exactly in every sample, or on the average over a Gaussian process.
+        Whether the spectrum is exact in every sample, or only in the mean over a Gaussian process.
     periodic : bool
-        Whether the body repeats itself.
+        Whether the surface repeats itself.
     radius : float, optional
         Radius of curvature of a paraboloid under the roughness, its apex in the middle [m].
     modulus : float
         Reduced modulus E* [Pa].
     tolerance : float
-        Of the certificate of every state.
+        Tolerance of the certificate of every state.
     """
 
     points: int = Field(ge=4)
@@ -116,34 +116,35 @@ class RoughSquare(Parameters):
 
     @property
     def grid(self) -> Grid:
-        """The cells."""
+        """The grid of the square."""
         return Grid((self.points, self.points), self.size / self.points, self.periodic)
 
     def roughness(self, rng: np.random.Generator) -> Surface:
-        """Return the roughness alone, as if on a flat body."""
+        """Return only the roughness, as on a flat body."""
         return self.roughness_on(self.grid, rng)
 
     def roughness_on(self, grid: Grid, rng: np.random.Generator) -> Surface:
-        """Return the roughness on a grid of other sides, its limits the same lengths."""
+        """Return the roughness on a grid with other sides; its limits keep their lengths."""
         limits = {name: (part := getattr(self, name)) and part * self.size for name in _LIMITS}
         band = self.rms_band and (self.rms_band[0] * self.size, self.rms_band[1] * self.size)
         spectrum = {"amplitudes": self.amplitudes, "rms_band": band, **limits}
         return self_affine(grid, self.hurst, self.rms, rng, **spectrum)
 
     def on_body(self, roughness: Surface) -> Surface:
-        """Return a roughness on the body that it belongs to."""
+        """Return a roughness on its body."""
         return roughness if self.radius is None else paraboloid(self.grid, self.radius) + roughness
 
 
 class PressedSquare(RoughSquare):
-    """Parameters of a case that presses such a square, elastic or with a largest pressure.
+    """Parameters of a case that presses such a square, elastic or with a hardness.
 
     Parameters
     ----------
     hardness : float, optional
-        Pressure that no cell exceeds [Pa].
+        Largest pressure of a cell [Pa].
     relative_hardness : float, optional
-        The same over E* times the rms slope of the roughness; at most one of the two. Without: elastic.
+        The same over E* times the rms slope of the roughness. At most one of the two may be given; without them the
+        contact is elastic.
     """
 
     hardness: Positive[Pressure] | None = None
@@ -156,7 +157,7 @@ class PressedSquare(RoughSquare):
         return self
 
     def hardness_on(self, rms_slope: float) -> float | None:
-        """Return the hardness of a roughness of this rms slope [Pa]; None of an elastic body."""
+        """Return the hardness of a roughness of this rms slope [Pa]; None for an elastic body."""
         if self.relative_hardness is None:
             return self.hardness
         return self.relative_hardness * self.modulus * rms_slope

@@ -1,4 +1,4 @@
-"""A case: a rough surface pressed, and pulled sideways until it slides."""
+"""A case: a rough surface that is pressed, then pulled tangentially until it slides."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from roughcontact.study.cases.shared_parameters import ForceRange, RoughSquare
 __all__ = ["CASE", "SlipParameters", "run"]
 
 _SIDEWAYS = "tangential stiffness of the contact region"
-_LIMIT = 1e-5  # of the unit displacement; the stiffness itself is off by about its square
+_LIMIT = 1e-5  # of the unit displacement; the error of the stiffness is about its square
 
 
 class SlipParameters(RoughSquare, ForceRange):
-    """A rough contact of two equal bodies under growing normal forces; at each it is pulled along x from rest.
+    """A rough contact of two equal bodies under increasing normal forces; at each force it is pulled along x from rest.
 
     Parameters
     ----------
     points, size, hurst, rms, rms_band, rolloff, long_cutoff, short_cutoff, amplitudes, periodic, radius, modulus
         See `RoughSquare`.
     poisson_ratio : float
-        Poisson's ratio nu of both. That they are equal is what keeps normal and tangential displacements apart.
+        Poisson's ratio nu of both bodies. Normal and tangential displacements are independent because both are equal.
     friction : float
         Coefficient of friction mu.
     lowest_force, highest_force, loads
         Normal forces, see `ForceRange`.
     pulls : int
-        Tangential forces at each, in equal steps from rest to mu F, where the bodies slide.
+        Number of tangential forces at each normal force, in equal steps from rest to mu F, where the bodies slide.
     tolerance : float
-        Of the certificates of pressure and traction.
+        Tolerance of the certificates of pressure and traction.
     """
 
     poisson_ratio: float = Field(default=0.3, gt=-1, le=0.5)
@@ -51,7 +51,7 @@ class SlipParameters(RoughSquare, ForceRange):
 
     @property
     def bodies(self) -> tuple[Solid, Solid]:
-        """The two equal solids that have this modulus together."""
+        """The two equal solids with this reduced modulus."""
         one = Solid(2 * self.modulus * (1 - self.poisson_ratio**2), self.poisson_ratio)
         return one, one
 
@@ -63,11 +63,11 @@ def run(parameters: SlipParameters, rng: np.random.Generator) -> Record:
     -------
     xarray.Dataset
         Along ``load``, the normal forces: ``force``, ``depth``, ``stiffness``, ``contact_area``,
-        ``dimensionless_force`` F/(E* h L), ``dimensionless_stiffness`` k/(E* L); ``tangential_stiffness``, the mean
-        over all directions of that of the whole contact region if nothing slips, and along ``principal`` the smaller
-        and the larger one of its axes. Along ``load`` and ``pull``: ``tangential_displacement`` along x and
-        ``stick_area``, at the parts ``pulled`` of mu F; the last displacement is the largest before gross slip.
-        Without a dimension ``cell_stiffness``.
+        ``dimensionless_force`` F/(E* h L), ``dimensionless_stiffness`` k/(E* L); ``tangential_stiffness`` of the
+        whole contact region without slip, the mean over all directions, and along ``principal`` its smaller and
+        larger principal value. Along ``load`` and ``pull``: ``tangential_displacement`` along x and ``stick_area``,
+        at the parts ``pulled`` of mu F; the last displacement is the largest before gross slip. Without a dimension
+        ``cell_stiffness``.
     """
     import xarray
 
@@ -134,7 +134,7 @@ def _worst(pressed: Solution, pulled: SlipCurve) -> float:
 
 
 def _ended(pressed: Solution, pulled: SlipCurve) -> Status:
-    """Return how a load ended: well, if the pressure and all tractions did."""
+    """Return the status of a load: converged if the pressure and all tractions are."""
     return next((each for each in (pressed.status, *pulled.status) if not each.converged), pressed.status)
 
 

@@ -1,4 +1,4 @@
-"""A case: the loading curve of a rough surface that yields under a ceiling of the pressure."""
+"""A case: the loading curve of a rough surface that yields at a largest pressure."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 __all__ = ["CASE", "YieldingParameters", "run"]
 
-_LIMIT = 1e-4  # of the unit displacement; the stiffness itself is off by about its square
+_LIMIT = 1e-4  # of the unit displacement; the error of the stiffness is about its square
 
 
 class YieldingParameters(PressedSquare):
-    """A rough surface pressed to growing depths; the force is what comes of it.
+    """A rough surface pressed to increasing depths, at which the force is computed.
 
-    Depths in place of forces: where nearly every cell yields, a force hardly tells which are left.
+    Depths are prescribed rather than forces: if nearly every cell yields, the force almost does not depend on the rest.
 
     Parameters
     ----------
@@ -38,9 +38,9 @@ class YieldingParameters(PressedSquare):
     lowest_depth, highest_depth : float
         Depths over the rms height.
     loads : int
-        Depths, in equal ratios.
+        Number of depths, in equal ratios.
     tolerance : float
-        Of the certificate of every depth.
+        Tolerance of the certificate of every depth.
     """
 
     lowest_depth: float = Field(default=0.3, gt=0)
@@ -55,17 +55,17 @@ class YieldingParameters(PressedSquare):
 
 
 def run(parameters: YieldingParameters, rng: np.random.Generator) -> Record:
-    """Return what one sample bears at growing depth.
+    """Return the loads of one sample at increasing depths.
 
     Returns
     -------
     xarray.Dataset
         Along ``load`` the force, ``stiffness`` and ``contact_area`` of a `roughcontact.Curve`;
         ``dimensionless_force`` F/(E* h L) and ``dimensionless_stiffness`` k/(E* L), where h is the rms height of the
-        parameters. ``stiffness`` is that of going on: cells at the ceiling have no part in it. ``region_stiffness`` is
-        that of all cells in contact, as they stand: what the bodies have at the first step back, and what conducts.
-        ``yielded`` is the part of the contact area at the ceiling. Without a dimension: ``cell_stiffness``,
-        ``rms_slope`` and, where there is one, ``hardness``.
+        parameters. ``stiffness`` is that of further loading: yielded cells do not contribute. ``region_stiffness`` is
+        that of all cells in contact: it holds for the first step of unloading and for conduction. ``yielded`` is the
+        share of the contact area at the largest pressure. Without a dimension: ``cell_stiffness``, ``rms_slope`` and,
+        if given, ``hardness``.
     """
     roughness = parameters.roughness(rng)
     slope = surface_moments(roughness, derivative="spectral").rms_slope
@@ -90,16 +90,14 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> Record:
         contact_stiffness(each.contact, parameters.grid, parameters.modulus, tolerance=_LIMIT)
         for each in solutions
     ]
-    words = "normal stiffness of all cells in contact, those at the ceiling too"
+    words = "normal stiffness of all cells in contact, including yielded ones"
     record["region_stiffness"] = described("load", regions, words, "N m-1")
-    words = "part of the contact area at the ceiling of the pressure"
+    words = "share of the contact area at the largest pressure"
     record["yielded"] = described("load", [_yielded(each) for each in solutions], words)
     record["rms_slope"] = described((), slope, "root mean square slope of the roughness")
     if hardness is not None:
         record["hardness"] = variable("hardness", (), hardness)
-    return record.assign_attrs(
-        title="loading curves of rough surfaces that yield under a ceiling of the pressure"
-    )
+    return record.assign_attrs(title="loading curves of rough surfaces that yield at a largest pressure")
 
 
 def _yielded(solution: Solution) -> float:

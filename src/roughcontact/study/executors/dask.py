@@ -23,36 +23,37 @@ if TYPE_CHECKING:
 __all__ = ["Dask"]
 
 PATIENCE = 60.0  # [s] without any local worker
-FORGIVEN = 1  # deaths of its worker that the local scheduler forgives a task before it is put aside
+FORGIVEN = 1  # deaths of workers after which the local scheduler still retries a task
 
 
 class Dask:
-    """Executor that has cases computed by the workers of a Dask scheduler.
+    """Executor that computes cases with the workers of a Dask scheduler.
 
     Parameters
     ----------
     address : str, optional
-        Of a scheduler that runs already, such as ``"tcp://node1:8786"``; its workers should have one thread each
+        Address of a running scheduler, such as ``"tcp://node1:8786"``; its workers should have one thread each
         (``dask worker --nthreads 1``).
     workers : int, optional
-        Number of processes on this machine, where neither address nor cluster is given; by default as many as there
-        are cores that this process may use.
+        Number of processes on this machine, if neither address nor cluster is given; by default the number of cores
+        available to this process.
     cluster : object, optional
-        A cluster of Dask's, such as a `dask_jobqueue.SLURMCluster`; closing it is left to whoever made it.
+        A cluster of Dask, such as a `dask_jobqueue.SLURMCluster`; it is not closed.
 
     Raises
     ------
     WorkersError
-        If Dask is not installed, or cryptography is not where workers are started here.
+        If Dask is not installed; or if cryptography is not installed and workers are started here.
 
     Notes
     -----
-    Workers that are started here and their scheduler talk by TLS, with keys that are made for the run: other users of
-    the machine can neither give them work nor read along. A scheduler or cluster that is given keeps its own security.
+    Workers that are started here communicate with their scheduler by TLS, with keys that are made for the run: other
+    users of the machine can neither send them tasks nor read their data. A given scheduler or cluster keeps its own
+    security settings.
 
-    A task whose worker dies is tried again. One that the scheduler gives up after several deaths is computed once more
-    at the end, with nothing else beside it, and has failed if its workers die again. When the iterator is closed, the
-    workers of a foreign scheduler finish what they are computing, and it is forgotten.
+    A task whose worker dies is tried again. If the scheduler gives it up after several deaths, it is computed once
+    more at the end, without other tasks at the same time, and has failed if its workers die again. When the iterator
+    is closed, the workers of a given scheduler finish their current tasks, whose results are dropped.
 
     Examples
     --------
@@ -67,7 +68,9 @@ class Dask:
         self, address: str | None = None, *, workers: int | None = None, cluster: Any = None
     ) -> None:
         if sum(given is not None for given in (address, workers, cluster)) > 1:
-            raise InputError("a scheduler has workers of its own", "give one of address, workers and cluster")
+            raise InputError(
+                "the workers of a scheduler are already started", "give one of address, workers and cluster"
+            )
         if workers is not None and workers < 1:
             raise about("workers", f"is {workers}; at least one is needed")
         require_cluster("distributed", "Dask")
@@ -81,7 +84,7 @@ class Dask:
 
     @property
     def workers(self) -> int:
-        """How many tasks are computed at once; by a scheduler that runs already, at this moment."""
+        """Number of tasks that are computed at once; for a running scheduler, its current number of workers."""
         if self._target is None:
             return self._workers
         with connected(self._target) as client:
@@ -95,7 +98,7 @@ class Dask:
         run_task : function
             Takes a task and returns its result; it never raises.
         tasks : iterable of Task
-            The tasks, which are taken one by one as workers become free.
+            The tasks; the next is taken when a worker becomes free.
 
         Yields
         ------
@@ -105,7 +108,7 @@ class Dask:
         Raises
         ------
         WorkersError
-            If the scheduler cannot be reached or is gone, or its workers cannot load the case.
+            If the scheduler cannot be reached or has ended, or its workers cannot load the case.
         """
         return submitted(self._opened, run_task, tasks)
 
@@ -115,14 +118,14 @@ class Dask:
 
 @contextmanager
 def _local(workers: int) -> Iterator[Cluster]:
-    """Start a scheduler and workers of one thread each, which obey nobody but this process."""
+    """Start a scheduler and workers of one thread each, which only accept tasks from this process."""
     import dask.config
     from distributed import LocalCluster
 
     settings = {
-        # One task a worker, none in advance: the one that a worker died of is known.
+        # One task per worker, none in advance, so that the task that killed a worker is known.
         "distributed.scheduler.worker-saturation": 1.0,
-        # A worker that is away twice within this time, having died twice, would not be started again.
+        # A worker that dies twice within this time would not be restarted.
         "distributed.deploy.lost-worker-timeout": "1 h",
         **NO_PAGES,
     }
@@ -134,15 +137,15 @@ def _local(workers: int) -> Iterator[Cluster]:
                     threads_per_worker=1,
                     host="127.0.0.1",
                     security=True,
-                    memory_limit=0,  # the arrays of a case are not Dask's to count
+                    memory_limit=0,  # Dask must not limit the memory of a case
                     silence_logs=logging.CRITICAL,
                     dashboard_address=None,
                     scheduler_kwargs={"allowed_failures": FORGIVEN, "dashboard_address": "127.0.0.1:0"},
                 )
         except RuntimeError as error:
             raise WorkersError(
-                f"the workers do not start ({error}); in a script, what starts them must stand under "
-                '`if __name__ == "__main__":`, since they run the rest of it first'
+                f"the workers do not start ({error}); in a script, start them under "
+                '`if __name__ == "__main__":`, because they first run the rest of the script'
             ) from error
         with cluster:
             yield Cluster(cluster, partial(cluster.scale, workers), PATIENCE)
@@ -150,11 +153,11 @@ def _local(workers: int) -> Iterator[Cluster]:
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Keep Ctrl-C from threads and processes that are started meanwhile: it is the coordinator's to stop them."""
+    """Block Ctrl-C in threads and processes that are started meanwhile: the coordinator stops them."""
     if sys.platform == "win32":
         yield
     else:
-        multiprocessing.resource_tracker.ensure_running()  # its start, some time later, would lift the block
+        multiprocessing.resource_tracker.ensure_running()  # a later start would end the block of the signal
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             yield

@@ -1,4 +1,4 @@
-"""Keys of one run, by which a scheduler and its workers know each other: nobody else can give them work."""
+"""Keys of one run, with which a scheduler and its workers identify each other: no other user can send them tasks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from roughcontact.study.executors.worker import require_cluster
 
 __all__ = ["NO_PAGES", "require_keys", "write_keys"]
 
-# Of Dask's configuration: without these the servers for status pages, which ask for no keys, show nothing.
+# Configuration of Dask: without these routes the unprotected servers for status pages show nothing.
 NO_PAGES: dict[str, object] = {
     "distributed.scheduler.http.routes": [],
     "distributed.worker.http.routes": [],
@@ -16,7 +16,7 @@ NO_PAGES: dict[str, object] = {
 
 
 def require_keys() -> None:
-    """Refuse to start a scheduler that cannot tell its user from others.
+    """Raise an error if a scheduler could not be protected against other users.
 
     Raises
     ------
@@ -27,7 +27,7 @@ def require_keys() -> None:
 
 
 def write_keys(folder: str) -> None:
-    """Write new keys to ``cert.pem`` and ``key.pem`` of a folder, for this user alone."""
+    """Write new keys to ``cert.pem`` and ``key.pem`` of a folder, readable only by this user."""
     from distributed import Security
 
     made = Security.temporary()

@@ -1,8 +1,8 @@
-"""A local worker: a process of its own that answers one task after the other through its standard streams.
+"""A local worker: a separate process that computes one task after the other and communicates by its standard streams.
 
-Not a child of `multiprocessing`: such a child runs the user's script once more before it works, and a pool of them is
-lost with its first member. This one imports nothing but what its tasks name, stands aside from the terminal's Ctrl-C,
-and ends by itself with the process that started it, however that ends.
+It is not a child of `multiprocessing`: such a child runs the user's script again before it works, and a pool breaks
+when its first member dies. This one only imports the modules of its tasks, does not receive Ctrl-C of the terminal,
+and always ends with the process that started it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from roughcontact.study.task import RunTask, Task
 
 __all__ = ["Attempt", "Worker", "serve"]
 
-# Read by linear algebra and compiled loops when they are loaded.
+# Libraries of linear algebra and compiled loops read these when they are loaded.
 ONE_THREAD = dict.fromkeys(
     (
         *("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS"),
@@ -34,13 +34,13 @@ ONE_THREAD = dict.fromkeys(
     "1",
 )
 BOOT = "import sys; sys.path[:] = {path!r}; from roughcontact.study.executors.process import serve; serve()"
-PATIENCE = 5.0  # [s] for a process that was asked to end
+PATIENCE = 5.0  # [s] for a process to end after a request
 QUICK = 0.5  # [s]; a worker that answers faster is given the next task in advance
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A task, and how many workers died of it so far."""
+    """A task, and the number of workers that have died while computing it."""
 
     task: Task
     deaths: int = 0
@@ -48,15 +48,15 @@ class Attempt:
 
 @dataclass(slots=True, eq=False)
 class Worker:
-    """The coordinator's end.
+    """The coordinator's side of a worker.
 
     Parameters
     ----------
     run_task : bytes
-        The pickled function that the tasks are put to.
+        The pickled function that computes a task.
     inbox : queue of pairs
-        Receives ``(worker, message)``: None once it is ready, the bytes of a result, a text where it cannot load
-        what it was sent; and ``EOFError`` as the last one, when its process is gone.
+        Receives ``(worker, message)``: None once it is ready, the bytes of a result, or a text if it cannot load a
+        message; ``EOFError`` is the last one, when its process has ended.
     """
 
     run_task: bytes
@@ -81,23 +81,23 @@ class Worker:
 
     @property
     def pid(self) -> int:
-        """Number of the process."""
+        """Process number."""
         return self._process.pid
 
     def give(self, attempt: Attempt) -> None:
-        """Have a task computed after those that the worker holds already."""
+        """Send a task, which is computed after the earlier ones."""
         self.held.append(attempt)
         self._send(pickled(attempt.task, f"the case {attempt.task.case.name!r}"))
 
     def answered(self, seconds: float) -> None:
-        """Strike the first task off, which took so many seconds."""
+        """Remove the first task, whose computation took this number of seconds."""
         self.held.popleft()
-        # The next one in advance bridges the time that the coordinator takes to store a result. Long tasks would
-        # wait behind each other while a worker is idle.
+        # Sending the next task in advance hides the time to store a result. Long tasks are not sent in advance: they
+        # could wait while another worker is idle.
         self.room = 2 if seconds < QUICK else 1
 
     def death(self) -> str:
-        """Return how the process ended; it is gone, or it would not have closed its stream."""
+        """Return how the process ended; it has ended, because its stream is closed."""
         self._hang_up()
         status = self._ended()
         if status == -9:
@@ -107,19 +107,19 @@ class Worker:
         return f"exit status {status}"
 
     def stop(self) -> None:
-        """End the process, in the middle of a task too, and wait until it has gone."""
+        """End the process, also during a task, and wait until it has ended."""
         self.dismiss()
         self._ended()
 
     def dismiss(self) -> None:
-        """Tell the process to end, without waiting for it."""
+        """Make the process end, without waiting for it."""
         self._hang_up()
         if self.held:
             self._process.terminate()
 
     def _hang_up(self) -> None:
         assert self._process.stdin is not None
-        with suppress(OSError):  # what it did not read any more cannot be flushed
+        with suppress(OSError):  # data that the process has not read cannot be flushed
             self._process.stdin.close()
 
     def _ended(self) -> int:
@@ -131,7 +131,7 @@ class Worker:
 
     def _send(self, message: bytes) -> None:
         assert self._process.stdin is not None
-        with suppress(OSError):  # of a process that is gone: the listener says so
+        with suppress(OSError):  # if the process has ended, the listener reports it
             _write(self._process.stdin, message)
 
     def _listen(self) -> None:
@@ -142,9 +142,9 @@ class Worker:
 
 
 def serve() -> None:
-    """Compute what comes in on the standard input until its other end is closed: the worker's own main program."""
+    """Compute the tasks on standard input until it is closed: the main program of a worker."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Whatever a case reads or prints must not meet the messages.
+    # The input and output of a case must be separate from the messages.
     incoming, outgoing = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
@@ -153,7 +153,7 @@ def serve() -> None:
 
     def listen() -> None:
         _read(incoming, inbox.put)
-        os._exit(0)  # the coordinator needs no more, or is no more: at once, whatever is being computed
+        os._exit(0)  # the coordinator has finished or ended: exit at once, also during a computation
 
     threading.Thread(target=listen, daemon=True).start()
     with suppress(OSError):
@@ -178,7 +178,7 @@ def _write(stream: IO[bytes], message: object) -> None:
 
 
 def _read(stream: IO[bytes], use: Callable[[Any], None]) -> None:
-    """Hand messages on until there are no more, or only a part of one."""
+    """Pass messages on until the stream ends, possibly within a message."""
     with suppress(EOFError, OSError, pickle.UnpicklingError):
         while True:
             use(pickle.load(stream))

@@ -1,4 +1,4 @@
-"""Local processes: every core computes cases, one thread each."""
+"""Local processes, of one thread each."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["Processes", "usable_cores"]
 
-STILLBORN = 3  # workers in a row that may die before they are ready
+STILLBORN = 3  # consecutive workers that may die before they are ready
 
 
 class Processes:
@@ -27,12 +27,13 @@ class Processes:
     Parameters
     ----------
     workers : int, optional
-        Number of processes; as many as there are cores that this one may use, if not given.
+        Number of processes; by default the number of cores available to this process.
 
     Notes
     -----
-    A worker that dies (killed, out of memory, crashed) is replaced, and its task tried again: at once, and should a
-    worker die of it once more, at the end with nothing else beside it. A task whose third worker dies has failed.
+    A worker that dies (killed, out of memory, crashed) is replaced, and its task is tried again at once. If a second
+    worker dies, the task is tried at the end, without other tasks at the same time. It has failed when a third worker
+    dies.
 
     Examples
     --------
@@ -52,7 +53,7 @@ class Processes:
 
     @property
     def workers(self) -> int:
-        """How many tasks are computed at once."""
+        """Number of tasks that are computed at once."""
         return self._workers
 
     def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
@@ -63,7 +64,7 @@ class Processes:
         run_task : function
             Takes a task and returns its result; it never raises.
         tasks : iterable of Task
-            The tasks, which are taken one by one as workers become free.
+            The tasks; the next is taken when a worker becomes free.
 
         Yields
         ------
@@ -88,7 +89,7 @@ def usable_cores() -> int:
 
 @dataclass(slots=True)
 class _Crew:
-    """The workers of one run, and what they have before them."""
+    """The workers of one run, and their tasks."""
 
     run_task: bytes
     tasks: Iterator[Task]
@@ -121,7 +122,7 @@ class _Crew:
             worker.stop()
 
     def _employ(self) -> bool:
-        """Give tasks to whoever has room, idle workers first; return whether there is anything to wait for."""
+        """Give tasks to workers that can take one, idle workers first; return whether any task is running."""
         for room in 1, 2:
             for worker in self.workers:
                 if len(worker.held) < min(room, worker.room) and (attempt := self._next()):
@@ -141,11 +142,11 @@ class _Crew:
         return None
 
     def _bury(self, worker: Worker) -> Iterator[Result]:
-        """See to the tasks of a worker that died."""
+        """Reassign the tasks of a worker that died."""
         self.workers.remove(worker)
         death = worker.death()
         if worker.ready and worker.held:
-            # It answers in order, so that it died of the first, and the others were not begun.
+            # A worker computes in order: it died during the first task, and the other tasks were not begun.
             guilty = worker.held.popleft()
             guilty = replace(guilty, deaths=guilty.deaths + 1)
             if guilty.deaths == TRIES:

@@ -28,7 +28,7 @@ class Serial:
 
     @property
     def workers(self) -> int:
-        """How many tasks are computed at once: one."""
+        """Number of tasks that are computed at once: 1."""
         return 1
 
     def results(self, run_task: RunTask, tasks: Iterable[Task]) -> Iterator[Result]:
@@ -39,7 +39,7 @@ class Serial:
         run_task : function
             Takes a task and returns its result; it never raises.
         tasks : iterable of Task
-            The tasks, which are taken one by one as workers become free.
+            The tasks; the next is taken when the last is done.
 
         Yields
         ------

@@ -27,23 +27,23 @@ if TYPE_CHECKING:
 __all__ = ["Cluster", "connected", "submitted"]
 
 ANSWER = 20.0  # [s] for a scheduler to answer
-MOMENT = 5.0  # [s] between two looks at the workers
+MOMENT = 5.0  # [s] between two counts of the workers
 Compute = Callable[[bytes, list[str], str], bytes | str]
-GONE = "the scheduler is gone", "start it again, and run the study again to go on"
+GONE = "the scheduler has ended", "start it again, and run the study again to resume it"
 
 
 @dataclass(frozen=True, slots=True)
 class Cluster:
-    """A scheduler, and what is done for its workers.
+    """A scheduler, and the supervision of its workers.
 
     Parameters
     ----------
     target : object
         The address of a scheduler, or a cluster of Dask's.
     keep : callable, optional
-        Called every few seconds, to start again what workers are missing.
+        Called every few seconds, to restart missing workers.
     patience : float, optional
-        Time that may pass without any worker [s].
+        Longest time without any worker [s].
     """
 
     target: Any
@@ -54,7 +54,7 @@ class Cluster:
 def submitted(
     opened: Callable[[], AbstractContextManager[Cluster]], run_task: RunTask, tasks: Iterable[Task]
 ) -> Iterator[Result]:
-    """Yield one result for each task; the cluster is opened once there is one."""
+    """Yield one result for each task; the cluster is opened for the first task."""
     tasks = iter(tasks)
     for first in tasks:
         with opened() as cluster, connected(cluster.target) as client:
@@ -68,7 +68,7 @@ def connected(target: Any) -> Iterator[Client]:
     Raises
     ------
     WorkersError
-        If none answers.
+        If it does not answer.
     """
     from distributed import Client
 
@@ -82,7 +82,7 @@ def connected(target: Any) -> Iterator[Client]:
 
 @dataclass(slots=True)
 class _Submission:
-    """What is under way at the workers of a client."""
+    """The tasks at the workers of a client."""
 
     client: Client
     cluster: Cluster
@@ -94,7 +94,7 @@ class _Submission:
     alone: deque[Task] = field(default_factory=deque)  # at the end, one at a time
     room: int = 0
     looked: float = -math.inf  # when the workers were last counted
-    seen: float = field(default_factory=time.monotonic)  # when there last were any
+    seen: float = field(default_factory=time.monotonic)  # when there last were workers
 
     def results(self) -> Iterator[Result]:
         """Yield one result for each task."""
@@ -130,7 +130,7 @@ class _Submission:
         return future
 
     def _look(self) -> None:
-        """Count the workers now and then: on a cluster they come and go."""
+        """Count the workers at intervals: on a cluster their number changes."""
         now = time.monotonic()
         if now < self.looked + MOMENT:
             return
@@ -139,7 +139,7 @@ class _Submission:
             count = sum(self.client.nthreads().values())
         except OSError as error:
             raise WorkersError(*GONE) from error
-        # As many again are ready at the scheduler when a worker comes to its end.
+        # The same number of tasks waits at the scheduler, ready when a worker becomes free.
         self.room = 2 * count + 2
         if count:
             self.seen = now
@@ -158,7 +158,7 @@ class _Submission:
         while True:
             try:
                 answer: bytes | str = future.result(timeout=MOMENT)
-            except TimeoutError:  # it died before the result was fetched: the task is being computed again
+            except TimeoutError:  # the worker died before the result was fetched: the task is computed again
                 self._look()
             except CancelledError as error:
                 raise WorkersError(*GONE) from error
@@ -171,23 +171,23 @@ class _Submission:
 
 
 def _by_value() -> Compute:
-    """Return what workers are to call.
+    """Return the function that workers call.
 
-    Dask sends it as code, since no module has it at its top, and its argument as bytes: a worker that cannot import
-    what a message names would break, and its fellows after it, without a word.
+    Dask sends a nested function as code, and its argument as bytes. Otherwise a worker that cannot import a module
+    named in the message would break without a message, and further workers after it.
     """
 
     def compute(message: bytes, path: list[str], version: str) -> bytes | str:
         import pickle
         import sys
 
-        sys.path.extend(place for place in path if place not in sys.path)  # modules on a disk that both see
+        sys.path.extend(place for place in path if place not in sys.path)  # modules on a shared disk
         try:
             from roughcontact.study.executors.worker import computed
             from roughcontact.version import __version__
 
             if __version__ != version:
-                return f"it has roughcontact {__version__}, and here is {version}"
+                return f"it has roughcontact {__version__}, but this machine has {version}"
 
             run_task, task = pickle.loads(message)
         except Exception as error:

@@ -1,4 +1,4 @@
-"""What every engine does in a worker: a task comes in, a result goes out as bytes."""
+"""The part of all executors that runs in a worker: it receives a task and returns a result as bytes."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from roughcontact.study.task import Result, RunTask, Task
 
 __all__ = ["TRIES", "WorkersError", "cannot_load", "computed", "lost", "pickled", "require_cluster"]
 
-# A task whose worker died is tried again twice: workers are also killed from outside, by people, for the memory that
-# another program wanted, with their machine.
+# A task whose worker died is tried twice again, because workers are also killed from outside: by users, for memory of
+# other programs, or with their machine.
 TRIES = 3
 
 
 class WorkersError(InputError):
-    """The workers cannot be used: they do not start, cannot load the case, or have gone for good."""
+    """The workers cannot be used: they do not start, cannot load the case, or have ended."""
 
 
 def computed(run_task: RunTask, task: Task) -> bytes:
-    """Return the result of `task`, pickled: one that cannot be sent is the failure of its case and of nothing else."""
+    """Return the result of `task`, pickled: if it cannot be sent, only its case fails."""
     try:
         result = run_task(task)
     except SystemExit as error:  # would end the worker
-        result = Result(task.key, None, f"the case called for an exit with status {error.code}", 0.0)
+        result = Result(task.key, None, f"the case called exit with status {error.code}", 0.0)
     try:
         return pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
     except Exception as error:
@@ -34,7 +34,7 @@ def computed(run_task: RunTask, task: Task) -> bytes:
 
 
 def pickled(thing: object, name: str) -> bytes:
-    """Return what is sent to another process.
+    """Return an object as bytes for another process.
 
     Raises
     ------
@@ -46,12 +46,12 @@ def pickled(thing: object, name: str) -> bytes:
     except Exception as error:
         raise WorkersError(
             f"{name} cannot be sent to another process: {error}",
-            "define its functions and classes at the top of a module, none inside another function",
+            "define its functions and classes at the top level of a module",
         ) from error
 
 
 def require_cluster(module: str, name: str) -> None:
-    """Refuse to go on without a package of the extra for clusters.
+    """Raise an error if a package of the extra for clusters is missing.
 
     Raises
     ------
@@ -70,11 +70,12 @@ def require_cluster(module: str, name: str) -> None:
 def cannot_load(reason: str) -> WorkersError:
     """Return the error of a worker that cannot load what it was sent."""
     return WorkersError(
-        f"a worker cannot load what it is to compute ({reason}); the case must stand in a module that the workers can "
-        "import, not in the script or notebook that runs the study, and other machines need the same versions"
+        f"a worker cannot load its task ({reason}); put the case into a module that the workers can import, "
+        "rather than into the script or notebook that runs the study, and install the same versions on all "
+        "machines"
     )
 
 
 def lost(task: Task, reason: str) -> Result:
-    """Return the result of a task that took its workers down."""
+    """Return the result of a task whose workers died."""
     return Result(task.key, None, reason, 0.0)
