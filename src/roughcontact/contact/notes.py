@@ -149,6 +149,6 @@ def _of_input(solution: Solution) -> Iterator[Note]:
         yield Note(
             Rank.DOUBTFUL,
             f"The periodic map does not close: heights step by {written(step.height, 'm')} from one edge to the "
-            f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does not repeat itself, "
-            "press it as free too and compare.",
+            f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does "
+            "not repeat itself, press it as free too and compare.",
         )
