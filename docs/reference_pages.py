@@ -35,6 +35,7 @@ TITLES = {  # in this order
     "mdr": "Dimensionality reduction",
     "study": "Studies",
     "plot": "Pictures",
+    "labels": "Labels and units",
     "files": "Files",
     "citing": "References to cite",
     "errors": "Errors",
