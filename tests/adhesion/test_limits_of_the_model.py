@@ -101,8 +101,7 @@ def test_a_contact_that_is_not_small_against_the_tip_is_noted(modulus, expected)
         assert about(notes, "The contact is not small against the body") == expected
     # (9 pi 50 mJ/m^2/(2 2.67 MPa 20 nm))^(1/3) = 2.37
     assert (
-        about(state.notes, "2.4 times the radius of the highest summit, 20 nm (w/(E* R) is 0.94)")
-        == expected
+        about(state.notes, "2.4 times the radius of the highest summit, 20 nm (w/(E* R) is 0.94)") == expected
     )
     assert state.summit_radius == curve.summit_radius == pytest.approx(R)
     assert ("not small against the body" in state._repr_html_()) == expected
