@@ -226,8 +226,8 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--range", "2nm"), "--work: this option must be given; write --work 50mJ/m^2"),
-        (("--work", "50mJ/m^2"), "--range: this option must be given"),
+        (("--range", "2nm"), "--work: this option is missing; give one such as --work 50mJ/m^2"),
+        (("--work", "50mJ/m^2"), "--range: this option is missing"),
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
@@ -261,7 +261,7 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
             ("adhesion", "curve", *STICKS),
             "none of --depths, --forces, --pressures, --mean-gaps is given; give one, such as --depths",
         ),
-        (("adhesion", "loop", *STICKS), "--depth: this option must be given"),
+        (("adhesion", "loop", *STICKS), "--depth: this option is missing"),
         (
             ("adhesion", "loop", "--depth", "1nm", "--points", "1", *STICKS),
             "--points: the number of steps must be a whole number from 2 to 10000",

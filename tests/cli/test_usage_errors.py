@@ -16,8 +16,8 @@ JOB = ("press", "FILE", "--force", "1N", "--modulus", "1GPa")
         (("press", "FILE", "--periodic=1"), "--periodic: this option takes no value; write only --periodic"),
         (("press", "FILE", "10", "N"), "unexpected argument '10 N': put quotes around a value"),
         (("press",), "FILE is missing: write a line such as: roughcontact press part.x3p --force 10N"),
-        (("surface", "make", "a.npz"), "--hurst: this option must be given; write --hurst 0.8"),
-        (("study", "export", "results"), "--out: this option must be given; write --out FILE"),
+        (("surface", "make", "a.npz"), "--hurst: this option is missing; give one such as --hurst 0.8"),
+        (("study", "export", "results"), "--out: this option is missing; give one such as --out FILE"),
         (("pres",), "'roughcontact' has no command 'pres': did you mean 'press'? choose from"),
         (("surface", "inof"), "'roughcontact surface' has no command 'inof': did you mean 'info'?"),
         (("-q", "press"), "-q: there is no such option; write it after the name of a command"),
@@ -43,7 +43,7 @@ def test_an_error_says_where_what_and_what_to_write(invoke, rough, words, line):
     ("words", "place", "remedy"),
     [
         (("press", "--json"), "FILE", "write a line such as: "),
-        (("surface", "make", "a.npz", "--json"), "--hurst", "write --hurst 0.8"),
+        (("surface", "make", "a.npz", "--json"), "--hurst", "give one such as --hurst 0.8"),
         (("pres", "--json"), None, "did you mean 'press'? "),
         (("study", "add", "results", "--samples", "x", "--json"), "--samples", "give one such as 2"),
     ],
@@ -64,7 +64,7 @@ def test_quiet_leaves_remarks_out_and_keeps_what_makes_a_number_wrong(invoke, ro
     assert quiet.stdout == told.stdout
     assert "the tilt is removed" in told.stderr
     assert "the tilt is removed" not in quiet.stderr
-    assert "% of the reduced modulus: real bodies yield" in quiet.stderr
+    assert "the reduced modulus: real bodies yield" in quiet.stderr
 
 
 def test_verbose_says_what_is_done(invoke, rough):

@@ -83,7 +83,7 @@ def test_a_periodic_map_that_does_not_close_is_doubtful():
     assert found[False] == []
     (note,) = found[True]
     assert note.rank == Rank.DOUBTFUL
-    assert "heights step by 0.015 m from one edge to the opposite one, 15 times as much" in note.text
+    assert "heights step by 15 mm from one edge to the opposite one, 15 times as much" in note.text
 
 
 def test_notes_are_ordered_by_rank_then_as_they_are_made_and_stand_once():

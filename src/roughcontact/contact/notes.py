@@ -123,15 +123,17 @@ def _of_input(solution: Solution) -> Iterator[Note]:
     modulus, surface = problem.modulus, problem.surface
     springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
     if largest > STRAINED * modulus and not springs:
+        share = f"{largest / modulus:.2g} times" if largest > modulus else f"{largest / modulus:.0%} of"
         yield Note(
             Rank.DOUBTFUL,
-            f"The largest pressure, {written(largest, 'Pa')}, is {largest / modulus:.0%} of the reduced modulus: real "
+            f"The largest pressure, {written(largest, 'Pa')}, is {share} the reduced modulus: real "
             "bodies yield or break at lower pressures, and the theory of small strains does not hold.",
         )
     if solution.depth > max(problem.grid.lengths):
         yield Note(
             Rank.DOUBTFUL,
-            f"The depth, {written(solution.depth, 'm')}, exceeds the map: check the units of load and modulus.",
+            f"The depth, {written(solution.depth, 'm')}, is larger than the side of the map, "
+            f"{written(max(problem.grid.lengths), 'm')}: check the units of depth, load and modulus.",
         )
     if surface is not None and is_numpy(surface.heights):
         _, above = height_limits(surface.heights)

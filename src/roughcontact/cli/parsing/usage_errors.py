@@ -55,7 +55,7 @@ def _stated(error: Any, context: Any) -> UsageError:
     if named is not None and type(error).__name__ == "MissingParameter":
         option = named.opts[0]
         if named.param_type_name == "option":
-            return UsageError("this option must be given", f"write {option} {named.metavar}", option)
+            return UsageError("this option is missing", f"give one such as {option} {named.metavar}", option)
         return UsageError(f"{named.metavar} is missing", _as_in_example(context), named.metavar)
     if (extra := re.search(r"unexpected extra argument\S* \((.*)\)", error.message)) is not None:
         words = f"unexpected argument {extra[1]!r}"
