@@ -150,7 +150,7 @@ def handbook(name: str) -> Material:
     require(
         key in MATERIALS,
         f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
-        "for another metal, give its numbers",
+        "for another metal give its modulus and Poisson's ratio (rc.Solid(210e9, 0.3), --young 210GPa --poisson 0.3)",
     )
     return MATERIALS[key]
 

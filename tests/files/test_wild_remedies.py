@@ -23,10 +23,10 @@ def test_commas_of_thousands_hide_no_decimal_comma():
         (
             "a.txt",
             "Made by hand\n" + ROWS,
-            "lines of explanation before them start with #",
+            "lines before them must start with #",
             "# Made by hand\n" + ROWS,
         ),
-        ("a.txt", "Made by hand\n" + ROWS, "or read name = value", "made = by hand\n" + ROWS),
+        ("a.txt", "Made by hand\n" + ROWS, "or have the form name = value", "made = by hand\n" + ROWS),
         ("a.txt", "".join(ROWS.rpartition(" ")[:1]) + "\n", "write nan where a point", None),
         ("a.txt", ROWS.replace("\n", "\n\n", 1), "keep one uninterrupted table in a file", ROWS),
         ("a.txt", ROWS.replace(" ", "\t", NX - 1), "separate all numbers alike", ROWS),

@@ -138,7 +138,7 @@ $ {FORCE} --materials rigid,rigid
 > {FORCE} --materials steel,rigid
 
 $ {FORCE} --materials steel,oak
-! tungsten; for another metal, give its numbers
+! tungsten; for another metal give its modulus and Poisson's ratio
 > {FORCE} --materials steel,tungsten
 > {FORCE} --young 205GPa --poisson 0.29 --young2 11GPa --poisson2 0.4
 
