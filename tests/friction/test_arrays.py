@@ -152,5 +152,5 @@ def test_forces_within_limits(library, k):
 def test_sums_that_know_numpy_alone_say_so(library, pressed, method):
     grid = replace(pressed.problem.grid, periodic=(False, False))
     operator = rc.shear_half_space(grid, BODIES, method=method)
-    with pytest.raises(TypeError, match="NumPy's arrays; 'fft'"):
+    with pytest.raises(TypeError, match="only arrays of NumPy; use 'fft'"):
         operator.apply(library.put(np.ones((2, *grid.shape))))

@@ -111,6 +111,12 @@ def test_a_load_is_resolved_by_its_interpolated_stiffness():
     found = on_common(data, [0.5, 1.9, 2.1, 4.0, 8.9, 9.1])["resolved"]
     np.testing.assert_array_equal(found, [False, False, True, True, True, False])
     assert found.attrs == {"long_name": "resolved"}
+    missed = data.assign(status=("load", ["converged", "converged", "stagnated"]))
+    np.testing.assert_array_equal(on_common(missed, [2.1, 8.9])["resolved"], [True, False])
+    flows = data.assign(unloading_stiffness=("load", 2 * force))
+    np.testing.assert_array_equal(
+        on_common(flows, [0.9, 1.1, 4.4, 4.6])["resolved"], [False, True, True, False]
+    )
     line = on_common(data.assign_attrs(geometry="line"), [2.1, 4.0])["resolved"]
     np.testing.assert_array_equal(line, [False, True])
 

@@ -119,6 +119,7 @@ def _of_job(job: Any) -> Iterator[str]:
         yield "error_budget"
     if hasattr(job, "contact") and job.contact.profile is None:
         periodic = getattr(getattr(job.source, "lower", job.source), "periodic", False)
+        periodic = periodic if job.preparation.crop is None else False
         yield _UNKNOWN if periodic is None else "periodic" if periodic else "free"
 
 

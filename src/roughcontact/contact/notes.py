@@ -71,7 +71,8 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
         return
     above = problem.measure.total(solution.pressure > softer.hardness) / solution.contact_area
     if above >= ABOVE:
-        given = repr(softer.name) if softer.name in MATERIALS else f"{softer.hardness:.4g}"
+        in_table = softer.name in MATERIALS and MATERIALS[softer.name].hardness == softer.hardness
+        given = repr(softer.name) if in_table else f"{softer.hardness:.4g}"
         yield Note(
             Rank.WRONG,
             f"{above:.0%} of the contact area is above the hardness of {softer.name}, {written(softer.hardness, 'Pa')} "

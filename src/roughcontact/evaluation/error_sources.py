@@ -119,7 +119,7 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     otherwise.append(lambda surface: surface.filtered(short_cutoff=shortest))
     kinds = {_kind_of(surface) for surface in surfaces}
     notes = []
-    if kinds == {SurfaceKind.FLAT}:
+    if SurfaceKind.FLAT in kinds and SurfaceKind.FORM not in kinds:
         sources.append(ErrorSource("levelling", "bias", "without the least-squares quadratic"))
         otherwise.append(lambda surface: surface.levelled("quadratic"))
     elif SurfaceKind.FORM in kinds:

@@ -47,7 +47,9 @@ def surface_calls(job: Job) -> list[Call]:
     """
     if isinstance(job, TheoryJob):
         return []
-    if isinstance(job.source, File) and job.source.periodic and job.preparation.crop is not None:
+    made_of = [job.source, getattr(job.source, "lower", None), getattr(job.source, "upper", None)]
+    by_option = any(isinstance(each, File) and each.periodic for each in made_of)
+    if by_option and job.preparation.crop is not None:
         raise InputError(
             "a map that is cropped is free, and `periodic` is given",
             "write the cropped map to a file ('surface prepare'), and give `periodic` to that file",

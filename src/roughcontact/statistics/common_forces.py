@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from roughcontact.errors import InputError
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.solver.control import Status
 from roughcontact.statistics.fit_window import is_resolved
 from roughcontact.statistics.power_law import ROUNDING
 from roughcontact.units import in_si
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 __all__ = ["on_common"]
 
 Array = npt.NDArray[Any]
-_JUDGED = ("stiffness", "cell_stiffness", "full_contact_stiffness")  # of them follows what is resolved
+_LIMITS = ("cell_stiffness", "full_contact_stiffness")  # of the stiffness of a resolved load
+_LINE = Geometry.LINE.value  # whose loads are resolved by their width
 
 
 def on_common(
@@ -84,12 +86,11 @@ def on_common(
         if name != at and along in variable.dims
     }
     result = dataset.drop_dims(along).assign(moved)
-    if (
-        "resolved" in moved
-        and all(name in dataset for name in _JUDGED)
-        and dataset.attrs.get("geometry") != Geometry.LINE.value
-    ):
-        resolved = xarray.apply_ufunc(is_resolved, *(result[name] for name in _JUDGED))
+    if "resolved" in moved and set(_LIMITS) <= set(dataset) and dataset.attrs.get("geometry") != _LINE:
+        stiffness = result["unloading_stiffness" if "unloading_stiffness" in result else "stiffness"]
+        resolved = xarray.apply_ufunc(is_resolved, stiffness, *(result[name] for name in _LIMITS))
+        if "status" in moved:
+            resolved &= result["status"] == Status.CONVERGED.value
         result["resolved"] = resolved.assign_attrs(dataset["resolved"].attrs)
     order = [d for d in dataset.sizes if d != along]
     return result.assign_coords({at: (at, wanted, places.attrs)}).transpose(*order, at, missing_dims="ignore")

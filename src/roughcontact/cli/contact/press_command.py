@@ -94,7 +94,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
     pictures = (*(() if theory is None else ("distribution",)), *drawn)
     files = ("press.json", "pressure.nc", *(f"{name}.{answer.ending}" for name in pictures))
     answer.finish(folder, files, job, solution)
-    if not record["converged"]:
+    if not all(each.status.converged for each in (solution, elastic) if each is not None):
         raise typer.Exit(MISSED)
 
 
@@ -128,7 +128,7 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed, elastic: Soluti
         **solution_record(solution),
         "without_plastic_flow": None if elastic is None else solution_record(elastic),
         "tolerance": solution.problem.tolerance,
-        "converged": all(each.status.converged for each in (solution, elastic) if each is not None),
+        "converged": solution.status.converged,
     }
 
 

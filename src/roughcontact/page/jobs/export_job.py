@@ -172,12 +172,13 @@ def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, A
 
 def _provenance(request: PageRequest, cache: SessionCache, control: str) -> Mapping[str, Any]:
     from roughcontact.files.provenance import provenance
+    from roughcontact.materials import as_modulus
 
     command = request.statement["command"]
     job: Any = request.job  # a job that presses
     given: dict[str, Any] = {"control": control, "command": command, "recipe": request.recipe}
     tolerance = value_of(job.contact, "tolerance")
-    modulus = performed(job.bodies.calls(), known_names())["modulus"]
+    modulus = as_modulus(performed(job.bodies.calls(), known_names())["modulus"])
     return provenance(cache.surface(job), modulus=modulus, tolerance=tolerance, **given)
 
 
