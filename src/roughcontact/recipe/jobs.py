@@ -43,7 +43,8 @@ def surface_calls(job: Job) -> list[Call]:
     Raises
     ------
     InputError
-        If the source cannot be used: an example as a profile, or heights that were made in Python.
+        If the source cannot be used: an example as a profile, heights that were made in Python, or a map that is
+        periodic by option and cropped.
     """
     if isinstance(job, TheoryJob):
         return []
