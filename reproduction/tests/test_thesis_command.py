@@ -137,8 +137,8 @@ def test_ctrl_c_says_how_to_go_on(invoke, tmp_path, few, monkeypatch):
     ("arguments", "words"),
     [
         (("fig99",), "no figure 'fig99'"),
-        (("fig4", "--seed", "x"), "the seed is a whole number from 0 up"),
-        (("fig37", "--scale", "big"), "choose of small, thesis"),
+        (("fig4", "--seed", "x"), "the seed must be a whole number from 0 up"),
+        (("fig37", "--scale", "big"), "choose from small, thesis"),
         (("fig37", "--as-is"), "was not run in"),
     ],
 )

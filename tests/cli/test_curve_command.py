@@ -539,7 +539,7 @@ def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, 
             "--flow needs a hardness, which is not given; give --hardness",
         ),
         (("--loop", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--loop needs forces or pressures"),
-        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "--flow is raised: leave out one of them"),
+        (("--flow", "raised", "--hardness", "1GPa", "--errors"), "--errors does not go with --flow"),
         (("--flow", "raised", "--hardness", "1GPa", "--depths", "1nm,2nm"), "--flow needs forces"),
     ],
 )

@@ -222,7 +222,7 @@ def test_bodies_are_given_in_every_way(person, part):
     person.choose("bodies", "young")
     assert "--young '205 GPa' --poisson 0.29 --young2 '78 GPa' --poisson2 0.44" in person.command
     person.write("bodies.poisson", "0.7")
-    person.trouble("bodies.poisson", "Poisson's ratio lies")
+    person.trouble("bodies.poisson", "Poisson's ratio must lie")
     person.write("bodies.poisson", "0.3")
     person.wait()
     person.choose("bodies", "modulus")
@@ -269,7 +269,7 @@ def test_the_help_of_a_field_is_shown_where_it_has_the_focus(person, part):
     person.wait()
     person.unfold("preparation.tip")
     person.field("preparation.tip").focus()
-    assert "What a tip of this radius records" in person.text("help")
+    assert "Simulate the scan of a tip of this radius" in person.text("help")
 
 
 def test_surfaces_that_come_without_a_file_are_prepared_alike(person):

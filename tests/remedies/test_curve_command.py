@@ -100,7 +100,7 @@ $ {FAR} --mean-gaps=-1nm,1nm --periodic
 
 FLOW = f"""
 $ {TWO} --loop
-! --loop is about what flows under a hardness, which is not given; give --hardness, or both bodies as --materials
+! --loop needs a hardness, which is not given; give --hardness, or both bodies as --materials
 > {TWO} --loop --hardness 1GPa
 > curve rough.npz --forces 1mN,2mN --loop --materials steel,aluminium
 

@@ -22,7 +22,9 @@ def test_what_the_thesis_says_would_hold_if_it_were_so():
     found = verdicts(fig27, data())
     assert [each.word for each in found] == ["holds"] * 3
     assert found[0].ruling.span == "0.40 <= H <= 1.00"
-    assert "the central claim, holds for surfaces" in findings(fig27, data())
+    assert "The central claim, an exponent of 1/(H + 1) within 10%, holds for surfaces" in findings(
+        fig27, data()
+    )
 
 
 @pytest.mark.parametrize(("place", "which"), [(3, 0), (5, 1), (2, 2)])

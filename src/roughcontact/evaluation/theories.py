@@ -84,7 +84,7 @@ def loading_laws(
     wanted = [str(name).casefold() for name in ([names] if isinstance(names, str) else names)]
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
-        raise InputError("cgp is for a body that is indented as a whole, unlike a periodic surface: use gw")
+        raise InputError("cgp is for a body that is indented as a whole, unlike a periodic surface", "use gw")
     known = {"modulus": value, "area": surface.grid.area} | inputs_for(surface, wanted, **given)
     found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
     scope = Scope(value, surface.grid.area, surface.rms, known.get("spectrum"))

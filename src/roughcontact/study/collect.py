@@ -60,8 +60,8 @@ class GatheredColumn:
         """
         if variable.dims != self.dims:
             raise InputError(
-                f"{self.name!r} has the dimensions {variable.dims} in one record and {self.dims} in another: "
-                "make two studies of such cases"
+                f"{self.name!r} has the dimensions {variable.dims} in one record and {self.dims} in another",
+                "make two studies of such cases",
             )
         self._agree(variable.attrs)
         values = variable.to_numpy()
@@ -102,7 +102,8 @@ class GatheredColumn:
         one, other = self.attributes.get("units"), attributes.get("units")
         if self._places and one != other:
             raise InputError(
-                f"{self.name!r} is in {one} in one record and in {other} in another: make two studies of such cases"
+                f"{self.name!r} is in {one} in one record and in {other} in another",
+                "make two studies of such cases",
             )
         self.attributes = {
             key: value for key, value in self.attributes.items() if attributes.get(key) == value

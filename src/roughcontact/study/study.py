@@ -104,8 +104,8 @@ def _entry(value: Any) -> Range | tuple[Any, ...]:
         return Range(**value)
     if not isinstance(value, list):
         raise InputError(
-            f"{value!r} is neither a list nor a range: write a single value under parameters, and a range as "
-            "{ start = 0.1, stop = 0.9, count = 9 }"
+            f"{value!r} is neither a list nor a range",
+            "write a single value under parameters, and a range as { start = 0.1, stop = 0.9, count = 9 }",
         )
     if not value:
         raise InputError("the list is empty", "give one value or more")

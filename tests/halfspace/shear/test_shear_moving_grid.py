@@ -42,5 +42,5 @@ def test_cells_without_traction_cost_nothing():
 
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])
 def test_arrays_of_others_are_refused_and_not_converted(method):
-    with pytest.raises(TypeError, match="NumPy's arrays; 'fft'"):
+    with pytest.raises(TypeError, match="only arrays of NumPy; use 'fft'"):
         rc.shear_half_space(rc.Grid((1, 1), 1.0), BODY, method=method).apply([[[1.0]], [[2.0]]])

@@ -60,5 +60,5 @@ def test_periodic_grids_are_refused(method):
 
 @pytest.mark.parametrize("method", ["moving-grid", "multilevel"])
 def test_arrays_of_others_are_refused_and_not_converted(method):
-    with pytest.raises(TypeError, match="NumPy's arrays"):
+    with pytest.raises(TypeError, match="only arrays of NumPy"):
         rc.half_space(rc.Grid((2, 2), 1.0), 1.0, method=method).apply([[1.0, 2.0], [3.0, 4.0]])

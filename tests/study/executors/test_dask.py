@@ -114,7 +114,7 @@ def test_a_scheduler_that_does_not_answer_is_told_of(monkeypatch):
 def test_workers_of_another_version_are_refused(threads, monkeypatch):
     from_elsewhere = Dask(threads.scheduler_address).results(run_task, tasks(NUMBERS, [{}]))
     monkeypatch.setattr(submission, "__version__", "0.0.7")
-    with pytest.raises(WorkersError, match=r"and here is 0\.0\.7"):
+    with pytest.raises(WorkersError, match=r"this machine has 0\.0\.7"):
         list(from_elsewhere)
 
 

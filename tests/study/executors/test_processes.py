@@ -54,7 +54,7 @@ def test_a_case_that_takes_its_worker_down_fails_alone():
     assert "signal 11" in said["crash"]
     assert "exit status 3" in said["leave"]
     assert "no such surface" in said["raise"]
-    assert "an exit with status 3" in said["exit"]
+    assert "exit with status 3" in said["exit"]
     assert "a lock is in here" in said["lock"]
     living = [task for task, how in zip(given, ways, strict=True) if how == "live"]
     failed = {task.key: None for task in given if task not in living}
