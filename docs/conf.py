@@ -103,7 +103,7 @@ def redirect(app, config):
     for folder in ("how-to", "concepts", "reference", "evidence", "project"):
         for name in (page.stem for page in (HERE / folder).glob("[a-z]*.md")):
             config.redirects[folder if name == "index" else name] = f"{folder}/{name}.html"
-    for page in (HERE / "api").glob("*.[mr]*"):
+    for page in [*(HERE / "api").glob("*.md"), *(HERE / "api").glob("*.rst")]:
         config.redirects[f"reference/{page.stem}"] = f"../api/{page.stem}.html"
 
 

@@ -50,6 +50,11 @@ def test_waves_close_wherever_their_border_is(count, shift):
     assert open_border(surface) is None
 
 
+def test_of_many_rows_some_are_compared():
+    heights = np.repeat(np.arange(5000.0)[:, np.newaxis], 2, axis=1)
+    assert border_steps(periodic(heights))[0] == (4999.0, 4999.0)
+
+
 def test_the_step_of_a_tilted_map_is_its_tilt():
     """Rows rise by 1 and columns by 0: the border of the rows steps by n - 1."""
     heights = np.repeat(np.arange(8.0), 8).reshape(8, 8)

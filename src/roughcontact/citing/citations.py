@@ -103,6 +103,7 @@ def _of_answer(answer: Any) -> Iterator[str]:
 def _of_job(job: Any) -> Iterator[str]:
     """Yield the keywords of a job: the files of the functions that it calls, and the values of its fields."""
     from roughcontact.recipe.jobs import calls_of, known_names  # late, with NumPy
+    from roughcontact.recipe.recipe_fields import value_of
 
     package = known_names()["rc"]
     homes = {"rc": package, "surface": package.Surface}
@@ -112,9 +113,12 @@ def _of_job(job: Any) -> Iterator[str]:
             yield from reduce(getattr, path, homes[root]).__module__.split(".")
         if call.place in ("load", "loads"):
             yield from call.named.keys() & {"hardness"}
-            yield str(call.named.get("flow"))
-    for part, name in (("theories", "theory"), ("adhesion", "law")):
-        yield from str(getattr(getattr(job, part, None), name, None)).replace(" ", "").split(",")
+            yield from {"raised"} & {call.named.get("flow")}
+    if hasattr(job, "theories"):
+        named = value_of(job.theories, "theory") or ()
+        yield from (named,) if isinstance(named, str) else named
+    if law := getattr(getattr(job, "adhesion", None), "law", None):
+        yield law
     if getattr(getattr(job, "errors", None), "errors", False):
         yield "error_budget"
     if hasattr(job, "contact") and job.contact.profile is None:

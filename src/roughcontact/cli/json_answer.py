@@ -70,13 +70,13 @@ def emit_error(
     message : str
         What is wrong.
     status : int
-        With which the program ends.
+        The exit status of the program.
     remedy : str, optional
-        What to do about it.
+        How to correct it.
     place : str, optional
-        Which option, argument or file it concerns.
+        The option, argument or file that it concerns.
     beside : mapping
-        What is known all the same.
+        Further entries of the object.
     """
     record = {
         "kind": kind,

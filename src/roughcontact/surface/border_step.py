@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from roughcontact.arrays import on_host
+
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
     from roughcontact.validation import Array
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["OPEN", "BorderStep", "border_steps", "open_border"]
 
 OPEN = 3.0  # times the steps inside: random periodic maps reach 1.8, waves 1.4; 1 in 370 profiles is above
+PAIRS = 1024  # of rows: on larger maps all of them would take the memory of several maps
 ROUNDING = 1e-9  # of the rms height: rows that are equal differ by less
 
 
@@ -35,13 +38,14 @@ def border_steps(surface: Surface) -> tuple[BorderStep, ...]:
     """Return the steps of a map of heights along its periodic axes. Pairs with a missing height are left out.
 
     On a random surface that repeats itself, the border is like any other pair of rows, and the ratio is near 1. On a
-    self-affine map of n rows that does not, it is about n^H if the longest wave is longer than the
-    map, and less otherwise.
+    self-affine map of n rows that does not repeat itself, the ratio is about n^H if the longest wave is longer than the
+    map, and smaller otherwise. Of many rows about `PAIRS` evenly spaced pairs are compared, to save memory.
     """
     steps = []
     for axis in (axis for axis, repeats in enumerate(surface.grid.periodic) if repeats):
-        rows = np.moveaxis(surface.heights, axis, 0)
-        across, inside = _rms(rows[0] - rows[-1]), _rms(np.diff(rows, axis=0))
+        rows = np.moveaxis(on_host(surface.heights), axis, 0)
+        every = -(-len(rows) // PAIRS)
+        across, inside = _rms(rows[0] - rows[-1]), _rms(rows[1::every] - rows[:-1:every])
         steps.append(BorderStep(across, across / inside if inside > 0 else np.nan))
     return tuple(steps)
 

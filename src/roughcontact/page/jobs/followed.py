@@ -137,7 +137,7 @@ def _ways(loads: Loads) -> list[str]:
     return ["approach" if grows else "retreat" for grows in approaches(loads.approach)]
 
 
-def _adhesive_state(surface: Any, modulus: float, adhesion: Any, **named: Any) -> Followed:
+def _adhesive_state(surface: Any, modulus: Modulus, adhesion: Any, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.solver.loads import Loads
 
