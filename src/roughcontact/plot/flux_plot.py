@@ -53,7 +53,7 @@ def flux_map(
     >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
     >>> axes = rc.plot.flux_map(rc.contact_flux(solution, resistivities=(1.7e-8, 1.7e-8), drop=1e-3))
     >>> axes.get_title()
-    '496 mA, at most 496 mA through one spot'
+    '500 mA, at most 500 mA through one spot'
     """
     if field == "share":
         values = np.concatenate([[0.0], 100 * flux.shares])[flux.spots.labels]
