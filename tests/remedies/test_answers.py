@@ -334,7 +334,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.contact_flux(rc.press(PERIODIC, MODULUS, pressure=MODULUS), resistivities=(1e-8, 1e-8)),
-        "the whole period is in contact: the interface has no resistance: press less hard",
+        "the whole period is in contact: the interface has no resistance; press less hard",
         lambda: rc.contact_flux(rc.press(PERIODIC, MODULUS, depth=FULL / 2), resistivities=(1e-8, 1e-8)),
     ),
     row(

@@ -3,9 +3,9 @@ Which spots carry the current?
 ==============================
 
 The current of a contact is distributed over its spots. This example presses a patch of rough copper and draws the
-share of each spot. The right picture shows the resistance of each spot among the other spots, the resistance that
-it has alone, and that of Holm's round spot of equal area. Codes that add Holm's conductances neglect that the spots
-compete for the same current: here their sum is 1.55 times the conductance.
+share of each spot. The right picture shows the resistance of each spot among the other spots, by itself, and of
+Holm's round spot of equal area. Codes that add Holm's conductances neglect the other spots: here the sum is 1.55
+times the conductance.
 """
 
 import matplotlib.pyplot as plt

@@ -20,7 +20,7 @@ __all__ = ["flux_dataframe", "flux_dataset"]
 def flux_dataset(flux: ContactFlux) -> xarray.Dataset:
     """Return the current or heat as a dataset: the density as a map, a value of each spot along ``spot``.
 
-    The resistances of the spots alone are computed for it, with a solve for each.
+    This computes `resistances_alone`, with a solve for each spot.
 
     Parameters
     ----------

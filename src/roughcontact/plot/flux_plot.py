@@ -72,7 +72,7 @@ def flux_map(
 
 
 def spot_resistances(flux: ContactFlux, ax: Axes | None = None) -> Axes:
-    """Draw the resistance of each spot against its area: among the other spots, alone, and of Holm's round spot.
+    """Draw the resistance of each spot against its area: among the other spots, by itself, and Holm's.
 
     Parameters
     ----------
