@@ -355,6 +355,7 @@ ANSWERS = {
     "Displacement",
     "Stress",
     "Comparison",
+    "ContactFlux",
 }
 
 

@@ -135,6 +135,8 @@ MORE = [
     ),
     (rc.conductance, {"contact": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)}),
     (rc.interface_table, {"curve": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0), "area": 1e-6}),
+    (rc.contact_flux, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "drop": 0.5}),
+    (rc.contact_flux, {"solution": PRESSED, "conductivities": (30.0, 40.0)}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
@@ -154,7 +156,13 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
-UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
+UNIT |= {
+    "resistivities": "ohm*m",
+    "resistivity": "ohm*m",
+    "conductivities": "W/m/K",
+    "conductivity": "W/m/K",
+    "drop": "V",
+}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
 MDR = rc.mdr

@@ -84,6 +84,7 @@ if TYPE_CHECKING or _LATE is None:
         largest_von_mises as largest_von_mises,
     )
     from roughcontact.evaluation.conduction import conductance as conductance
+    from roughcontact.evaluation.contact_flux import ContactFlux as ContactFlux, contact_flux as contact_flux
     from roughcontact.evaluation.error_sources import error_budget as error_budget
     from roughcontact.evaluation.interface_table import (
         InterfaceTable as InterfaceTable,

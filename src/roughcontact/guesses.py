@@ -41,6 +41,7 @@ _GUESSED = {
         "rc.loading_curve": "curve",
         "rc.loading_loop": "loop",
         "rc.power_spectrum": "psd",
+        "rc.contact_flux": "flux heat_flux current_density spot_currents",
     },
     "Surface": {
         "heights": "data values z",
@@ -59,6 +60,7 @@ _GUESSED = {
     "Curve": _CURVE
     | {"nominal_pressure": "pressure", "fit().exponent": "exponent", "to_dataframe()": "to_pandas"},
     **dict.fromkeys(("AdhesiveCurve", "DetachmentCurve"), _CURVE | _TABLE),
+    "ContactFlux": {"largest, since the largest density depends on the grid": "largest_density max_density"},
     "Loop": _TABLE | {f"loading.{name} or unloading.{name}": name for name in _BRANCHES},
     "Solid": _SOLID,
     "Material": {f"solid.{meant}": f"{meant} {names}" for meant, names in _SOLID.items()},

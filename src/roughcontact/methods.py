@@ -41,6 +41,10 @@ if TYPE_CHECKING:
     )
     from roughcontact.contact.loop_dataset import loop_dataset as loop_dataset, loop_record as loop_record
     from roughcontact.contact.notes import notes_on as notes_on
+    from roughcontact.evaluation.flux_dataset import (
+        flux_dataframe as flux_dataframe,
+        flux_dataset as flux_dataset,
+    )
     from roughcontact.evaluation.interface_dataset import interface_dataset as interface_dataset
     from roughcontact.files.save import csv_of as csv_of
     from roughcontact.files.surface_dataset import (
@@ -55,6 +59,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
+        plot_flux as plot_flux,
         plot_loop as plot_loop,
         plot_solution as plot_solution,
         plot_state as plot_state,
@@ -103,11 +108,12 @@ else:
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",
         "contact.notes": "notes_on",
+        "evaluation.flux_dataset": "flux_dataframe flux_dataset",
         "evaluation.interface_dataset": "interface_dataset",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
-        "plot.answers": "plot_curve plot_loop plot_solution plot_state plot_surface",
+        "plot.answers": "plot_curve plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.detachment_plot": "detachment_force",
         "plot.jumps": "jump_loop",
         "plot.notebook": (

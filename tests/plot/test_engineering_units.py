@@ -101,8 +101,11 @@ def test_numbers_of_a_power_keep_to_a_range_between_prefixes(power):
 
 
 def test_every_unit_of_the_table_can_be_printed():
-    mechanics, conductance = {"", "N", "m", "N/m", "m²", "m³", "J", "Pa"}, {"S", "ohm", "W/K", "K/W"}
-    per_area = {"J/m²", "Pa/m", "S/m²", "m²·ohm", "W/m²/K", "m²·K/W"}
+    mechanics, conductance = (
+        {"", "N", "m", "N/m", "m²", "m³", "J", "Pa"},
+        {"S", "ohm", "W/K", "K/W", "A", "V", "W", "K"},
+    )
+    per_area = {"J/m²", "Pa/m", "S/m²", "m²·ohm", "W/m²/K", "m²·K/W", "A/m²", "W/m²"}
     assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance | per_area
 
 

@@ -309,6 +309,52 @@ ANSWERS = [
         lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8), of="total"),
     ),
     row(
+        lambda: rc.contact_flux(pressed()),
+        "give exactly one of resistivities and conductivities: none is given",
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)),
+        lambda: rc.contact_flux(pressed(), conductivities=(50.0, 50.0)),
+    ),
+    row(
+        lambda: rc.contact_flux(line(), resistivities=(1e-8, 1e-8)),
+        "depends on the size of the bodies: press a map of heights",
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)),
+    ),
+    row(
+        lambda: rc.contact_flux(
+            rc.press(PROFILE, MODULUS, force=1.0, operator=rc.foundation(LINE, MODULUS)),
+            resistivities=(1e-8, 1e-8),
+        ),
+        "known only between half-spaces: press a map of heights without operator=",
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)),
+    ),
+    row(
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8), drop=-1.0),
+        "the drop [V or K] must be positive and finite, not -1.0",
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8), drop=1.0),
+    ),
+    row(
+        lambda: rc.contact_flux(rc.press(PERIODIC, MODULUS, pressure=MODULUS), resistivities=(1e-8, 1e-8)),
+        "the whole period is in contact: the interface has no resistance; press less hard",
+        lambda: rc.contact_flux(rc.press(PERIODIC, MODULUS, depth=FULL / 2), resistivities=(1e-8, 1e-8)),
+    ),
+    row(
+        lambda: rc.contact_flux(
+            rc.press(heights(rc.Grid((16, 16), 1e-6, (True, False))), MODULUS, force=1e-5),
+            resistivities=(1e-8, 1e-8),
+        ),
+        "depends on the size of the bodies: use of='interface'",
+        lambda: rc.contact_flux(
+            rc.press(heights(rc.Grid((16, 16), 1e-6, (True, False))), MODULUS, force=1e-5),
+            resistivities=(1e-8, 1e-8),
+            of="interface",
+        ),
+    ),
+    row(
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)).plot(field="current"),
+        "field must be 'share', 'density' or 'resistance', not 'current'",
+        lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)).plot(field="density"),
+    ),
+    row(
         lambda: rc.interface_table(curve(ROUGH)),
         "the curve has 0: take the forces that load_range finds for the surface, a finer grid",
         lambda: rc.interface_table(curve(FINE)),

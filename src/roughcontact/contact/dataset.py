@@ -28,7 +28,15 @@ from roughcontact.labels.contact_columns import (
     STATE,
     STATE_NAMES,
 )
-from roughcontact.labels.labelled import Variables, centres, dataset_of, record_of, variable, variables_of
+from roughcontact.labels.labelled import (
+    Variables,
+    centres,
+    dataframe_of,
+    dataset_of,
+    record_of,
+    variable,
+    variables_of,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -119,11 +127,7 @@ def curve_dataframe(curve: Curve) -> pandas.DataFrame:
     >>> frame["force"].round(6).tolist(), frame.attrs["units"]["force"], bool(frame["resolved"].any())
     ([0.001, 0.002], 'N', False)
     """
-    dataset = curve_dataset(curve)
-    columns = dataset[[name for name, values in dataset.items() if values.dims == ("load",)]]
-    frame = columns.to_dataframe()
-    frame.attrs["units"] = {name: values.attrs.get("units", "") for name, values in columns.items()}
-    return frame
+    return dataframe_of(curve_dataset(curve), "load")
 
 
 def solution_dataset(solution: Solution) -> xarray.Dataset:

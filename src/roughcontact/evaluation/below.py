@@ -26,6 +26,7 @@ __all__ = [
     "below",
     "displacement_below",
     "half_space_grid",
+    "is_half_space",
     "largest_von_mises",
     "loaded_part",
     "ratio_of",
@@ -214,19 +215,27 @@ def half_space_grid(solution: Solution) -> Grid:
             f"fields below the surface are those of a surface of two axes, not of a {problem.geometry.value}",
             "press a map of heights",
         )
-    row = sum(grid.periodic) == 1
-    own = solution.displacement
-    alike = half_space(grid, 1.0).apply(solution.pressure)
-    if row:  # whose constant is arbitrary
-        own, alike = own - own.mean(), alike - alike.mean()
-    size = float(np.vdot(alike, alike))
-    factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
-    in_own_cell = float(solution.pressure.max()) * grid.cell_area / cell_stiffness(problem.operator)
-    if np.abs(own - factor * alike).max() > ALIKE * np.abs(own).max() + ROUNDING * in_own_cell:
+    if not is_half_space(solution):
         raise InputError(
             "only the field below a half-space is known, and this is the solution of another body"
         )
     return grid
+
+
+def is_half_space(solution: Solution) -> bool:
+    """Return whether the body is a half-space under a map of heights, whatever its modulus."""
+    grid = solution.problem.grid
+    if solution.problem.geometry is not Geometry.SURFACE or not isinstance(grid, Grid):
+        return False
+    own = solution.displacement
+    alike = half_space(grid, 1.0).apply(solution.pressure)
+    if sum(grid.periodic) == 1:  # whose constant is arbitrary
+        own, alike = own - own.mean(), alike - alike.mean()
+    size = float(np.vdot(alike, alike))
+    factor = float(np.vdot(alike, own)) / size if size else 0.0  # the modulus
+    in_own_cell = float(solution.pressure.max()) * grid.cell_area / cell_stiffness(solution.problem.operator)
+    allowed = ALIKE * np.abs(own).max() + ROUNDING * in_own_cell
+    return bool(np.abs(own - factor * alike).max() <= allowed)
 
 
 def ratio_of(solid: Solid | float) -> float:

@@ -24,6 +24,7 @@ from roughcontact.contact.loop import Loop
 from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
+from roughcontact.evaluation.contact_flux import ContactFlux
 from roughcontact.evaluation.interface_table import InterfaceTable
 from roughcontact.evaluation.interface_text import UNIT_SYSTEMS, abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
@@ -51,7 +52,7 @@ Field = npt.NDArray[np.generic]
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
 Pressed = Solution | TangentialSolution | AdhesiveState | DetachmentState
 Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
-Writable = Surface | Pressed | Curves | InterfaceTable
+Writable = Surface | Pressed | Curves | InterfaceTable | ContactFlux
 
 
 def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") -> None:
@@ -59,10 +60,10 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
 
     ==========  ==================================================================================================
     ``.npz``    a surface: heights, spacing, unit, periodic, history; read back to the last bit
-    ``.nc``     a surface, a solution, a curve or a loop, NetCDF-4; the surface in it is read back to the last bit (of a
-                loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`, with
-                adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
-    ``.csv``    a curve, a loop, or the table of an interface: one line a load
+    ``.nc``     a surface, a solution, a flux, a curve or a loop, NetCDF-4; the surface in it is read back to the last
+                bit (of a loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`,
+                with adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
+    ``.csv``    a curve, a loop, or the table of an interface: one line a load; the flux of a contact: one line a spot
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, except ``periodic`` and the
                 history, for which the format has no place
     ``.txt``    a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
@@ -110,6 +111,9 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return
+    if isinstance(what, ContactFlux):
+        _OF_A_FLUX[_require_kind(path, type(what).__name__, _OF_A_FLUX)](what, path)
+        return
     if isinstance(what, InterfaceTable):
         kind = _require_kind(path, type(what).__name__, _OF_AN_INTERFACE)
         _OF_AN_INTERFACE[kind](what, path, units)
@@ -135,12 +139,12 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
         aside.write_bytes(encoded(here))
 
 
-def csv_of(curve: Curves | InterfaceTable, path: str | os.PathLike[str]) -> None:
-    """Write a curve, a loop or the table of an interface as comma-separated values: one line a load, in SI units.
+def csv_of(curve: Curves | InterfaceTable | ContactFlux, path: str | os.PathLike[str]) -> None:
+    """Write a curve, a loop or a table as comma-separated values: one line a load, or a spot of a flux, in SI units.
 
     Parameters
     ----------
-    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve or InterfaceTable
+    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve, InterfaceTable or ContactFlux
     path : str or path
         File to write, whatever its extension; an existing file is replaced.
 
@@ -158,7 +162,7 @@ def csv_of(curve: Curves | InterfaceTable, path: str | os.PathLike[str]) -> None
     ...     file.readline().startswith("force")
     True
     """
-    write_csv(curve.to_dataset(), path)
+    write_csv(curve.to_dataset(), path, dimension="spot" if isinstance(curve, ContactFlux) else None)
 
 
 def _write_in_slabs(what: Any, path: str | os.PathLike[str]) -> None:
@@ -210,6 +214,11 @@ def _require_kind(path: str | os.PathLike[str], what: str, known: Iterable[str],
     if kind == ".nc":
         require_netcdf()
     return kind
+
+
+def _flux_netcdf(flux: ContactFlux, path: str | os.PathLike[str]) -> None:
+    problem = flux.solution.problem
+    write_netcdf(flux.to_dataset(), path, provenance(problem.surface, modulus=problem.modulus))
 
 
 def _vti(surface: Surface) -> bytes:
@@ -324,5 +333,8 @@ _OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] =
 )
 _OF_AN_INTERFACE: Mapping[str, Callable[[InterfaceTable, str | os.PathLike[str], str], None]] = (
     MappingProxyType({".csv": _interface_csv, ".inp": _interface_inp, ".table": _interface_lammps})
+)
+_OF_A_FLUX: Mapping[str, Callable[[ContactFlux, str | os.PathLike[str]], None]] = MappingProxyType(
+    {".nc": _flux_netcdf, ".csv": csv_of}
 )
 _OF_A_CURVE: Mapping[str, Callable[..., None]] = MappingProxyType({".nc": write_netcdf, ".csv": write_csv})

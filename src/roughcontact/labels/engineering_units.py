@@ -48,7 +48,7 @@ def scale(largest: float, unit: str) -> Scale:
     found = re.search(r"-?\d+$", first)
     power = int(found.group()) if found else 1
     exponent = 0
-    if math.isfinite(largest) and largest > 0 and first not in ("", "1"):
+    if math.isfinite(largest) and largest > 0 and first not in ("", "1", "%"):
         lowest = -2 * (abs(power) - 1)  # decade in which the numbers begin
         # The small factor keeps 1e-6 m, which rounding may put just below, at 1 µm.
         decades = math.log10(largest * (1 + 1e-9)) - lowest

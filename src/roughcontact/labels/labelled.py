@@ -18,12 +18,14 @@ from roughcontact.labels.column import CELLS, Column, Table
 from roughcontact.labels.variables import VARIABLES
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 
 __all__ = [
     "attributes_of",
     "centres",
+    "dataframe_of",
     "dataset_of",
     "described",
     "plain_values",
@@ -123,6 +125,14 @@ def dataset_of(
     axis = (("axis",), list(geometry.axes), {"long_name": words})
     attributes = {"Conventions": "CF-1.11", "title": title, "geometry": geometry.value}
     return xarray.Dataset(dict(data), coordinates | {"axis": axis}, attributes)
+
+
+def dataframe_of(dataset: xarray.Dataset, dimension: str) -> pandas.DataFrame:
+    """Return the variables along a dimension as a table of pandas; ``attrs["units"]`` holds the unit of each column."""
+    columns = dataset[[name for name, values in dataset.items() if values.dims == (dimension,)]]
+    frame = columns.to_dataframe()
+    frame.attrs["units"] = {name: values.attrs.get("units", "") for name, values in columns.items()}
+    return frame
 
 
 def units_of(record: dict[str, Any], geometry: Geometry) -> dict[str, str]:

@@ -14,13 +14,14 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import about
-from roughcontact.plot import curves, loops, maps, profile_plot
+from roughcontact.evaluation.contact_flux import ContactFlux
+from roughcontact.plot import curves, flux_plot, loops, maps, profile_plot
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 
-__all__ = ["plot_curve", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
+__all__ = ["plot_curve", "plot_flux", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
@@ -134,6 +135,45 @@ def plot_curve(
         raise about("quantity", f"must be one of {', '.join(every)}, not {quantity!r}")
     draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve
     return draw(curve, ax, quantity=quantity, law=law, theories=theories)
+
+
+def plot_flux(
+    flux: ContactFlux,
+    ax: Axes | None = None,
+    *,
+    field: Literal["share", "density", "resistance"] = "share",
+) -> Axes:
+    """Draw the share of each spot, the density of each cell, or the resistances of the spots against their areas.
+
+    Parameters
+    ----------
+    flux : ContactFlux
+    ax : Axes, optional
+        Axes to draw on; by default those of a new figure.
+    field : {"share", "density", "resistance"}
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the field is unknown.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> solution = rc.press(rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4), 1e9, force=1e-3)
+    >>> flux = rc.contact_flux(solution, resistivities=(1.7e-8, 1.7e-8))
+    >>> [flux.plot(field=each).get_xlabel() for each in ("share", "density", "resistance")]
+    ['x [µm]', 'x [µm]', 'area of a contact spot [µm²]']
+    """
+    if field == "resistance":
+        return flux_plot.spot_resistances(flux, ax)
+    if field not in ("share", "density"):
+        raise about("field", f"must be 'share', 'density' or 'resistance', not {field!r}")
+    return flux_plot.flux_map(flux, ax, field=field)
 
 
 def plot_loop(

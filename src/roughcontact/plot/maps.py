@@ -31,7 +31,7 @@ from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, numeric
 
-__all__ = ["colour_limit", "contact_map", "height_map", "pressure_map"]
+__all__ = ["colour_limit", "contact_field", "contact_map", "height_map", "pressure_map"]
 
 _CONTACT = "#c8290b"
 _SPIKE, _RING = "#d55e00", 90  # a colour outside viridis, and the size of a ring [points^2]
@@ -116,21 +116,27 @@ def pressure_map(solution: Solution, ax: Axes | None = None, *, window: Window |
     >>> [float(x) for x in axes.get_xlim()], axes.get_xlabel()
     ([16.0, 48.0], 'x [µm]')
     """
-    solution = solution.on_host()
+    solution, column = solution.on_host(), VARIABLES["pressure"]
+    return contact_field(solution, solution.pressure, (column.label, column.unit), ax, window)
+
+
+def contact_field(
+    solution: Solution, values: Array, label: tuple[str, str], ax: Axes | None, window: Window | None = None
+) -> Axes:
+    """Draw a field of the cells in contact in colour over the heights, as `pressure_map` does; label: name and unit."""
     grid, cells = solution.problem.grid, part(solution.problem.grid, window)
     axes = axes_for(ax)
     _backdrop(axes, solution, window)
-    chosen = scale(float(solution.pressure.max()), VARIABLES["pressure"].unit)
-    pressure = np.where(solution.contact[cells], solution.pressure[cells] * chosen.factor, np.nan)
-    highest, cut = colour_limit(pressure[~np.isnan(pressure)])
-    end = written(highest / chosen.factor, VARIABLES["pressure"].unit)
-    words = f"\n(colours end at {end})" if cut else ""
-    image = show(axes, pressure, grid, cells, "inferno", (0.0, highest))
-    x, y, peaks, _ = _marks(solution, cells)
+    name, unit = label
+    chosen = scale(float(values.max()), unit)
+    shown = np.where(solution.contact[cells], values[cells] * chosen.factor, np.nan)
+    highest, cut = colour_limit(shown[~np.isnan(shown)])
+    words = f"\n(colours end at {written(highest / chosen.factor, unit)})" if cut else ""
+    image = show(axes, shown, grid, cells, "inferno", (0.0, highest))
+    x, y, places, _ = _marks(solution, cells)
     dots: Any = {"s": 16, "cmap": image.cmap, "norm": image.norm, "linewidths": 0.5, "edgecolors": "white"}
-    axes.scatter(x, y, c=peaks * chosen.factor, **dots)
-    name = f"{VARIABLES['pressure'].label} [{chosen.unit}]{words}"
-    colour_bar(axes, image, name, "max" if cut else "neither")
+    axes.scatter(x, y, c=values[places] * chosen.factor, **dots)
+    colour_bar(axes, image, f"{name} [{chosen.unit}]{words}", "max" if cut else "neither")
     return axes
 
 
@@ -203,12 +209,11 @@ def _backdrop(axes: Axes, solution: Solution, window: Window | None) -> None:
         heights_image(axes, surface.heights, surface.grid, window, greys)
 
 
-def _marks(solution: Solution, cells: Window) -> tuple[Array, Array, Array, Array]:
-    """Return x, y on the axes, largest pressure [Pa] and load [N] of the spots that need a mark."""
+def _marks(solution: Solution, cells: Window) -> tuple[Array, Array, Any, Array]:
+    """Return x, y on the axes, cell of the largest pressure and load [N] of the spots that need a mark."""
     spots, places = faint_spots(solution, cells)
-    peaks = solution.pressure[tuple(places.T)]
     y, x = (_steps(solution.problem.grid) * (places + 0.5)).T
-    return x, y, peaks, solution.spots.loads[spots]
+    return x, y, tuple(places.T), solution.spots.loads[spots]
 
 
 def _steps(grid: AnyGrid) -> Array:

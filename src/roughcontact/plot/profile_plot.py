@@ -20,7 +20,14 @@ from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, numeric, require
 
-__all__ = ["contact_profile", "draw_contact", "places_of", "pressure_profile", "profile_curve"]
+__all__ = [
+    "contact_profile",
+    "draw_contact",
+    "field_profile",
+    "places_of",
+    "pressure_profile",
+    "profile_curve",
+]
 
 _LINE, _SPIKE, _CONTACT = "#0072b2", "#d55e00", "#c8290b"
 _FLAT = (7.0, 2.8)  # size of a picture of a line
@@ -162,15 +169,21 @@ def pressure_profile(solution: Solution, ax: Axes | None = None) -> Axes:
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('r [µm]', 'pressure [MPa]')
     """
-    solution, axes = _of_line(solution), axes_for(ax, _FLAT)
+    solution = _of_line(solution)
     unit = unit_of("pressure", solution.problem.geometry)
-    largest = float(solution.pressure.max())
-    p, (x, of_x, name) = scale(largest, unit), places_of(solution.problem.grid)
-    axes.stairs(solution.pressure * p.factor, x, fill=True, color=_LINE)
+    axes = field_profile(solution, solution.pressure, (VARIABLES["pressure"].label, unit), ax)
+    axes.set_title(f"at most {written(float(solution.pressure.max()), unit)}", fontsize=LABEL)
+    return axes
+
+
+def field_profile(solution: Solution, values: Array, label: tuple[str, str], ax: Axes | None) -> Axes:
+    """Draw a field along a line or over the radius of rings, each cell as it is; label: name and unit."""
+    axes = axes_for(ax, _FLAT)
+    y, (x, of_x, name) = scale(float(values.max()), label[1]), places_of(solution.problem.grid)
+    axes.stairs(values * y.factor, x, fill=True, color=_LINE)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(bottom=0.0)
-    axes.set_title(f"at most {written(largest, unit)}", fontsize=LABEL)
-    label_axes(axes, f"{name} [{of_x}]", f"{VARIABLES['pressure'].label} [{p.unit}]", grid=True)
+    label_axes(axes, f"{name} [{of_x}]", f"{label[0]} [{y.unit}]", grid=True)
     return axes
 
 
