@@ -276,8 +276,10 @@ def test_only_half_spaces_conduct_by_the_analogy():
     grid = rc.Grid((16, 16), 1e-6)
     ball = rc.shapes.paraboloid(grid, radius=1e-4)
     mat = rc.layer(grid, MODULUS, 2e-6, base="rigid-frictionless")
-    with pytest.raises(ValueError, match="between half-spaces"):
+    with pytest.raises(ValueError, match="proportional only for half-spaces"):
         rc.contact_flux(rc.press(ball, MODULUS, force=1e-2, operator=mat), **COPPER)
+    with pytest.raises(ValueError, match="proportional only for half-spaces"):
+        rc.conductance(rc.press(ball, MODULUS, force=1e-2, operator=mat), **COPPER)
     body = rc.half_space(grid, MODULUS, method="dense")
     assert rc.contact_flux(rc.press(ball, MODULUS, force=1e-2, operator=body), **COPPER).total > 0
 

@@ -324,7 +324,7 @@ ANSWERS = [
             rc.press(PROFILE, MODULUS, force=1.0, operator=rc.foundation(LINE, MODULUS)),
             resistivities=(1e-8, 1e-8),
         ),
-        "known only between half-spaces: press a map of heights without operator=",
+        "the flux through springs is not that of their stiffness: press a map of heights",
         lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)),
     ),
     row(

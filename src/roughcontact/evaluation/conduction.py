@@ -12,6 +12,7 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
+from roughcontact.evaluation.below import is_half_space
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
@@ -136,7 +137,8 @@ def conductance(
     Raises
     ------
     ValueError
-        If the materials make no sense; if the contact is that of a line, whose conductance per length depends on the
+        If the materials make no sense; if the solution is that of a layer, or, for the total, that of a map that is
+        periodic along one axis; if the contact is that of a line, whose conductance per length depends on the
         reference length; if it is a curve under a hardness without the stiffness of unloading; or if `of` is
         ``"interface"`` for a Winkler foundation, which has no interfacial stiffness.
 
@@ -161,6 +163,7 @@ def conductance(
         return with_conductance(contact, materials, of)
     if isinstance(contact, Solution):
         contact = contact.flattened  # plastic cells conduct as well
+        _require_half_spaces(contact, of)
     scales = contact.problem if isinstance(contact, Solution) else contact
     name = _PARTS[of]
     known: Curve | Solution | FlowCurve | None = contact
@@ -234,6 +237,22 @@ def _require_part(of: str) -> None:
     if of not in _PARTS:
         raise about(
             "of", f"must be 'interface' or 'total' (the spreading resistance of the patch in it), not {of!r}"
+        )
+
+
+def _require_half_spaces(solution: Solution, of: str) -> None:
+    """Raise an error for a body to which the analogy does not apply; a curve does not hold its body."""
+    if sum(solution.problem.grid.periodic) == 1 and of == "total":
+        raise InputError(
+            "the total conductance of a map that is periodic along one axis depends on the size of the bodies",
+            "use of='interface'",
+            "of",
+        )
+    if solution.problem.geometry is Geometry.SURFACE and not is_half_space(solution.on_host()):
+        raise InputError(
+            "stiffness and conductance are proportional only for half-spaces",
+            "press a map of heights without operator=",
+            "contact",
         )
 
 

@@ -16,7 +16,6 @@ from roughcontact.contact.solution import Solution
 from roughcontact.contact.spots import Spots
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.errors import InputError
-from roughcontact.evaluation.below import is_half_space
 from roughcontact.evaluation.conduction import Conductors, conductance
 from roughcontact.grid import Grid
 from roughcontact.guesses import hinted
@@ -225,17 +224,9 @@ def contact_flux(
     drop = positive_scalar(drop, "the drop [V or K]")
     solution = solution.on_host().flattened  # plastic cells conduct as well
     found = conductance(solution, resistivities=resistivities, conductivities=conductivities, of=of)
-    if not (solution.problem.geometry is Geometry.RING or is_half_space(solution)):
+    if solution.problem.geometry is Geometry.FOUNDATION:
         raise InputError(
-            "the flux through a contact is known only between half-spaces",
-            "press a map of heights without operator=",
-            "solution",
-        )
-    if of == "total" and sum(solution.problem.grid.periodic) == 1:
-        raise InputError(
-            "the total conductance of a map that is periodic along one axis depends on the size of the bodies",
-            "use of='interface'",
-            "of",
+            "the flux through springs is not that of their stiffness", "press a map of heights", "solution"
         )
     total = float(next(value for name, value in found.items() if name.endswith("_conductance")))
     if math.isinf(solution.stiffness):
