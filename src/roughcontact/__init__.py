@@ -105,6 +105,8 @@ if TYPE_CHECKING or _LATE is None:
         TangentialStiffness as TangentialStiffness,
         tangential_stiffness as tangential_stiffness,
     )
+    from roughcontact.gradients.derivatives import Sensitivity as Sensitivity
+    from roughcontact.gradients.sensitivity import sensitivity as sensitivity
     from roughcontact.grid import Grid as Grid, RadialGrid as RadialGrid
     from roughcontact.halfspace.operators.build import (
         half_space as half_space,

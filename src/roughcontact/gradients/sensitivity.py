@@ -1,0 +1,79 @@
+"""The derivatives of a load, for loads that have them."""
+
+from __future__ import annotations
+
+from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError, about
+from roughcontact.gradients.derivatives import Reference, Sensitivity
+
+__all__ = ["sensitivity"]
+
+
+def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> Sensitivity:
+    """Return the derivatives of a load with respect to the height of every cell.
+
+    They follow from the tangent of the stiffness, so they cost what the stiffness costs. The derivatives are exact at
+    all states but those in which a cell touches without pressure; there they are one-sided, and a note says so. For a
+    curve, take them for each solution of `loading_path`.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of `press` or `loading_path`: elastic, or on first loading under a hardness.
+    reference : {"first touch", "level"}
+        Where the depth counts from. If cells share the greatest height, as on a flat punch, only the depth from a level
+        has derivatives. Raising the highest cell alone moves first touch, but no level.
+
+    Returns
+    -------
+    Sensitivity
+
+    Raises
+    ------
+    ValueError
+        If the load is neither elastic nor first loading under a hardness (adhesion, slip, a flattened surface, a
+        hardness by the size of spots, a surface that rises with flow), or if no cell is in contact elastically.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3), reference="level")
+    >>> f"{derivatives.to_radius(1e-4)['force_at_depth'] * 1e-4 / 1e-3:.2f}"  # Hertz: F is proportional to R^(1/2)
+    '0.51'
+    """
+    if not isinstance(solution, Solution):
+        raise InputError(
+            f"a {type(solution).__name__} has no derivatives here",
+            "give a Solution, as rc.press and rc.loading_path return it",
+            "solution",
+        )
+    if reference not in ("first touch", "level"):
+        raise about("the reference", f"must be 'first touch' or 'level', not {reference!r}")
+    problem = solution.problem
+    for found, words, remedy in (
+        (
+            problem.flow is not None,
+            "a surface that larger loads have flattened depends on its original heights through the flow",
+            "press its present heights: rc.press(solution.problem.surface, ...)",
+        ),
+        (
+            problem.size_law is not None,
+            "a hardness that depends on the size of spots changes in steps with the heights",
+            "give the hardness as a number",
+        ),
+        (
+            problem.rise != 0,
+            "a surface that rises with flow depends on the loads before",
+            "press with flow='removed'",
+        ),
+    ):
+        if found:
+            raise InputError(words, remedy, "solution")
+    if not solution.frozen.stiffness > 0:
+        raise InputError(
+            "no cell is in contact elastically, so no force grows with the depth",
+            "press deeper, or under a greater hardness",
+            "solution",
+        )
+    return Sensitivity(solution, reference)
