@@ -221,7 +221,7 @@ class Sensitivity:
         >>> first, second = (rc.sensitivity(s) for s in rc.loading_path(ball, 1e9, forces=[1e-3, 1.2e-3]))
         >>> secant, derivative = first.secant_stiffness(second)
         >>> f"{secant / first.stiffness:.2f}", derivative.shape
-        ('1.03', (33, 33))
+        ('1.02', (33, 33))
         """
         a, b = self.solution, other.solution
         if a.problem.grid != b.problem.grid:

@@ -40,7 +40,7 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
     >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
     >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3), reference="level")
     >>> f"{derivatives.to_radius(1e-4)['force_at_depth'] * 1e-4 / 1e-3:.2f}"  # Hertz: F is proportional to R^(1/2)
-    '0.51'
+    '0.53'
     """
     if not isinstance(solution, Solution):
         raise InputError(
