@@ -35,9 +35,7 @@ def _plane(shape=(48, 48), spacing=SIDE, periodic=False, *, holes=False, force, 
     if holes:
         heights[np.unravel_index(heights.argmax(), shape)] = np.nan  # the highest cell is another one then
         heights[10:14, 20:25] = np.nan
-    return Case(
-        rc.Surface(heights, grid), {} if operator is None else {"operator": operator(grid)}, force
-    )
+    return Case(rc.Surface(heights, grid), {} if operator is None else {"operator": operator(grid)}, force)
 
 
 def _line(operator, force=0.002):
@@ -107,7 +105,9 @@ def pair(case, direction, level=None, **load):
     states = []
     for sign in (1, -1):
         body, at = moved(case.body, sign * step * direction), dict(load)
-        if level is not None:  # the depth from a level, which is that since first touch less the rise of the highest
+        if (
+            level is not None
+        ):  # the depth from a level, which is that since first touch less the rise of the highest
             at = {"depth": load["depth"] + np.nanmax(body.heights) - level}
         states.append(pressed(case, body, **at))
     same = np.array_equal(states[0].contact, states[1].contact) and np.array_equal(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from perturbed import CASES, MODULUS, moved, pair, pressed, single, uncertainty
+from perturbed import CASES, pair, pressed, single, uncertainty
 
 VALUES = {"force": "force", "depth": "depth", "mean_gap": "mean_gap", "energy": "elastic_energy"}
 QUANTITIES = (

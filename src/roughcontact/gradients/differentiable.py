@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,9 +23,12 @@ from roughcontact.materials import Modulus
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array, number, numeric
 
 __all__ = ["CurveValues", "DifferentiableCurve", "differentiable_curve"]
+
+Weights: TypeAlias = float | Sequence[float] | Array
+"""Derivatives of a scalar with respect to one quantity of each load."""
 
 
 class CurveValues(NamedTuple):
@@ -91,7 +94,8 @@ class DifferentiableCurve:
         Raises
         ------
         ValueError
-            If the heights do not fit the grid, or a load has no derivatives, see `sensitivity`.
+            If the heights do not fit the grid, no cell touches at a depth from a level, or a load has no derivatives,
+            see `sensitivity`.
         ConvergenceError
             If a load missed its tolerance.
 
@@ -110,7 +114,7 @@ class DifferentiableCurve:
         """
         body = self._body(heights)
         level = float(np.nanmax(heights)) if self.reference == "level" else 0.0
-        loads = Loads("depth", self.loads.values + level) if self._of_depths else self.loads
+        loads = self._since_first_touch(level)
         path = solutions_along(body, self.modulus, loads, self.operator, None, self.tolerance, self.hardness)
         states = [self._derivatives(solution) for solution in path]
         values = CurveValues(
@@ -120,12 +124,17 @@ class DifferentiableCurve:
             )
         )
 
-        def pullback(**given: Array) -> Array:
+        def pullback(
+            *,
+            force: Weights = 0.0,
+            depth: Weights = 0.0,
+            mean_gap: Weights = 0.0,
+            energy: Weights = 0.0,
+        ) -> Array:
             total = np.zeros(self.grid.shape)
-            for name, derivatives in given.items():
-                for state, weight in zip(
-                    states, np.broadcast_to(derivatives, values.force.shape), strict=True
-                ):
+            for name, given in zip(CurveValues._fields, (force, depth, mean_gap, energy), strict=True):
+                weights = self._fitting(given, name)
+                for state, weight in zip(states, weights, strict=True):
                     if weight and name != self._held:
                         total += weight * getattr(state, f"{name}_at_{self._held}")
             return total
@@ -139,6 +148,24 @@ class DifferentiableCurve:
     @property
     def _held(self) -> str:
         return "depth" if self._of_depths else "force"
+
+    def _since_first_touch(self, level: float) -> Loads:
+        if not (self._of_depths and self.reference == "level"):
+            return self.loads
+        depths = self.loads.values + level
+        if not depths[0] > 0:
+            raise about(
+                "depths",
+                f"count from the level: at {self.loads.values[0]:g} m no cell touches",
+                f"give more than {-level:g} m",
+            )
+        return Loads("depth", depths)
+
+    def _fitting(self, given: Weights, name: str) -> Array:
+        weights = number(given, f"the derivative with respect to {name}")
+        if weights.shape not in ((), self.loads.values.shape):
+            raise about(name, f"has the shape {weights.shape}, the loads {self.loads.values.shape}")
+        return np.broadcast_to(weights, self.loads.values.shape)
 
     def _derivatives(self, solution: Solution) -> Sensitivity:
         if not solution.status.converged:
