@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.validation import Array, numeric, positive_scalar
 
-__all__ = ["Reference", "Sensitivity"]
+__all__ = ["Reference", "Sensitivity", "require_reference"]
 
 Reference: TypeAlias = Literal["first touch", "level"]
 """Where the depth counts from: first touch, as everywhere, or a level that does not move with the highest cell."""
@@ -33,6 +33,12 @@ DIFFERENTIABLE = (
     *("force_at_depth", "depth_at_force", "mean_gap_at_force", "mean_gap_at_depth"),
     *("energy_at_force", "energy_at_depth"),
 )
+
+
+def require_reference(reference: object) -> None:
+    """Raise a ValueError for a word that is no `Reference`."""
+    if reference not in get_args(Reference):
+        raise about("the reference", f"must be 'first touch' or 'level', not {reference!r}")
 
 
 @hinted
@@ -270,8 +276,8 @@ class Sensitivity:
         >>> import roughcontact as rc
         >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
         >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
-        >>> f"{derivatives.to_radius(1e-4)['depth_at_force'] * 1e6:.0f} nm/mm"  # Hertz: d goes as R^(-1/3)
-        '-600 nm/mm'
+        >>> f"{derivatives.to_radius(1e-4)['depth_at_force'] * 1e6:.0f} nm/mm"  # Hertz: -d/(3 R), here -590
+        '-613 nm/mm'
         """
         return self.along(-self._heights / positive_scalar(radius, "radius [m]"))
 
@@ -445,10 +451,11 @@ class Sensitivity:
             )
         touching = int(solution.problem.measure.xp.count_nonzero(solution.touching))
         if touching:
-            cells = "1 cell touches" if touching == 1 else f"{touching} cells touch"
+            cells, them = ("1 cell touches", "it") if touching == 1 else (f"{touching} cells touch", "them")
             yield Note(
                 Rank.LIMITED,
-                f"{cells} without pressure. The derivatives hold for changes that open them, as the stiffness does.",
+                f"{cells} without pressure: the derivatives hold for changes that open {them}. For changes that close "
+                f"{them} they differ.",
             )
 
     @cached_property

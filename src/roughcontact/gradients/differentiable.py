@@ -14,7 +14,7 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import about
-from roughcontact.gradients.derivatives import Reference, Sensitivity
+from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 from roughcontact.gradients.sensitivity import sensitivity
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.operator import Operator
@@ -23,7 +23,7 @@ from roughcontact.materials import Modulus
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, number, numeric
+from roughcontact.validation import Array, number, numeric, shown
 
 __all__ = ["CurveValues", "DifferentiableCurve", "differentiable_curve"]
 
@@ -44,6 +44,14 @@ class CurveValues(NamedTuple):
         Mean gap [m].
     energy : array
         Elastic energy [J].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> values, _ = rc.differentiable_curve(ball.grid, 1e9, forces=[1e-3, 2e-3]).linearise(ball.heights)
+    >>> values._fields, values.mean_gap.shape
+    (('force', 'depth', 'mean_gap', 'energy'), (2,))
     """
 
     force: Array
@@ -65,6 +73,14 @@ class DifferentiableCurve:
     operator : Operator, optional
     tolerance : float
     hardness : float, array or Material, optional
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((33, 33), 1e-6)
+    >>> curve = rc.DifferentiableCurve(grid, 1e9, rc.differentiable_curve(grid, 1e9, forces=[1e-3]).loads)
+    >>> curve.linearise(rc.shapes.paraboloid(grid, radius=1e-4).heights)[0].force
+    array([0.001])
     """
 
     grid: AnyGrid
@@ -220,7 +236,7 @@ def differentiable_curve(
     Raises
     ------
     ValueError
-        If not exactly one kind of loads is given, or they do not increase.
+        If not exactly one kind of loads is given, they do not increase, or grid or reference is another value.
 
     Examples
     --------
@@ -230,6 +246,9 @@ def differentiable_curve(
     >>> f"{values.depth[0] * 1e9:.0f} nm"
     '177 nm'
     """
+    if not isinstance(grid, AnyGrid):
+        raise about("the grid", f"must be a Grid or a RadialGrid, not {shown(grid)}")
+    require_reference(reference)
     loads = Loads.of(forces=forces, depths=depths, pressures=pressures).rising(
         "give the loads in order, each once"
     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError, about
-from roughcontact.gradients.derivatives import Reference, Sensitivity
+from roughcontact.errors import InputError
+from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 
 __all__ = ["sensitivity"]
 
@@ -58,8 +58,7 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
     """
     if not isinstance(solution, Solution):
         raise _without(solution)
-    if reference not in ("first touch", "level"):
-        raise about("the reference", f"must be 'first touch' or 'level', not {reference!r}")
+    require_reference(reference)
     problem = solution.problem
     for found, words, remedy in (
         (
