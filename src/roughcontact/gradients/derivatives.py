@@ -81,36 +81,36 @@ class Sensitivity:
     @cached_property
     def depth_at_force(self) -> Array:
         """Derivative of the depth at given force [1]."""
-        return self._highest - self.share
+        return self._highest - self.share  # G3
 
     @cached_property
     def force_at_depth(self) -> Array:
         """Derivative of the force at given depth [N/m]."""
-        return -self._linear.finite_stiffness * self.depth_at_force
+        return -self._linear.finite_stiffness * self.depth_at_force  # G3
 
     @cached_property
     def mean_gap_at_force(self) -> Array:
         """Derivative of the mean gap at given force [1]."""
-        return self._linear.mean_gap + (1 - self._linear.closing) * self.share
+        return self._linear.mean_gap + (1 - self._linear.closing) * self.share  # G6
 
     @cached_property
     def mean_gap_at_depth(self) -> Array:
         """Derivative of the mean gap at given depth [1]."""
         self._linear.require_finite_stiffness()
-        return self._linear.mean_gap + (1 - self._linear.closing) * self._highest
+        return self._linear.mean_gap + (1 - self._linear.closing) * self._highest  # G6
 
     @cached_property
     def energy_at_force(self) -> Array:
         """Derivative of the elastic energy at given force [N]."""
         self._require_elastic()
-        return self._linear.forces - self.solution.force * self.share
+        return self._linear.forces - self.solution.force * self.share  # G4
 
     @cached_property
     def energy_at_depth(self) -> Array:
         """Derivative of the elastic energy at given depth [N]."""
         self._require_elastic()
         self._linear.require_finite_stiffness()
-        return self._linear.forces - self.solution.force * self._highest
+        return self._linear.forces - self.solution.force * self._highest  # G4
 
     def along(self, direction: Array) -> dict[str, float]:
         """Return the derivatives as all heights change along a direction.
@@ -118,7 +118,7 @@ class Sensitivity:
         Parameters
         ----------
         direction : array, shape of the grid
-            Change of each height per unit of a parameter [m per unit]; values of missing cells do not count.
+            Change of each height, in metres per unit of a parameter; values of missing cells do not count.
 
         Returns
         -------
@@ -162,9 +162,10 @@ class Sensitivity:
         Parameters
         ----------
         pressure : array, shape of the grid, optional
-            Derivatives of the scalar with respect to the pressure of each cell [per Pa].
+            Derivatives of the scalar with respect to the pressure of each cell, per pascal.
         displacement, gap : array, shape of the grid, optional
-            Derivatives with respect to displacement and gap of each cell [per m]; those of missing cells do not count.
+            Derivatives with respect to displacement and gap of each cell, per metre; those of missing cells do not
+            count.
         held : {"force", "depth"}
             The given load.
 
@@ -194,7 +195,7 @@ class Sensitivity:
             raise about("held", f"must be 'force' or 'depth', not {held!r}")
         self._linear.require_finite_stiffness()
         heights, depth = self._linear.pullback(pressure, displacement, gap)
-        return heights - depth * (self.share if held == "force" else self._highest)
+        return heights - depth * (self.share if held == "force" else self._highest)  # G10
 
     def secant_stiffness(self, other: Sensitivity) -> tuple[float, Array]:
         """Return the secant stiffness to another load of the same bodies, and its derivatives.
@@ -420,7 +421,7 @@ class Sensitivity:
             raise InputError("the load has no hardness", "press with hardness=")
         flowing = measure.xp.astype(self.solution.plastic, self.solution.pressure.dtype)
         displacement = exact_of(problem.operator).apply(flowing)
-        force = measure.total(flowing) - measure.dot(self._linear.frozen.tangent, displacement)
+        force = measure.total(flowing) - measure.dot(self._linear.frozen.tangent, displacement)  # G11
         return {"force_at_depth": force, "depth_at_force": -force / self._linear.finite_stiffness}
 
     @property
