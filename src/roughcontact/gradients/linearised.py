@@ -51,7 +51,7 @@ class LinearisedContact:
 
     @property
     def tolerance(self) -> float:
-        """Of the linear problems on the region."""
+        """The tolerance of the linear problems on the region."""
         return min(TOLERANCE, DIGITS * self.solution.problem.tolerance)
 
     @property
@@ -82,7 +82,7 @@ class LinearisedContact:
     @cached_property
     def share(self) -> Array:
         """Part of a further load that each cell takes, ``w t / k`` [1]."""
-        if self.full:  # contact: a load is spread evenly
+        if self.full:  # G2: a load is spread evenly
             return self._of_measured
         return self.weighted(self.frozen.tangent) / self.frozen.stiffness  # G2
 

@@ -28,7 +28,8 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
     """Return the derivatives of a load with respect to the height of every cell.
 
     They follow from the tangent of the stiffness, so they cost what the stiffness costs. The derivatives are exact
-    except in states in which a cell touches without pressure; there they are one-sided, and a note reports it. For a curve, take them for each solution of `loading_path`, or use `differentiable_curve`.
+    except in states in which a cell touches without pressure; there they are one-sided, and a note reports it. For a
+    curve, take them for each solution of `loading_path`, or use `differentiable_curve`.
 
     Parameters
     ----------
@@ -36,7 +37,7 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
         Of `press` or `loading_path`: elastic, or on first loading under a hardness.
     reference : {"first touch", "level"}
         Where the depth counts from. If cells share the greatest height, as on a flat punch, only the depth from a level
-        has derivatives. Raising the highest cell alone moves first touch, but no level.
+        has derivatives. The highest cell moves first touch, but no level.
 
     Returns
     -------
