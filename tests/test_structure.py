@@ -37,6 +37,7 @@ ORDER = [
     {"solver"},
     {"statistics"},
     {"contact"},
+    {"gradients"},
     {"evaluation"},
     {"adhesion"},
     {"friction"},

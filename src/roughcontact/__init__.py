@@ -106,6 +106,13 @@ if TYPE_CHECKING or _LATE is None:
         TangentialStiffness as TangentialStiffness,
         tangential_stiffness as tangential_stiffness,
     )
+    from roughcontact.gradients.derivatives import Sensitivity as Sensitivity
+    from roughcontact.gradients.differentiable import (
+        CurveValues as CurveValues,
+        DifferentiableCurve as DifferentiableCurve,
+        differentiable_curve as differentiable_curve,
+    )
+    from roughcontact.gradients.sensitivity import sensitivity as sensitivity
     from roughcontact.grid import Grid as Grid, RadialGrid as RadialGrid
     from roughcontact.halfspace.operators.build import (
         half_space as half_space,
