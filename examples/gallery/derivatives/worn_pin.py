@@ -1,6 +1,6 @@
 """
-Edge radius and tilt of a worn pin from its loading curve
-=========================================================
+Inverse problem: edge radius and tilt of a worn pin from its loading curve
+==========================================================================
 
 A pin has a flat of known radius with a rounded edge. It is pressed on a flat body, tilted by an unknown angle,
 and the zero of the depth gauge is unknown too. Gauss-Newton steps with the exact derivatives of `sensitivity` find
@@ -8,8 +8,8 @@ edge radius, tilt and zero from measured depths.
 
 * Pass the change of each height per unit of a parameter to `along`: s²/(2 R²) for the edge radius R, at the distance
   s from the flat, and x for the tilt. The derivative with respect to the zero is 1.
-* The highest cells of a flat pin tie, so the depth from first touch has no derivative. With `reference="level"` the
-  depth counts from the zero of the heights: it is `solution.depth` minus the greatest height.
+* The highest cells of a flat pin tie, so the depth from first touch has no derivative. With ``reference="level"`` the
+  depth counts from the zero of the heights: it is ``solution.depth`` minus the greatest height.
 * With the noise σ of the depth, the derivatives J give the Fisher matrix J^T J/σ². The diagonal of its inverse
   holds the squared errors of the parameters.
 * Tilts of both signs have the same curve. Do not start at zero tilt, where the derivative vanishes.
@@ -102,7 +102,7 @@ profile.set(xlabel="x [mm]", ylabel="height [µm]", title="section of the pin")
 profile.legend()
 law.plot(predicted(start, flat)[0], forces, "C1--", label="start")
 law.plot(depths, forces, "C0-", label="found")
-law.plot(measured, forces, "k.", label="measured")
+law.plot(measured, forces, "C3.", label="measured")
 law.set(xlabel="reading of the gauge [µm]", ylabel="force [N]", title="loading")
 law.legend()
 effects.semilogx(forces, derivatives[:, 1], "o-", label="pin")
