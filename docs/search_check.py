@@ -55,6 +55,9 @@ QUESTIONS = {
     "how far is a long job": "how-to/progress",
     "press": "api/roughcontact.press",
     "papers to cite": "how-to/citing",
+    "design a joint": "gallery/derivatives/design_a_joint",
+    "tilt of a pin": "gallery/derivatives/worn_pin",
+    "inverse problem": "gallery/derivatives/worn_pin",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
