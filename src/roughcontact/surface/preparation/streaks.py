@@ -9,9 +9,10 @@ import numpy as np
 
 from roughcontact.validation import Array, Mask
 
-__all__ = ["LONG", "streaks_in", "tail_of"]
+__all__ = ["LONG", "pieces_along_rows", "streaks_in", "tail_of"]
 
 LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
+_SHORT = 3  # cells of a piece of a streak: on a map that has a longer one along the same axis
 _WIDE = 4  # lines side by side
 _WHOLE = 0.9  # of the measured cells of a line: a longer run is a line that is shifted as a whole
 _EXTENT = 0.5  # of the limit: cells that stand out by this much belong to a streak
@@ -37,7 +38,8 @@ def streaks_in(heights: Array) -> Mask:
 
     The steps from a streak to the lines on both sides have one sign and exceed half the limit of `tail_of` along at
     least 16 cells, and the limit somewhere; the limit is computed from all steps between neighbouring lines. A run
-    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`.
+    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`. On a map with a streak its
+    pieces count as well: at least 3 cells along the same axis, whose steps exceed the mean of median and limit.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
@@ -46,27 +48,56 @@ def streaks_in(heights: Array) -> Mask:
     return found
 
 
+def pieces_along_rows(heights: Array) -> Mask:
+    """Return the cells of raised pieces of streaks along rows of heights [m], even if none is as long as a streak."""
+    steps, half, limit = _steps_between_lines(heights)
+    if half == 0:  # plateaus, whose edges are the only steps
+        return np.zeros(heights.shape, dtype=np.bool_)
+    return _runs(heights, [steps], (half + limit) / 2, (half + limit) / 2, _SHORT)
+
+
 def _along_rows(heights: Array) -> Mask:
-    found = np.zeros(heights.shape, dtype=np.bool_)
+    steps, half, limit = _steps_between_lines(heights)
+    found = _runs(heights, [steps, -steps], _EXTENT * limit, limit, LONG)
+    if found.any():
+        found |= _runs(heights, [steps, -steps], (half + limit) / 2, (half + limit) / 2, _SHORT)
+    return found
+
+
+def _steps_between_lines(heights: Array) -> tuple[Array, float, float]:
+    """Return the steps from each row to the next [m], the median of their sizes, and their limit."""
     steps = np.diff(heights, axis=0)
     sizes = np.abs(steps[~np.isnan(steps)])
     if sizes.size < _FEWEST:
-        return found
+        return steps, math.inf, math.inf
     # An odd stride visits every column of a map, whose width is usually even.
-    _, limit = tail_of(sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1], sizes.size)
+    chosen = sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1]
+    _, limit = tail_of(chosen, sizes.size)
     limit = max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
+    return steps, float(np.median(chosen)), limit
+
+
+def _runs(heights: Array, rises: list[Array], soft: float, hard: float, least: int) -> Mask:
+    """Return the runs of at least `least` cells along one to four rows that stand out from the rows on both sides.
+
+    The `rises` are steps from each row to the next, negative for runs below their surroundings. Both steps exceed
+    `soft` along the run, and `hard` somewhere.
+    """
+    found = np.zeros(heights.shape, dtype=np.bool_)
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
-    for width in range(1, min(_WIDE, len(steps) - 1) + 1):
-        for rise in (steps, -steps):
+    for width in range(1, min(_WIDE, len(heights) - 2) + 1):
+        for rise in rises:
             out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
-            runs = _long_runs(out > _EXTENT * limit, out > limit, most[1 : 1 + len(out)])
+            if not (out > hard).any():
+                continue
+            runs = _long_runs(out > soft, out > hard, least, most[1 : 1 + len(out)])
             for line in range(1, 1 + width):
                 found[line : line + len(out)] |= runs
     return found
 
 
-def _long_runs(soft: Mask, hard: Mask, most: Array) -> Mask:
-    """Return the runs of `soft` cells along each row that are long, shorter than `most`, and have a `hard` cell."""
+def _long_runs(soft: Mask, hard: Mask, least: int, most: Array) -> Mask:
+    """Return the runs of `soft` cells along each row of at least `least` and at most `most` cells with a `hard` one."""
     from scipy.ndimage import label
 
     along: Any = [[0, 0, 0], [1, 1, 1], [0, 0, 0]]
@@ -75,4 +106,4 @@ def _long_runs(soft: Mask, hard: Mask, most: Array) -> Mask:
     sizes[0] = 0
     sizes[np.bincount(labels[hard], minlength=count + 1) == 0] = 0
     length = sizes[labels]
-    return np.asarray((length >= LONG) & (length <= most[:, None]))
+    return np.asarray((length >= least) & (length <= most[:, None]))
