@@ -250,11 +250,14 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 def _load(
     surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
 ) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
-    """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
+    """Return the curve, its notes, the first and last load that are resolved, and the whole loop.
+
+    The notes are those on the last load, and on faults that carry the first resolved one.
 
     With `loop`, unloading and reloading follow. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
+    from roughcontact.contact.fault_notes import fault_notes
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
     from roughcontact.contact.notes import notes_on
@@ -281,4 +284,8 @@ def _load(
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):
             closed = closed_loop(curve, last[0], path)
-    return curve, tuple(notes_on(last[0])), ends, closed
+    notes = list(notes_on(last[0]))
+    if ends and ends[0] is not last[0]:
+        at = quantity("force", ends[0].force, ends[0].problem.geometry)
+        notes += [each._replace(text=f"At {at}: {each.text}") for each in fault_notes(ends[0])]
+    return curve, tuple(notes), ends, closed

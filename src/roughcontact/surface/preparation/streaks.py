@@ -12,7 +12,8 @@ from roughcontact.validation import Array, Mask
 __all__ = ["LONG", "pieces_along_rows", "streaks_in", "tail_of"]
 
 LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
-_SHORT = 3  # cells of a piece of a streak: on a map that has a longer one along the same axis
+_SHORT = 3  # cells along the line of a piece of a streak
+_MANY, _ALONG = 32, 10  # cells of pieces that show streaks by themselves, and ratio to those along the other axis
 _WIDE = 4  # lines side by side
 _WHOLE = 0.9  # of the measured cells of a line: a longer run is a line that is shifted as a whole
 _EXTENT = 0.5  # of the limit: cells that stand out by this much belong to a streak
@@ -38,30 +39,38 @@ def streaks_in(heights: Array) -> Mask:
 
     The steps from a streak to the lines on both sides have one sign and exceed half the limit of `tail_of` along at
     least 16 cells, and the limit somewhere; the limit is computed from all steps between neighbouring lines. A run
-    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`. On a map with a streak its
-    pieces count as well: at least 3 cells along the same axis, whose steps exceed the mean of median and limit.
+    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`. The pieces of streaks along
+    the same axis count as well, see `pieces_along_rows`; without a streak, if they have at least 32 cells and the pieces
+    along the other axis less than a tenth of that.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
-        found |= _along_rows(heights)
-        found |= _along_rows(heights.T).T
+        long = [_streaks_along_rows(each) for each in (heights, heights.T)]
+        pieces = [pieces_along_rows(each) for each in (heights, heights.T)]
+        cells = [int(np.count_nonzero(each)) for each in pieces]
+        for axis in (0, 1):
+            many = cells[axis] >= max(_MANY, _ALONG * cells[1 - axis])
+            part = long[axis] | pieces[axis] if many or long[axis].any() else long[axis]
+            found |= part.T if axis else part
     return found
 
 
 def pieces_along_rows(heights: Array) -> Mask:
-    """Return the cells of raised pieces of streaks along rows of heights [m], even if none is as long as a streak."""
+    """Return runs of at least 3 cells along rows of heights [m] that stand out as streaks do, which are longer.
+
+    Their steps exceed the mean of the median step and the limit. On a map of plateaus, whose median step is 0, there
+    are none.
+    """
     steps, half, limit = _steps_between_lines(heights)
-    if half == 0:  # plateaus, whose edges are the only steps
+    if half == 0:
         return np.zeros(heights.shape, dtype=np.bool_)
-    return _runs(heights, [steps], (half + limit) / 2, (half + limit) / 2, _SHORT)
+    level = (half + limit) / 2
+    return _runs(heights, steps, level, level, _SHORT)
 
 
-def _along_rows(heights: Array) -> Mask:
-    steps, half, limit = _steps_between_lines(heights)
-    found = _runs(heights, [steps, -steps], _EXTENT * limit, limit, LONG)
-    if found.any():
-        found |= _runs(heights, [steps, -steps], (half + limit) / 2, (half + limit) / 2, _SHORT)
-    return found
+def _streaks_along_rows(heights: Array) -> Mask:
+    steps, _, limit = _steps_between_lines(heights)
+    return _runs(heights, steps, _EXTENT * limit, limit, LONG)
 
 
 def _steps_between_lines(heights: Array) -> tuple[Array, float, float]:
@@ -77,16 +86,15 @@ def _steps_between_lines(heights: Array) -> tuple[Array, float, float]:
     return steps, float(np.median(chosen)), limit
 
 
-def _runs(heights: Array, rises: list[Array], soft: float, hard: float, least: int) -> Mask:
+def _runs(heights: Array, steps: Array, soft: float, hard: float, least: int) -> Mask:
     """Return the runs of at least `least` cells along one to four rows that stand out from the rows on both sides.
 
-    The `rises` are steps from each row to the next, negative for runs below their surroundings. Both steps exceed
-    `soft` along the run, and `hard` somewhere.
+    The steps on both sides exceed `soft` along the run, and `hard` somewhere.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
     for width in range(1, min(_WIDE, len(heights) - 2) + 1):
-        for rise in rises:
+        for rise in (steps, -steps):
             out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
             if not (out > hard).any():
                 continue
