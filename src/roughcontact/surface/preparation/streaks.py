@@ -13,7 +13,10 @@ __all__ = ["LONG", "pieces_along_rows", "streaks_in", "tail_of"]
 
 LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
 _SHORT = 3  # cells along the line of a piece of a streak
-_MANY, _ALONG = 32, 10  # cells of pieces that show streaks by themselves, and ratio to those along the other axis
+_MANY, _ALONG = (
+    32,
+    10,
+)  # cells of pieces that show streaks by themselves, and ratio to those along the other axis
 _WIDE = 4  # lines side by side
 _WHOLE = 0.9  # of the measured cells of a line: a longer run is a line that is shifted as a whole
 _EXTENT = 0.5  # of the limit: cells that stand out by this much belong to a streak
@@ -91,17 +94,19 @@ def _runs(heights: Array, steps: Array, soft: float, hard: float, least: int) ->
 
     The steps on both sides exceed `soft` along the run, and `hard` somewhere.
     """
-    found = np.zeros(heights.shape, dtype=np.bool_)
+    raised, lowered = (np.zeros(heights.shape, dtype=np.bool_) for _ in range(2))
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
     for width in range(1, min(_WIDE, len(heights) - 2) + 1):
-        for rise in (steps, -steps):
+        for found, other, rise in ((raised, lowered, steps), (lowered, raised, -steps)):
             out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
+            if width > 1:  # the surface between two narrower runs
+                out[other[: -width - 1] | other[width + 1 :]] = -math.inf
             if not (out > hard).any():
                 continue
             runs = _long_runs(out > soft, out > hard, least, most[1 : 1 + len(out)])
             for line in range(1, 1 + width):
                 found[line : line + len(out)] |= runs
-    return found
+    return raised | lowered
 
 
 def _long_runs(soft: Mask, hard: Mask, least: int, most: Array) -> Mask:
