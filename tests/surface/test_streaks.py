@@ -146,4 +146,5 @@ def test_streaks_of_a_measured_map_lie_along_its_scan_lines():
     assert str(spikes) == "9 spikes of 75 cells and 7 streaks of 336 cells"
     assert LONG < 3 * len(set(rows)) < len(set(columns))
     clean = surface.despiked("filled")
-    assert rc.find_spikes(clean).count == clean.missing == 0
+    assert rc.find_spikes(clean).count == 0
+    assert clean.missing < 20 < spikes.mask.sum()  # cells beside others that are faulty

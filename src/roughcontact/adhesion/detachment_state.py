@@ -28,8 +28,8 @@ __all__ = ["DetachmentState", "stuck_notes"]
 # Part of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On
 # spheres all cells still hold if the preload was too small; if it was just large enough, some have let go by then.
 HELD = 0.8
-# Relative error of the pull-off force of a sphere above which a note states it. On a radius of n cells at the pull-off it
-# is about 1/n, from 6 cells to 20 (docs/evidence/adhesion-evidence.md).
+# Relative error of the pull-off force of a sphere above which a note states it. On a radius of n cells at the pull-off
+# it is about 1/n, from 6 cells to 20 (docs/evidence/adhesion-evidence.md).
 COARSE = 0.05
 
 

@@ -109,7 +109,7 @@ def softer_of(job: PressJob | CurveJob) -> tuple[float, str] | None:
         return None
     found = hardness_of(text)
     value = found.value(known_names()) if isinstance(found, Call) else found
-    return value, "as given" if given else f"of {softer}"
+    return value, f"of {text}" if isinstance(found, Call) else "as given"
 
 
 def hardness_of_job(job: PressJob | CurveJob) -> float | None:

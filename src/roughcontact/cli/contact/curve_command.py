@@ -221,7 +221,9 @@ def _suggested(
         below = load_outlook(surface, modulus, loads, operator).below
     small = "below what the grid resolves"
     if kind is Geometry.SURFACE:  # the stiffness may be resolved at these forces
-        small = "so light that single cells set their area and pressure"
+        small = (
+            "so light that single cells set their area and pressure (not resolved where also their stiffness)"
+        )
     remark(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
         f"{below} of them {small} (--forces for others)"

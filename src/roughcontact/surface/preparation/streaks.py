@@ -43,8 +43,8 @@ def streaks_in(heights: Array) -> Mask:
     The steps from a streak to the lines on both sides have one sign and exceed half the limit of `tail_of` along at
     least 16 cells, and the limit somewhere; the limit is computed from all steps between neighbouring lines. A run
     along more than nine tenths of a line is not a streak but a shifted line, see `aligned`. The pieces of streaks along
-    the same axis count as well, see `pieces_along_rows`; without a streak, if they have at least 32 cells and the pieces
-    along the other axis less than a tenth of that.
+    the same axis count as well, see `pieces_along_rows`; without a streak, if they have at least 32 cells and the
+    pieces along the other axis less than a tenth of that.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
