@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 from joint import ALUMINIUM, CELL, CELLS, STEEL, joint
@@ -69,7 +70,7 @@ def spheres() -> None:
     print(f"\nthe constant of the correction: {OVERHANG:.3f}\n", flush=True)
 
 
-def single(n: int, count: int) -> tuple[Array, Array]:
+def single(n: int, count: int, place: float | None = None) -> tuple[Array, Array]:
     """Return how far single spheres on n x n cells are from Hertz, and the claimed errors: relative to the numbers.
 
     Parameters
@@ -77,7 +78,10 @@ def single(n: int, count: int) -> tuple[Array, Array]:
     n : int
         Cells along each side.
     count : int
-        Spheres. Their centre lies anywhere between the cells, and the radius of contact is 0.1 to 0.35 of a side.
+        Spheres. The radius of contact is 0.1 to 0.35 of a side.
+    place : float, optional
+        Place of their centre from the middle of the map along both axes, in cells. By default it lies anywhere between
+        the cells.
 
     Returns
     -------
@@ -88,6 +92,8 @@ def single(n: int, count: int) -> tuple[Array, Array]:
     for _ in range(count):
         grid, curvature = rc.Grid((n, n), 1.0), 1e-3 / n
         a, middle = n * rng.uniform(0.1, 0.35), n / 2 + rng.uniform(-0.5, 0.5, 2)
+        if place is not None:
+            middle = np.full(2, n / 2 + place)
         y, x = (c - m for c, m in zip(grid.coordinates, middle, strict=True))
         surface = rc.Surface(-(y[:, None] ** 2 + x**2) * curvature / 2, grid)
         budget = rc.error_budget(rc.press(surface, 1.0, force=4 / 3 * a**3 * curvature))
@@ -103,15 +109,18 @@ def single(n: int, count: int) -> tuple[Array, Array]:
 
 def single_spheres() -> None:
     """Print the true and the claimed errors of single spheres, and in how many the true one is within."""
-    print(f"| cells | {' | '.join(NAMES[name] for name in OF_SPHERE)} |\n|{'---|' * (1 + len(OF_SPHERE))}")
-    for n in (32, 64, 128):
-        missed, claimed = single(n, 100)
+    print(
+        f"| axis | cells | {' | '.join(NAMES[name] for name in OF_SPHERE)} |\n|{'---|' * (2 + len(OF_SPHERE))}"
+    )
+    places = {"anywhere": None, "corner of a cell": 0.0, "centre of a cell": 0.5}
+    for (words, place), n in product(places.items(), (32, 64, 128)):
+        missed, claimed = single(n, 100, place)
         shares = 100 * np.mean(np.abs(missed) <= claimed, axis=0)
         rms = [100 * np.sqrt(np.mean(each**2, axis=0)) for each in (missed, claimed)]
         cells = [
             f"{real:.1f} of {told:.1f}, {share:.0f} %" for real, told, share in zip(*rms, shares, strict=True)
         ]
-        print(f"| {n} | {' | '.join(cells)} |", flush=True)
+        print(f"| {words} | {n} | {' | '.join(cells)} |", flush=True)
     print()
 
 

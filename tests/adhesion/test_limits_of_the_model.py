@@ -1,6 +1,7 @@
 """Notes on surfaces that stick where linear elasticity, the preload, the loads or the range decide on the numbers."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -183,3 +184,22 @@ def test_notes_stand_in_the_order_of_their_rank():
     assert second.startswith("The preload missed the tolerance, residual ")
     assert last.startswith("The preload was too small")
     assert off.notes == (last,)
+
+
+@pytest.mark.parametrize(("cells", "noted"), [(10, True), (22, False)])
+def test_the_error_of_the_grid_on_the_pull_off_force_is_noted(cells, noted):
+    """A sphere with so many cells in its contact radius at the pull-off by Johnson, Kendall and Roberts."""
+    radius, work, modulus = 1e-5, 10e-3, 1e8
+    narrow = (9 * math.pi * work * radius**2 / (2 * modulus) / 4) ** (1 / 3)
+    grid = rc.Grid((5 * cells, 5 * cells), narrow / cells)
+    pressed = rc.press(rc.shapes.paraboloid(grid, radius=radius), modulus, force=2 * math.pi * work * radius)
+    curve = rc.detachment_curve(pressed, work)
+    error = curve.pull_off_force / (1.5 * math.pi * work * radius) - 1
+    found = [
+        re.search(r"radius of ([\d.]+) cells.*too large by about ([\d.]+) %", note) for note in curve.notes
+    ]
+    (match,) = [each for each in found if each] or [None]
+    assert bool(match) == noted
+    if match:
+        assert 0.9 * cells < float(match[1]) < 1.3 * cells
+        assert 0.5 < float(match[2]) / (100 * error) < 2

@@ -11,7 +11,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import REMEDIES, note_on_size, notes_on_sources
-from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table
+from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table, symmetries
 from roughcontact.evaluation.perimeter import corrected_area
 from roughcontact.surface.finest_waves import is_rough_to_cells
 
@@ -41,9 +41,8 @@ def value(solution, name):
 
 def floored(change, solutions, name):
     """The part of the grid: at least what the cells along the border leave unknown."""
-    floor = border_floor(number_table(solutions), [each.spot_count for each in solutions])[
-        NUMBERS.index(name)
-    ].mean()
+    border = [each.spot_count for each in solutions], list(map(symmetries, solutions))
+    floor = border_floor(number_table(solutions), *border)[NUMBERS.index(name)].mean()
     return math.copysign(max(abs(change), floor), change)
 
 
@@ -363,8 +362,21 @@ def test_two_grids_that_agree_by_chance_leave_the_border_unknown():
     true = math.pi * (3 / 4 * 10.0 * 0.01 / 110e9) ** (2 / 3)
     change = rc.press(ball.averaged(2), 110e9, force=10.0).contact_area - area.value
     assert abs(change) < 1e-9 * area.value < 1e-2 * (area.value - true)
-    assert area.parts[0] == pytest.approx(area.value - corrected_area(solution), rel=1e-9)
+    overhang = area.value - corrected_area(solution)
+    assert symmetries(solution) == 8  # its axis goes through a corner
+    assert area.parts[0] == pytest.approx(8**0.25 * overhang, rel=1e-9)
     assert area.relative_error > area.value / true - 1
+
+
+@pytest.mark.parametrize(
+    ("place", "count"),
+    [((0.0, 0.0), 8), ((0.5, 0.5), 8), ((0.2, 0.2), 2), ((0.0, 0.2), 2), ((0.0, 0.5), 4), ((0.1, 0.2), 1)],
+)
+def test_the_symmetries_of_a_sphere_are_those_of_its_place_in_a_cell(place, count):
+    grid = rc.Grid((32, 32), 1.0)
+    y, x = (axis - 16 - off for axis, off in zip(grid.coordinates, place, strict=True))
+    ball = rc.Surface(-(y[:, None] ** 2 + x**2) / 2000, grid)
+    assert symmetries(rc.press(ball, 1.0, force=4 / 3 * 9.3**3 / 1000)) == count
 
 
 def test_numbers_without_a_border_have_no_floor():
@@ -374,6 +386,9 @@ def test_numbers_without_a_border_have_no_floor():
     table = number_table([ball])
     one, four = border_floor(table, [1]), border_floor(table, [4])
     assert four == pytest.approx(one / 2, rel=1e-14)
+    ratio = dict(zip(NUMBERS, border_floor(table, [1], [8]) / np.where(one, one, np.inf), strict=True))
+    assert ratio["stiffness"] == ratio["interfacial_stiffness"] == pytest.approx(8**0.5, rel=1e-14)
+    assert ratio["contact_area"] == ratio["corrected_contact_fraction"] == pytest.approx(8**0.25, rel=1e-14)
     bound = {name for name, (floor,) in zip(NUMBERS, one, strict=True) if floor}
     assert bound == {name for name in NUMBERS if "stiffness" in name or "contact" in name}
 

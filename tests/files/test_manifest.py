@@ -56,8 +56,8 @@ WARNED = {
     "sur-2.sur": "18 spikes of 59 cells",
     "KautschukInfiniteFocus.x3p": "1 spike of 4 cells",
     "test_1.opd": "2 spikes of 10 cells",
-    "mi-1.mi": "1 spike of 5 cells and 7 streaks of 268 cells",
-    "derived_mi1.mat": "1 spike of 5 cells and 7 streaks of 268 cells",
+    "mi-1.mi": "9 spikes of 75 cells and 7 streaks of 336 cells",
+    "derived_mi1.mat": "9 spikes of 75 cells and 7 streaks of 336 cells",
 }
 # A derived file lies as the file it was made from: its corners serve where the manifest has none.
 TWIN = {"derived_di3_nm.npy": "di-3.di", "derived_mi1.mat": "mi-1.mi"}

@@ -28,6 +28,9 @@ __all__ = ["DetachmentState", "stuck_notes"]
 # Part of the preload's contact: if more still held under the largest tension, a larger preload may bear more. On
 # spheres all cells still hold if the preload was too small; if it was just large enough, some have let go by then.
 HELD = 0.8
+# Relative error of the pull-off force of a sphere above which a note states it. On a radius of n cells at the pull-off
+# it is about 1/n, from 6 cells to 20 (docs/evidence/adhesion-evidence.md).
+COARSE = 0.05
 
 
 @hinted
@@ -238,6 +241,15 @@ def stuck_notes(state: DetachmentState) -> Iterator[Note]:
     if not state.solution.status.converged:
         text = f"The preload missed the tolerance, residual {state.solution.residual:.1e}: "
         yield Note(Rank.WRONG, text + state.solution.status.message)
+    if state.directional and not state.contact.any() and state.lowest_force_area > 0:
+        cells = math.sqrt(state.lowest_force_area / (math.pi * math.prod(state.problem.grid.spacing)))
+        if cells * COARSE < 1:
+            yield Note(
+                Rank.LIMITED,
+                f"The pull-off force contains an error of the grid: the contact under the largest tension has the area "
+                f"of a circle with a radius of {cells:.2g} cells. For one smooth sphere on such cells the force is too "
+                f"large by about {100 / cells:.2g} %; for several spots by more. Finer cells reduce this error.",
+            )
     if not state.preload_too_small:
         return
     part, force = state.lowest_force_area / state.solution.contact_area, state.solution.force

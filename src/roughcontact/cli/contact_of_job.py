@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cli.job import slabs_of_job
 from roughcontact.cli.messages import UsageError, as_typed, note, plain, remark
 from roughcontact.cli.report import quantity
-from roughcontact.files.file_errors import ReadError
+from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.progress.events import task
 from roughcontact.recipe.bodies import hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
@@ -108,7 +109,7 @@ def softer_of(job: PressJob | CurveJob) -> tuple[float, str] | None:
         return None
     found = hardness_of(text)
     value = found.value(known_names()) if isinstance(found, Call) else found
-    return value, "as given" if given else f"of {softer}"
+    return value, f"of {text}" if isinstance(found, Call) else "as given"
 
 
 def hardness_of_job(job: PressJob | CurveJob) -> float | None:
@@ -134,6 +135,8 @@ def _reading(call: Call, job: JobOfHeights) -> Iterator[None]:
     """Rewrite errors within: files as they were typed, options in place of functions of the library."""
     file = Path(call.given[0])
     with as_typed(file):
+        if job.preparation.despike is not None:  # done below, and noted there
+            warnings.filterwarnings("ignore", r".*\bdespiked\(\)", SurfaceWarning)
         try:
             yield
         except ReadError as error:

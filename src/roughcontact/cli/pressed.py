@@ -59,11 +59,12 @@ class Pressed:
         lines = [("the map is", self.words)]
         if self.index is not None and self.softer is not None:
             index, of = self.index, f"{quantity('hardness', self.softer[0])} {self.softer[1]}"
+            flow = "; --hardness computes the flow" if index.value > index.plastic_above else ""
             lines.append(
                 (
                     "plasticity index",
                     f"{index.value:.3g}, {index.regime} (elastic below {index.elastic_below:g}, plastic above "
-                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of})",
+                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}){flow}",
                 )
             )
         return lines

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from roughcontact.arrays import is_numpy
+from roughcontact.contact.fault_notes import fault_notes
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.engineering_units import written
@@ -51,6 +52,7 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     yield from _of_hardness(solution)
     yield from _of_flow(solution)
     yield from _of_two_sides(solution, int(count(solution.touching)) if in_contact else 0)
+    yield from fault_notes(solution)
     yield from _of_input(solution)
     if solution.missing:
         hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"

@@ -17,7 +17,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
 from roughcontact.evaluation.error_notes import note_on_size, notes_on_sources
-from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table
+from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table, symmetries
 from roughcontact.evaluation.other_maps import sampling_of
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
@@ -125,14 +125,14 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     elif SurfaceKind.FORM in kinds:
         notes.append(OF_FORM)
     values, parts = number_table(patches), []
-    spots = [each.spot_count for each in patches]
+    border = [each.spot_count for each in patches], [symmetries(each) for each in patches]
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
         maps = list(zip(sources, otherwise, strict=True))
         for source, change in tracked(maps, "Errors: pressing maps made otherwise", "maps"):
             again = number_table([_again(each, change) for each in patches])
             part = np.where(again == values, 0.0, again - values).mean(axis=1)
             if source.name == "grid":  # two grids agree by chance where their borders do
-                part = np.copysign(np.maximum(abs(part), border_floor(values, spots).mean(axis=1)), part)
+                part = np.copysign(np.maximum(abs(part), border_floor(values, *border).mean(axis=1)), part)
             parts.append(part)
             if np.isnan(again).all(axis=0).any():
                 notes.append(

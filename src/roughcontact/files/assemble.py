@@ -14,7 +14,7 @@ from roughcontact.arrays import is_numpy
 from roughcontact.errors import InputError, about
 from roughcontact.files.file_bounds import BYTES_TO_LOOK, require_memory
 from roughcontact.files.file_errors import ContentError
-from roughcontact.files.height_warnings import IMPOSSIBLE, height_warnings, highest
+from roughcontact.files.height_warnings import DESPIKE, IMPOSSIBLE, height_warnings, highest
 from roughcontact.files.heightmap import HeightMap
 from roughcontact.files.length_units import is_length, length_factor, parse_length
 from roughcontact.files.missing_marks import without_fills
@@ -88,7 +88,7 @@ def assemble(
         *(remark.text for remark in remarks if not remark.contradicts),
         *periodic_note,
         *found.notes,
-        *warnings,
+        *(warning.removesuffix(DESPIKE) for warning in warnings),  # the advice may have been followed since
     )
     return replace(surface, provenance=provenance), warnings
 

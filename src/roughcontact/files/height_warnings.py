@@ -12,8 +12,9 @@ from roughcontact.files.noisy_rows import noisy_rows
 from roughcontact.surface.preparation.spikes import spikes_in
 from roughcontact.validation import Array
 
-__all__ = ["IMPOSSIBLE", "height_warnings", "highest"]
+__all__ = ["DESPIKE", "IMPOSSIBLE", "height_warnings", "highest"]
 
+DESPIKE = "; remove faulty points by despiked() before pressing"  # the end of the warning about spikes
 _SMALLEST, _LARGEST = 1e-9, 1.0  # side lengths [m]
 _STEEPEST = 10.0  # rms height over side length, and the slope that half of all neighbours exceed
 _HIGHEST = 1.0  # [m]
@@ -75,9 +76,7 @@ def _statistics(heights: Array, spacing: tuple[float, ...]) -> list[str]:
     found = _broken_off(heights) or _long_runs(heights)
     steps = [np.abs(np.diff(heights, axis=axis)) for axis in range(heights.ndim)]
     if (spikes := spikes_in(heights, (False,) * heights.ndim)).count > 0:
-        found.append(
-            f"{spikes}, far outside their neighbours; remove faulty points by despiked() before pressing"
-        )
+        found.append(f"{spikes}, far outside their neighbours{DESPIKE}")
     if (count := _far_points(heights)) > 0:
         found.append(
             f"{count} points lie more than {_FAR:g} interquartile ranges from the median height; "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -79,9 +80,12 @@ def solution_facts(solution: Solution, units: Mapping[str, Scale] = _SUITS) -> l
     problem = solution.problem
     met = "met" if solution.status.converged else "MISSED"
     flowed = solution.flow is not None and solution.flow.volume > 0
+    single = problem.geometry is Geometry.SURFACE and solution.spot_count == 1
+    radius = quantity("lengths", math.sqrt(solution.contact_area / math.pi)) if single else ""
     return [
         ("surface", size_of(problem.grid)),
         *column_facts(solution, shown_in("facts", STATE[()]), problem.geometry, STATE_NAMES, units),
+        *([("radius of a circle of the contact area", radius)] if single else ()),
         *(_flow_facts(solution, units) if flowed else ()),
         ("certificate", f"{solution.residual:.1e} (tolerance {problem.tolerance:.0e}: {met})"),
     ]
@@ -165,7 +169,7 @@ def bend_words(law: PowerLaw) -> str:
     low, high = law.ends
     return (
         f"no single power law: its exponent goes from {low:.2f} to {high:.2f} over the window "
-        f"({law.bend:+.2f} +- {law.bend_error:.2f}); quote local exponents with their windows"
+        f"(a change of {law.bend:+.2f} +- {law.bend_error:.2f}); quote local exponents with their windows"
     )
 
 

@@ -69,7 +69,10 @@ def _spikes(spikes: Spikes) -> Iterator[PreparationWarning]:
         place = ",".join(str(k) for k in spikes.places[0])
         largest = quantity("heights", float(spikes.height[0]))
         words = f"{spikes}, the largest by {largest}, at cell {place}"
-        yield PreparationWarning("spikes", words, "--despike missing or filled", ("despike", "filled"))
+        remedy = "--despike missing or filled"
+        if spikes.streak.any():
+            remedy += ", then look at the pressure for pieces of streaks (docs/concepts/spikes.md)"
+        yield PreparationWarning("spikes", words, remedy, ("despike", "filled"))
 
 
 def _far(clean: Surface) -> Iterator[PreparationWarning]:

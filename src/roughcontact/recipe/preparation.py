@@ -15,7 +15,9 @@ from roughcontact.recipe.texts import Amount, Choice, PureNumber, ranges, whole
 
 __all__ = ["Preparation", "Step", "masks_named"]
 
-_MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")  # in messages of the library
+# In messages of the library.
+_MASKED = re.compile(r"\bmasked\((above|below)=([-+.\de]+)\)")
+_BOXED = re.compile(r"\bmasked\(box=\(slice\((\d+), (\d+)\), slice\((\d+), (\d+)\)\)\)")
 _REGIONS = ("above", "below", "box", "ellipse")
 _BLUNTEST = 0.1  # radius of a tip [m]: for a larger value most likely the unit is missing
 
@@ -51,6 +53,7 @@ class Step:
 
 def masks_named(text: str, name: str) -> str:
     """Return a text of the library in which each call of `masked` is written as the field, after `name`."""
+    text = _BOXED.sub(rf"{name}box=\1:\2,\3:\4", text)
     return _MASKED.sub(lambda call: f"{name}{call[1]}={float(call[2]) * 1e6:.6g}um", text)
 
 

@@ -286,7 +286,7 @@ class CurveAnswer:
         law, why_none = self._fitted
         if law is None:
             yield Note(Rank.LIMITED, f"no power law: {why_none}")
-        elif not law.straight:
+        elif not law.straight and not curve.notes:  # which state a doubt about the fit already
             yield Note(Rank.DOUBTFUL, report.bend_words(law))
         for name, why in self.left_out.items():
             yield Note(Rank.LIMITED, f"theory {name} is left out: {why}")

@@ -221,7 +221,9 @@ def _suggested(
         below = load_outlook(surface, modulus, loads, operator).below
     small = "below what the grid resolves"
     if kind is Geometry.SURFACE:  # the stiffness may be resolved at these forces
-        small = "so light that single cells set their area and pressure"
+        small = (
+            "so light that single cells set their area and pressure (not resolved where also their stiffness)"
+        )
     remark(
         f"the map is {pressed.words}; no loads are named: {loads.values.size} forces from {low} to {high}, to {end}, "
         f"{below} of them {small} (--forces for others)"
@@ -250,11 +252,14 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 def _load(
     surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
 ) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
-    """Return the curve, the notes on its last load, the first and last load that are resolved, and the whole loop.
+    """Return the curve, its notes, the first and last load that are resolved, and the whole loop.
+
+    The notes are those on the last load, and on faults that carry the first resolved one.
 
     With `loop`, unloading and reloading follow. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
+    from roughcontact.contact.fault_notes import fault_notes
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
     from roughcontact.contact.notes import notes_on
@@ -281,4 +286,8 @@ def _load(
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):
             closed = closed_loop(curve, last[0], path)
-    return curve, tuple(notes_on(last[0])), ends, closed
+    notes = list(notes_on(last[0]))
+    if ends and ends[0] is not last[0]:
+        at = quantity("force", ends[0].force, ends[0].problem.geometry)
+        notes += [each._replace(text=f"At {at}: {each.text}") for each in fault_notes(ends[0])]
+    return curve, tuple(notes), ends, closed

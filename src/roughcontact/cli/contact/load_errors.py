@@ -58,10 +58,13 @@ class LoadErrors:
 
 
 def notes_on_errors(errors: Iterable[LoadErrors]) -> list[Note]:
-    """Return which errors are left out, and why."""
+    """Return the notes on the errors, with the load if there are several."""
     from roughcontact.labels.note import Note, Rank
 
-    return [Note(Rank.LIMITED, line) for each in errors for line in each.budget.notes]
+    found = tuple(errors)
+    loads = [f"at {quantity('force', each.force)}: " if len(found) > 1 else "" for each in found]
+    pairs = zip(loads, found, strict=True)
+    return [Note(Rank.LIMITED, f"{load}{line}") for load, each in pairs for line in each.budget.notes]
 
 
 def require_errors(asked: Errors, surface: Surface) -> None:

@@ -111,7 +111,9 @@ def find_spikes(surface: Surface) -> Spikes:
     A streak is a run of at least 16 cells along one to four rows or columns. Its steps to the lines on both sides have
     one sign and exceed half the limit everywhere and the limit somewhere, with the quantiles of all N steps between
     neighbouring lines. A run along more than nine tenths of a line is a line that is shifted as a whole, see
-    `aligned`.
+    `aligned`. Runs of at least 3 cells are pieces of streaks if their steps exceed the mean of the median step and the
+    limit, on a map with a streak along the same axis, or with at least 32 cells of pieces along it and less than a
+    tenth of that along the other. Pieces shorter than 16 cells count as spikes.
 
     Examples
     --------

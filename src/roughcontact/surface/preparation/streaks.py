@@ -9,9 +9,14 @@ import numpy as np
 
 from roughcontact.validation import Array, Mask
 
-__all__ = ["LONG", "streaks_in", "tail_of"]
+__all__ = ["LONG", "pieces_along_rows", "streaks_in", "tail_of"]
 
 LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
+_SHORT = 3  # cells along the line of a piece of a streak
+_MANY, _ALONG = (
+    32,
+    10,
+)  # cells of pieces that show streaks by themselves, and ratio to those along the other axis
 _WIDE = 4  # lines side by side
 _WHOLE = 0.9  # of the measured cells of a line: a longer run is a line that is shifted as a whole
 _EXTENT = 0.5  # of the limit: cells that stand out by this much belong to a streak
@@ -37,36 +42,75 @@ def streaks_in(heights: Array) -> Mask:
 
     The steps from a streak to the lines on both sides have one sign and exceed half the limit of `tail_of` along at
     least 16 cells, and the limit somewhere; the limit is computed from all steps between neighbouring lines. A run
-    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`.
+    along more than nine tenths of a line is not a streak but a shifted line, see `aligned`. The pieces of streaks along
+    the same axis count as well, see `pieces_along_rows`; without a streak, if they have at least 32 cells and the
+    pieces along the other axis less than a tenth of that.
     """
     found = np.zeros(heights.shape, dtype=np.bool_)
     if heights.ndim == 2:
-        found |= _along_rows(heights)
-        found |= _along_rows(heights.T).T
+        long = [_streaks_along_rows(each) for each in (heights, heights.T)]
+        pieces = [pieces_along_rows(each) for each in (heights, heights.T)]
+        cells = [int(np.count_nonzero(each)) for each in pieces]
+        for axis in (0, 1):
+            many = cells[axis] >= max(_MANY, _ALONG * cells[1 - axis])
+            part = long[axis] | pieces[axis] if many or long[axis].any() else long[axis]
+            found |= part.T if axis else part
     return found
 
 
-def _along_rows(heights: Array) -> Mask:
-    found = np.zeros(heights.shape, dtype=np.bool_)
+def pieces_along_rows(heights: Array) -> Mask:
+    """Return runs of at least 3 cells along rows of heights [m] that stand out as streaks do, which are longer.
+
+    Their steps exceed the mean of the median step and the limit. On a map of plateaus, whose median step is 0, there
+    are none.
+    """
+    steps, half, limit = _steps_between_lines(heights)
+    if half == 0:
+        return np.zeros(heights.shape, dtype=np.bool_)
+    level = (half + limit) / 2
+    return _runs(heights, steps, level, level, _SHORT)
+
+
+def _streaks_along_rows(heights: Array) -> Mask:
+    steps, _, limit = _steps_between_lines(heights)
+    return _runs(heights, steps, _EXTENT * limit, limit, LONG)
+
+
+def _steps_between_lines(heights: Array) -> tuple[Array, float, float]:
+    """Return the steps from each row to the next [m], the median of their sizes, and their limit."""
     steps = np.diff(heights, axis=0)
     sizes = np.abs(steps[~np.isnan(steps)])
     if sizes.size < _FEWEST:
-        return found
+        return steps, math.inf, math.inf
     # An odd stride visits every column of a map, whose width is usually even.
-    _, limit = tail_of(sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1], sizes.size)
+    chosen = sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1]
+    _, limit = tail_of(chosen, sizes.size)
     limit = max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
+    return steps, float(np.median(chosen)), limit
+
+
+def _runs(heights: Array, steps: Array, soft: float, hard: float, least: int) -> Mask:
+    """Return the runs of at least `least` cells along one to four rows that stand out from the rows on both sides.
+
+    The steps on both sides exceed `soft` along the run, and `hard` somewhere.
+    """
+    raised, lowered = (np.zeros(heights.shape, dtype=np.bool_) for _ in range(2))
     most = _WHOLE * np.count_nonzero(~np.isnan(heights), axis=1)
-    for width in range(1, min(_WIDE, len(steps) - 1) + 1):
-        for rise in (steps, -steps):
+    for width in range(1, min(_WIDE, len(heights) - 2) + 1):
+        for found, other, rise in ((raised, lowered, steps), (lowered, raised, -steps)):
             out = np.minimum(rise[:-width], -rise[width:])  # smaller of the two steps; NaN if either is NaN
-            runs = _long_runs(out > _EXTENT * limit, out > limit, most[1 : 1 + len(out)])
+            if width > 1:  # the surface between two narrower runs
+                out[other[: -width - 1] | other[width + 1 :]] = -math.inf
+            if not (out > hard).any():
+                continue
+            runs = _long_runs(out > soft, out > hard, least, most[1 : 1 + len(out)])
             for line in range(1, 1 + width):
                 found[line : line + len(out)] |= runs
-    return found
+    return raised | lowered
 
 
-def _long_runs(soft: Mask, hard: Mask, most: Array) -> Mask:
-    """Return the runs of `soft` cells along each row that are long, shorter than `most`, and have a `hard` cell."""
+def _long_runs(soft: Mask, hard: Mask, least: int, most: Array) -> Mask:
+    """Return the runs of `soft` cells along each row of at least `least` and at most `most` cells with a `hard` one."""
     from scipy.ndimage import label
 
     along: Any = [[0, 0, 0], [1, 1, 1], [0, 0, 0]]
@@ -75,4 +119,4 @@ def _long_runs(soft: Mask, hard: Mask, most: Array) -> Mask:
     sizes[0] = 0
     sizes[np.bincount(labels[hard], minlength=count + 1) == 0] = 0
     length = sizes[labels]
-    return np.asarray((length >= LONG) & (length <= most[:, None]))
+    return np.asarray((length >= least) & (length <= most[:, None]))
