@@ -159,7 +159,9 @@ def test_what_is_to_be_differentiated_is_refused(rough):
     import torch
 
     heights = torch.tensor(rough.heights, requires_grad=True)
-    message = r"detach them, heights.detach\(\), or .*: rc.differentiable_curve\(grid, modulus, forces=\[...\]\)\("
+    message = (
+        r"detach them, heights.detach\(\), or .*: rc.differentiable_curve\(grid, modulus, forces=\[...\]\)\("
+    )
     with pytest.raises(ValueError, match=message):
         rc.Surface(heights, rough.grid)
     assert rc.Surface(heights.detach(), rough.grid).rms > 0

@@ -144,7 +144,9 @@ def test_heights_that_cannot_be_differentiated_are_refused(curve, loss, heights)
 
 
 def test_a_surface_of_jax_is_refused(heights):
-    message = r"heights of JAX cannot be pressed.* give np.asarray\(heights\); for .* call rc.differentiable_curve"
+    message = (
+        r"heights of JAX cannot be pressed.* give np.asarray\(heights\); for .* call rc.differentiable_curve"
+    )
     with pytest.raises(ValueError, match=message):
         rc.Surface(heights, SURFACE.grid)
     with pytest.raises(ValueError, match=message):

@@ -80,7 +80,9 @@ def test_profiles_are_differentiated_too():
     )  # all rings raised: the depth from a level shrinks
 
 
-@pytest.mark.filterwarnings("ignore:`torch.jit.script:DeprecationWarning")  # which PyTorch's forward mode uses
+@pytest.mark.filterwarnings(
+    "ignore:`torch.jit.script:DeprecationWarning"
+)  # which PyTorch's forward mode uses
 def test_a_second_derivative_is_refused(curve):
     heights = tensor()
     (gradient,) = torch.autograd.grad(squares(curve)(heights), heights, create_graph=True)

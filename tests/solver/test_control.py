@@ -14,7 +14,8 @@ STARTS = [start for start in ("fork", "spawn") if start in multiprocessing.get_a
 # Python 3.12 warns of forks beside threads, which this process may have, and JAX if it is loaded: that they go well is
 # what is shown here.
 FORKS = pytest.mark.filterwarnings(
-    "ignore:This process .* is multi-threaded:DeprecationWarning", r"ignore:os.fork\(\) was called:RuntimeWarning"
+    "ignore:This process .* is multi-threaded:DeprecationWarning",
+    r"ignore:os.fork\(\) was called:RuntimeWarning",
 )
 PATIENCE = 240  # [s], of a busy machine
 
