@@ -7,7 +7,7 @@ from dataclasses import FrozenInstanceError
 from types import MappingProxyType
 from typing import Any, NoReturn, TypeVar
 
-__all__ = ["MEANT", "did_you_mean", "hinted"]
+__all__ = ["MEANT", "WITHOUT", "did_you_mean", "hinted"]
 
 T = TypeVar("T")
 
@@ -32,9 +32,11 @@ _BUDGET = {
 }
 _SOLID = {"young_modulus": "e young", "shear_modulus": "g", "poisson_ratio": "nu poisson"}
 _BRANCHES = ("force", "depth", "stiffness", "contact_area", "mean_gap", "nominal_pressure")
+_DERIVATIVES = "sensitivity sensitivities derivative derivatives gradient gradients"
 _GUESSED = {
     "roughcontact": _BUDGET
     | {
+        "rc.sensitivity": "derivative derivatives gradient gradients",
         "rc.read": "load open",
         "rc.write": "save to_csv",
         "rc.press": "solve",
@@ -54,9 +56,10 @@ _GUESSED = {
         "rc.write(surface, 'part.npz')": "save",
         "to_dataset()": "to_xarray",
     },
-    "Solution": _STATE | _BUDGET,
+    "Solution": _STATE | _BUDGET | {"rc.sensitivity(solution)": _DERIVATIVES},
     **dict.fromkeys(("AdhesiveState", "DetachmentState"), _STATE),
     "Curve": _CURVE
+    | {"rc.sensitivity(solution) of each solution of rc.loading_path": _DERIVATIVES}
     | {"nominal_pressure": "pressure", "fit().exponent": "exponent", "to_dataframe()": "to_pandas"},
     **dict.fromkeys(("AdhesiveCurve", "DetachmentCurve"), _CURVE | _TABLE),
     "Loop": _TABLE | {f"loading.{name} or unloading.{name}": name for name in _BRANCHES},
@@ -71,6 +74,28 @@ MEANT: Mapping[str, Mapping[str, str]] = MappingProxyType(
 )
 """Names that users guess, in lower case, by the class or module; misspelt names are found by similarity."""
 
+_STEPS = "on a grid {} changes in steps, so it has no derivative"
+_AREA = (
+    f"{_STEPS}; no other number stands for it exactly: for its trend, fit rc.loading_curve over loads that change many "
+    "cells"
+)
+_STEPPING = {
+    _AREA.format("the contact area"): "area contact_area contact_fraction",
+    _AREA.format("the number of spots"): "spots spot_count",
+    f"{_STEPS.format('the stiffness')}: use secant_stiffness": "stiffness interfacial_stiffness",
+}
+WITHOUT: Mapping[str, Mapping[str, str]] = MappingProxyType(
+    {
+        "Sensitivity": {
+            f"{name}{held}": reason
+            for reason, names in _STEPPING.items()
+            for name in names.split()
+            for held in ("", "_at_force", "_at_depth")
+        }
+    }
+)
+"""Why a class does not have a name that users guess, and what to do."""
+
 
 def did_you_mean(owner: str, name: str, known: Iterable[str]) -> str:
     """Return the end of a message about a `name` that an `owner` does not have; empty if no name is similar.
@@ -84,6 +109,8 @@ def did_you_mean(owner: str, name: str, known: Iterable[str]) -> str:
     known : iterable of str
         Names that the owner has.
     """
+    if reason := WITHOUT.get(owner, {}).get(name):
+        return f": {reason}"
     meant = MEANT.get(owner, {}).get(name.casefold())
     if meant is None:
         from difflib import get_close_matches  # late: it takes as long to import as all of a package's names

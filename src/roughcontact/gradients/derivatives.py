@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -22,9 +22,9 @@ from roughcontact.grid import RadialGrid
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.note import Note, Rank, in_order
-from roughcontact.validation import Array, scalar
+from roughcontact.validation import Array, numeric, positive_scalar
 
-__all__ = ["Reference", "Sensitivity"]
+__all__ = ["Reference", "Sensitivity", "require_reference"]
 
 Reference: TypeAlias = Literal["first touch", "level"]
 """Where the depth counts from: first touch, as everywhere, or a level that does not move with the highest cell."""
@@ -33,6 +33,12 @@ DIFFERENTIABLE = (
     *("force_at_depth", "depth_at_force", "mean_gap_at_force", "mean_gap_at_depth"),
     *("energy_at_force", "energy_at_depth"),
 )
+
+
+def require_reference(reference: object) -> None:
+    """Raise a ValueError for a word that is no `Reference`."""
+    if reference not in get_args(Reference):
+        raise about("the reference", f"must be 'first touch' or 'level', not {reference!r}")
 
 
 @hinted
@@ -68,11 +74,6 @@ class Sensitivity:
     reference: Reference = "first touch"
 
     @property
-    def stiffness(self) -> float:
-        """Slope of the force over the depth on the fixed region [N/m]; infinite in full contact of a period."""
-        return self._linear.frozen.stiffness
-
-    @property
     def share(self) -> Array:
         """Part of a further load that each cell takes [1]; the sum over all cells is 1."""
         return self._linear.share
@@ -95,6 +96,7 @@ class Sensitivity:
     @cached_property
     def mean_gap_at_depth(self) -> Array:
         """Derivative of the mean gap at given depth [1]."""
+        self._linear.require_finite_stiffness()
         return self._linear.mean_gap + (1 - self._linear.closing) * self._highest
 
     @cached_property
@@ -107,6 +109,7 @@ class Sensitivity:
     def energy_at_depth(self) -> Array:
         """Derivative of the elastic energy at given depth [N]."""
         self._require_elastic()
+        self._linear.require_finite_stiffness()
         return self._linear.forces - self.solution.force * self._highest
 
     def along(self, direction: Array) -> dict[str, float]:
@@ -138,7 +141,7 @@ class Sensitivity:
         True
         """
         field, xp = self._linear.checked(direction, "direction"), self.solution.problem.measure.xp
-        plastic, full = self.solution.problem.plastic, math.isinf(self.stiffness)
+        plastic, full = self.solution.problem.plastic, self._linear.full
         names = [
             each
             for each in DIFFERENTIABLE
@@ -189,14 +192,14 @@ class Sensitivity:
         """
         if held not in ("force", "depth"):
             raise about("held", f"must be 'force' or 'depth', not {held!r}")
-        _ = self._linear.finite_stiffness  # refuses full contact
+        self._linear.require_finite_stiffness()
         heights, depth = self._linear.pullback(pressure, displacement, gap)
         return heights - depth * (self.share if held == "force" else self._highest)
 
     def secant_stiffness(self, other: Sensitivity) -> tuple[float, Array]:
         """Return the secant stiffness to another load of the same bodies, and its derivatives.
 
-        Between loads 10 to 20 % apart it is within 1 to 2 % of `stiffness`, which has no derivative on a grid.
+        Between loads 10 to 20 % apart it is within 1 to 2 % of the stiffness, which has no derivative on a grid.
 
         Parameters
         ----------
@@ -220,9 +223,13 @@ class Sensitivity:
         >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
         >>> first, second = (rc.sensitivity(s) for s in rc.loading_path(ball, 1e9, forces=[1e-3, 1.2e-3]))
         >>> secant, derivative = first.secant_stiffness(second)
-        >>> f"{secant / first.stiffness:.2f}", derivative.shape
+        >>> f"{secant / first.solution.stiffness:.2f}", derivative.shape
         ('1.02', (33, 33))
         """
+        if not isinstance(other, Sensitivity):
+            raise about(
+                "other", f"is a {type(other).__name__}", "give sensitivity(solution) of the other load"
+            )
         a, b = self.solution, other.solution
         if a.problem.grid != b.problem.grid:
             raise about("other", "is a load on another grid", "give a load of the same surface")
@@ -232,27 +239,47 @@ class Sensitivity:
         return secant, secant / (b.depth - a.depth) * (other.share - self.share)
 
     def to_rms_height(self) -> dict[str, float]:
-        """Return the derivatives with respect to the rms height [m], as all heights over their mean are scaled."""
-        measure, measured, heights = (
-            self.solution.problem.measure,
-            self.solution.problem.measured,
-            self._heights,
-        )
-        heights = heights - measure.mean(heights, measured)
-        rms = math.sqrt(measure.mean(heights * heights, measured))
-        return self.along(heights / rms)
+        """Return the derivatives with respect to the rms height [m], as all heights over their mean are scaled.
 
+        Returns
+        -------
+        dict of str to float
+            See `along`.
+        """
+        problem = self.solution.problem
+        heights = self._heights - problem.measure.mean(self._heights, problem.measured)
+        return self.along(heights / math.sqrt(problem.measure.mean(heights * heights, problem.measured)))
+
+    @numeric(radius="m")
     def to_radius(self, radius: float) -> dict[str, float]:
-        """Return the derivatives with respect to the radius [m] of a paraboloid, whose heights go as its inverse.
+        """Return the derivatives with respect to the radius of a paraboloid, whose highest cell stays where it is.
+
+        On a grid the derivatives vary by some per cent as the contact grows by whole cells: refine the grid for more.
 
         Parameters
         ----------
         radius : float
             Present radius [m].
+
+        Returns
+        -------
+        dict of str to float
+            See `along`.
+
+        Raises
+        ------
+        ValueError
+            If the radius is not positive.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
+        >>> f"{derivatives.to_radius(1e-4)['depth_at_force'] * 1e6:.0f} nm/mm"  # Hertz: -d/(3 R), here -590
+        '-613 nm/mm'
         """
-        heights, xp = self._heights, self.solution.problem.measure.xp
-        apex = float(xp.max(xp.where(self.solution.problem.measured, heights, -math.inf)))
-        return self.along((apex - heights) / scalar(radius, "radius [m]"))
+        return self.along(-self._heights / positive_scalar(radius, "radius [m]"))
 
     def to_tilt(self, axis: int = 0) -> dict[str, float]:
         """Return the derivatives with respect to the slope of the surface along an axis [1].
@@ -261,42 +288,100 @@ class Sensitivity:
         ----------
         axis : int
             The heights rise along it, about the middle of the map.
+
+        Returns
+        -------
+        dict of str to float
+            See `along`.
+
+        Raises
+        ------
+        ValueError
+            If there is no such axis, or the surface is periodic along it, or rings.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> tilt = rc.sensitivity(rc.press(ball, 1e9, force=1e-3)).to_tilt(axis=1)
+        >>> abs(tilt["force_at_depth"]) < 1e-15  # by symmetry
+        True
         """
         grid = self.solution.problem.grid
         if axis not in range(grid.ndim):
             raise about("the axis", f"must be one of {tuple(range(grid.ndim))}, not {axis!r}")
-        if grid.periodic[axis] or isinstance(grid, RadialGrid):
-            raise about("the axis", "is one that cannot be tilted: the surface is periodic or axisymmetric")
+        if isinstance(grid, RadialGrid) or grid.periodic[axis]:
+            raise InputError(
+                "a periodic or axisymmetric surface cannot be tilted",
+                "give the change of its heights to along",
+                "axis",
+            )
         x = grid.coordinates[axis]
-        x = x - 0.5 * (x[0] + x[-1])
         shape = [-1 if each == axis else 1 for each in range(grid.ndim)]
-        field = np.broadcast_to(x.reshape(shape), grid.shape)
+        field = np.broadcast_to((x - 0.5 * (x[0] + x[-1])).reshape(shape), grid.shape)
         return self.along(as_like(np.ascontiguousarray(field), self.solution.pressure))
 
     def to_load(self) -> dict[str, float]:
         """Return the derivatives with respect to the load: those at given force [per N], those at given depth [per m].
 
-        ``force_at_depth`` is the stiffness, ``depth_at_force`` its inverse.
+        Returns
+        -------
+        dict of str to float
+            See `along`. ``force_at_depth`` is the stiffness, ``depth_at_force`` its inverse.
+
+        Raises
+        ------
+        ValueError
+            In full contact of a periodic surface.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
+        >>> derivatives.to_load()["energy_at_depth"]  # the work of the force
+        0.001
         """
         k, opening, force = self._linear.finite_stiffness, self._linear.closing - 1, self.solution.force
-        return self._with_energy(
-            {
-                "force_at_depth": k,
-                "depth_at_force": 1 / k,
-                "mean_gap_at_force": opening / k,
-                "mean_gap_at_depth": opening,
-            },
-            {"energy_at_force": force / k, "energy_at_depth": force},
-        )
+        found = {
+            "force_at_depth": k,
+            "depth_at_force": 1 / k,
+            "mean_gap_at_force": opening / k,
+            "mean_gap_at_depth": opening,
+        }
+        if self.solution.problem.plastic:
+            return found
+        return found | {"energy_at_force": force / k, "energy_at_depth": force}
 
     def to_modulus(self) -> dict[str, float]:
-        """Return the derivatives with respect to the reduced modulus [Pa], with which all moduli of a body grow."""
+        """Return the derivatives with respect to the reduced modulus [Pa], with which all moduli of a body grow.
+
+        Returns
+        -------
+        dict of str to float
+            See `along`.
+
+        Raises
+        ------
+        ValueError
+            Under a hardness, in full contact of a periodic surface, or if the problem does not state its modulus.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
+        >>> f"{derivatives.to_modulus()['force_at_depth'] * 1e9 / 1e-3:.12g}"  # the force is proportional to it
+        '1'
+        """
         modulus, force = self.solution.problem.modulus, self.solution.force
         if not math.isfinite(modulus):
-            raise InputError("the operator has no reduced modulus", "use an operator that has one")
+            raise InputError(
+                "the problem does not state a reduced modulus", "give modulus= to ContactProblem"
+            )
         if self.solution.problem.plastic:
             raise InputError(
-                "under a hardness the pressure does not grow with the modulus alone",
+                "under a hardness the pressure is not proportional to the modulus",
                 "take the difference of two loads at two moduli",
             )
         load, energy = self.to_load(), self.solution.elastic_energy
@@ -310,13 +395,32 @@ class Sensitivity:
         }
 
     def to_hardness(self) -> dict[str, float]:
-        """Return the derivatives of force and depth with respect to the hardness [Pa], raised alike on all cells."""
+        """Return the derivatives with respect to the hardness [Pa]; that of a map grows by as much on all cells.
+
+        Returns
+        -------
+        dict of str to float
+            Those of ``force_at_depth`` and ``depth_at_force``.
+
+        Raises
+        ------
+        ValueError
+            If the load has no hardness.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+        >>> derivatives = rc.sensitivity(rc.press(ball, 1e11, force=0.2, hardness=2e9))
+        >>> derivatives.to_hardness()["depth_at_force"] < 0  # a harder body is indented less
+        True
+        """
         problem, measure = self.solution.problem, self.solution.problem.measure
         if not problem.plastic:
             raise InputError("the load has no hardness", "press with hardness=")
         flowing = measure.xp.astype(self.solution.plastic, self.solution.pressure.dtype)
-        moved = exact_of(problem.operator).apply(flowing)
-        force = measure.total(flowing) - measure.dot(self._linear.frozen.tangent, moved)
+        displacement = exact_of(problem.operator).apply(flowing)
+        force = measure.total(flowing) - measure.dot(self._linear.frozen.tangent, displacement)
         return {"force_at_depth": force, "depth_at_force": -force / self._linear.finite_stiffness}
 
     @property
@@ -339,12 +443,19 @@ class Sensitivity:
             yield Note(
                 Rank.WRONG, "The load missed its tolerance: these are not the derivatives of its limit."
             )
+        if self.residual > self._linear.tolerance:
+            yield Note(
+                Rank.WRONG,
+                f"The derivatives follow from a unit displacement whose error is {self.residual:.1e}, more than the "
+                f"{self._linear.tolerance:.1e} that the tolerance of the load allows.",
+            )
         touching = int(solution.problem.measure.xp.count_nonzero(solution.touching))
         if touching:
-            cells = "1 cell touches" if touching == 1 else f"{touching} cells touch"
+            cells, them = ("1 cell touches", "it") if touching == 1 else (f"{touching} cells touch", "them")
             yield Note(
                 Rank.LIMITED,
-                f"{cells} without pressure. The derivatives hold for changes that open them, as the stiffness does.",
+                f"{cells} without pressure: the derivatives hold for changes that open {them}. For changes that close "
+                f"{them} they differ.",
             )
 
     @cached_property
@@ -369,7 +480,7 @@ class Sensitivity:
 
     @property
     def _heights(self) -> Array:
-        """Heights below the highest cell [m]; zero for missing cells."""
+        """Heights over the highest cell [m], so none is positive; zero for missing cells."""
         problem = self.solution.problem
         return problem.measure.xp.where(problem.measured, -problem.separation, 0.0)  # type: ignore[no-any-return]
 
@@ -379,6 +490,3 @@ class Sensitivity:
                 "under a hardness the elastic energy has no derivative: it depends on how the surface has flowed",
                 "take the derivative of force or depth",
             )
-
-    def _with_energy(self, found: dict[str, float], energies: dict[str, float]) -> dict[str, float]:
-        return found if self.solution.problem.plastic else found | energies

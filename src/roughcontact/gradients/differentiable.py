@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from array_api_compat import is_jax_array, is_torch_array
@@ -17,7 +17,7 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import about
-from roughcontact.gradients.derivatives import Reference, Sensitivity
+from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 from roughcontact.gradients.sensitivity import sensitivity
 from roughcontact.grid import AnyGrid, Grid
 from roughcontact.halfspace.operators.operator import Operator
@@ -26,11 +26,13 @@ from roughcontact.materials import Modulus
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array, number, numeric, shown
 
 __all__ = ["CurveValues", "DifferentiableCurve", "differentiable_curve"]
 
 A = TypeVar("A")
+Weights: TypeAlias = float | Sequence[float] | Array
+"""Derivatives of a scalar with respect to one quantity of each load."""
 
 
 class CurveValues(NamedTuple, Generic[A]):
@@ -48,6 +50,14 @@ class CurveValues(NamedTuple, Generic[A]):
         Mean gap [m].
     energy : array
         Elastic energy [J].
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
+    >>> values, _ = rc.differentiable_curve(ball.grid, 1e9, forces=[1e-3, 2e-3]).linearise(ball.heights)
+    >>> values._fields, values.mean_gap.shape
+    (('force', 'depth', 'mean_gap', 'energy'), (2,))
     """
 
     force: A
@@ -69,6 +79,14 @@ class DifferentiableCurve:
     operator : Operator, optional
     tolerance : float
     hardness : float, array or Material, optional
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((33, 33), 1e-6)
+    >>> curve = rc.DifferentiableCurve(grid, 1e9, rc.differentiable_curve(grid, 1e9, forces=[1e-3]).loads)
+    >>> curve.linearise(rc.shapes.paraboloid(grid, radius=1e-4).heights)[0].force
+    array([0.001])
     """
 
     grid: AnyGrid
@@ -150,7 +168,8 @@ class DifferentiableCurve:
         Raises
         ------
         ValueError
-            If the heights do not fit the grid, or a load has no derivatives, see `sensitivity`.
+            If the heights do not fit the grid, no cell touches at a depth from a level, or a load has no derivatives,
+            see `sensitivity`.
         ConvergenceError
             If a load missed its tolerance.
 
@@ -169,7 +188,7 @@ class DifferentiableCurve:
         """
         body = self._body(heights)
         level = float(np.nanmax(heights)) if self.reference == "level" else 0.0
-        loads = Loads("depth", self.loads.values + level) if self._of_depths else self.loads
+        loads = self._since_first_touch(level)
         path = solutions_along(body, self.modulus, loads, self.operator, None, self.tolerance, self.hardness)
         states = [self._derivatives(solution) for solution in path]
         values = CurveValues(
@@ -180,16 +199,15 @@ class DifferentiableCurve:
         )
 
         def pullback(
-            force: Array | float = 0.0,
-            depth: Array | float = 0.0,
-            mean_gap: Array | float = 0.0,
-            energy: Array | float = 0.0,
+            force: Weights = 0.0,
+            depth: Weights = 0.0,
+            mean_gap: Weights = 0.0,
+            energy: Weights = 0.0,
         ) -> Array:
             total = np.zeros(self.grid.shape)
-            for name, derivatives in zip(CurveValues._fields, (force, depth, mean_gap, energy), strict=True):
-                for state, weight in zip(
-                    states, np.broadcast_to(derivatives, values.force.shape), strict=True
-                ):
+            for name, given in zip(CurveValues._fields, (force, depth, mean_gap, energy), strict=True):
+                weights = self._fitting(given, name)
+                for state, weight in zip(states, weights, strict=True):
                     if weight and name != self._held:
                         total += weight * getattr(state, f"{name}_at_{self._held}")
             return total
@@ -203,6 +221,24 @@ class DifferentiableCurve:
     @property
     def _held(self) -> str:
         return "depth" if self._of_depths else "force"
+
+    def _since_first_touch(self, level: float) -> Loads:
+        if not (self._of_depths and self.reference == "level"):
+            return self.loads
+        depths = self.loads.values + level
+        if not depths[0] > 0:
+            raise about(
+                "depths",
+                f"count from the level: at {self.loads.values[0]:g} m no cell touches",
+                f"give more than {-level:g} m",
+            )
+        return Loads("depth", depths)
+
+    def _fitting(self, given: Weights, name: str) -> Array:
+        weights = number(given, f"the derivative with respect to {name}")
+        if weights.shape not in ((), self.loads.values.shape):
+            raise about(name, f"has the shape {weights.shape}, the loads {self.loads.values.shape}")
+        return np.broadcast_to(weights, self.loads.values.shape)
 
     def _derivatives(self, solution: Solution) -> Sensitivity:
         if not solution.status.converged:
@@ -273,7 +309,7 @@ def differentiable_curve(
     Raises
     ------
     ValueError
-        If not exactly one kind of loads is given, or they do not increase.
+        If not exactly one kind of loads is given, they do not increase, or grid or reference is another value.
 
     Examples
     --------
@@ -283,6 +319,9 @@ def differentiable_curve(
     >>> f"{values.depth[0] * 1e9:.0f} nm"
     '177 nm'
     """
+    if not isinstance(grid, AnyGrid):
+        raise about("the grid", f"must be a Grid or a RadialGrid, not {shown(grid)}")
+    require_reference(reference)
     loads = Loads.of(forces=forces, depths=depths, pressures=pressures).rising(
         "give the loads in order, each once"
     )

@@ -20,7 +20,7 @@ from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.solver.control import Tangent
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import prescribed_displacement
-from roughcontact.validation import Array, Mask
+from roughcontact.validation import Array, Mask, number, shown
 
 __all__ = ["LinearisedContact", "no_second_derivative"]
 
@@ -42,12 +42,21 @@ class LinearisedContact:
     @cached_property
     def frozen(self) -> FrozenContact:
         """The response of the region to a unit displacement, about as accurate as the load."""
-        problem, known = self.solution.problem, self.solution.frozen
-        tolerance = min(TOLERANCE, DIGITS * problem.tolerance)
-        if known.residual <= tolerance or math.isinf(known.stiffness):
+        known = self.solution.frozen
+        if known.residual <= self.tolerance or math.isinf(known.stiffness):
             return known
-        begun = Tangent(known.tangent, known.residual)
-        return frozen_contact(problem.operator, self.region, tangent=begun, tolerance=tolerance)
+        begun, operator = Tangent(known.tangent, known.residual), self.solution.problem.operator
+        return frozen_contact(operator, self.region, tangent=begun, tolerance=self.tolerance)
+
+    @property
+    def tolerance(self) -> float:
+        """Of the linear problems on the region."""
+        return min(TOLERANCE, DIGITS * self.solution.problem.tolerance)
+
+    @property
+    def full(self) -> bool:
+        """Whether all cells of a periodic surface are in contact."""
+        return math.isinf(self.frozen.stiffness)
 
     @property
     def region(self) -> Mask:
@@ -56,19 +65,23 @@ class LinearisedContact:
 
     @property
     def finite_stiffness(self) -> float:
-        """The stiffness [N/m], if there is one."""
-        if math.isinf(self.frozen.stiffness):
+        """The stiffness [N/m], if it is finite."""
+        self.require_finite_stiffness()
+        return self.frozen.stiffness
+
+    def require_finite_stiffness(self) -> None:
+        """Raise an error in full contact of a periodic surface."""
+        if self.full:
             raise InputError(
                 "in full contact of a periodic surface the stiffness is infinite, so that at a given depth there is "
                 "no derivative",
                 "take the derivatives at a given force",
             )
-        return self.frozen.stiffness
 
     @cached_property
     def share(self) -> Array:
         """Part of a further load that each cell takes, ``w t / k`` [1]."""
-        if math.isinf(self.frozen.stiffness):  # full contact: a load is spread evenly
+        if self.full:  # contact: a load is spread evenly
             return self._of_measured
         return self.weighted(self.frozen.tangent) / self.frozen.stiffness
 
@@ -121,14 +134,18 @@ class LinearisedContact:
         if not max_abs(inside):
             return inside  # type: ignore[no-any-return]
         operator = exact_of(self.solution.problem.operator)
-        tolerance = max(self.frozen.residual, min(TOLERANCE, DIGITS * self.solution.problem.tolerance))
+        tolerance = max(self.frozen.residual, self.tolerance)
         return prescribed_displacement(self.region, inside, operator=operator, tolerance=tolerance).pressure
 
     def checked(self, given: Array, name: str) -> Array:
         """Return a given field, zero for missing cells; raise a ValueError if it does not fit."""
-        problem, xp = self.solution.problem, self._measure.xp
-        if tuple(np.shape(given)) != problem.grid.shape:
-            raise about(name, f"has the shape {np.shape(given)}, the grid {problem.grid.shape}")
+        problem, xp, pressure = self.solution.problem, self._measure.xp, self.solution.pressure
+        if self._measure.on_host:
+            given = number(given, name)
+        elif not isinstance(given, type(pressure)):
+            raise about(name, f"must be a {type(pressure).__name__} like the heights, not {shown(given)}")
+        if tuple(given.shape) != problem.grid.shape:
+            raise about(name, f"has the shape {tuple(given.shape)}, the grid {problem.grid.shape}")
         field: Array = xp.where(problem.measured, given, 0.0)
         if not bool(xp.all(xp.isfinite(field))):
             raise about(name, "must be finite for every measured cell")

@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import InputError, about
-from roughcontact.gradients.derivatives import Reference, Sensitivity
+from roughcontact.errors import InputError
+from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 
 __all__ = ["sensitivity"]
+
+HISTORY = "depends on the states before it, so it has no derivative with respect to the heights"
+OF_EACH = "give each solution of rc.loading_path, or take rc.differentiable_curve"
+OTHERS = {
+    "AdhesiveState": (
+        f"an AdhesiveState {HISTORY}",
+        "give the Solution of rc.press, which is without adhesion",
+    ),
+    "DetachmentState": (f"a DetachmentState {HISTORY}", "give the Solution from which the detachment began"),
+    "TangentialSolution": (f"a TangentialSolution {HISTORY}", "give the Solution that rc.slide was given"),
+    "Curve": ("a Curve does not hold the pressures, from which derivatives follow", OF_EACH),
+    "Loop": ("a Loop does not hold the pressures, from which derivatives follow", OF_EACH),
+}
+"""Answers without derivatives: the reason, and what to do."""
 
 
 def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> Sensitivity:
     """Return the derivatives of a load with respect to the height of every cell.
 
-    They follow from the tangent of the stiffness, so they cost what the stiffness costs. The derivatives are exact at
-    all states but those in which a cell touches without pressure; there they are one-sided, and a note says so. For a
-    curve, take them for each solution of `loading_path`.
+    They follow from the tangent of the stiffness (docs/concepts/method.md, G3), so they cost what the stiffness costs.
+    The derivatives are exact except in states in which a cell touches without pressure; there they are one-sided, and a
+    note reports it. For a curve, take them for each solution of `loading_path`, or use `differentiable_curve`.
 
     Parameters
     ----------
@@ -43,19 +57,14 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
     '0.53'
     """
     if not isinstance(solution, Solution):
-        raise InputError(
-            f"a {type(solution).__name__} has no derivatives here",
-            "give a Solution, as rc.press and rc.loading_path return it",
-            "solution",
-        )
-    if reference not in ("first touch", "level"):
-        raise about("the reference", f"must be 'first touch' or 'level', not {reference!r}")
+        raise _without(solution)
+    require_reference(reference)
     problem = solution.problem
     for found, words, remedy in (
         (
             problem.flow is not None,
             "a surface that larger loads have flattened depends on its original heights through the flow",
-            "press its present heights: rc.press(solution.problem.surface, ...)",
+            "press its present heights without a hardness: rc.press(solution.problem.surface, ...)",
         ),
         (
             problem.size_law is not None,
@@ -77,3 +86,10 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
             "solution",
         )
     return Sensitivity(solution, reference)
+
+
+def _without(answer: object) -> InputError:
+    """Return the error about an answer without derivatives."""
+    name = type(answer).__name__
+    unknown = f"a {name} has no derivatives", "give a Solution, as rc.press and rc.loading_path return it"
+    return InputError(*OTHERS.get(name, unknown), "solution")
