@@ -38,6 +38,7 @@ QUESTIONS = {
     "adhesion": "how-to/adhesion",
     "afm tip": "how-to/afm",
     "method of adhesion": "concepts/method-adhesion",
+    "derivatives": "how-to/derivatives",
     "memory": "how-to/memory",
     "hardness": "concepts/plastic",
     "unload and reload": "how-to/plastic-loops",

@@ -29,6 +29,7 @@ SCAN = rc.Surface(
 SPECTRUM = rc.PowerSpectrum(*(np.geomspace(1e5, 1e6, 9),) * 2, "C2D", *(np.full(9, 9.0),) * 2, 1e5, 1e6)
 LAW = rc.SelfAffineSpectrum(0.8, 1e-5, None, 1e-6)
 PRESSED = rc.press(CUT, STEEL, force=1e-4)
+DERIVATIVES = rc.sensitivity(PRESSED)
 MASK = np.pad(np.ones((4, 4), bool), 6)
 TIP = rc.mdr.indenter.paraboloid(1e-2)
 STICKY = rc.mdr.adhesion.jkr(TIP, 1e9, 0.05)
@@ -74,6 +75,8 @@ CALLS = {
     rc.press: {"surface": CUT, "modulus": 1e9, "force": 1e-4, "tolerance": 1e-8, "hardness": 1e12},
     rc.contact_stiffness: {"mask": MASK, "grid": FREE, "modulus": 1e9, "tolerance": 1e-7},
     rc.load_range: {"surface": CUT, "modulus": 1e9, "count": 5},
+    DERIVATIVES.to_radius: {"radius": 1e-3},
+    rc.differentiable_curve: {"grid": FREE, "modulus": 1e9, "forces": [1e-4], "tolerance": 1e-8},
     PRESSED.pressure_histogram: {"bins": 5},
     rc.shapes.cone: {"grid": FREE, "slope": 0.1},
     rc.shapes.cylinder: {"grid": FREE, "radius": 1e-3},

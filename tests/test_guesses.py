@@ -61,6 +61,9 @@ SAY = {
     "solution.area": "did you mean contact_area?",
     "solution.corrected_contact_area": "did you mean rc.error_budget(solution)['corrected_contact_area']?",
     "rc.corrected_contact_area": "did you mean rc.error_budget(solution)['corrected_contact_area']?",
+    "solution.gradient": "did you mean rc.sensitivity(solution)?",
+    "curve.gradient": "did you mean rc.sensitivity(solution) of each solution of rc.loading_path?",
+    "rc.gradient": "did you mean rc.sensitivity?",
     "solution.to_dataframe": "did you mean to_record() or to_dataset()?",
     "curve.pressure": "did you mean nominal_pressure?",
     "curve.area": "did you mean contact_area?",
@@ -349,6 +352,8 @@ def test_each_frozen_class_of_the_face_compares_by_value_or_holds_fields():
 
 
 ANSWERS = {
+    "Sensitivity",
+    "DifferentiableCurve",
     "TangentialSolution",
     "ContactProblem",
     "TangentialStiffness",

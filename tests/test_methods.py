@@ -12,7 +12,11 @@ import roughcontact
 
 DOCS = Path(__file__).parents[1] / "docs" / "concepts"
 CODE = Path(roughcontact.__file__).parent
-PAGES = {"method.md": ("ABCD", "solver"), "method-adhesion.md": ("E", "adhesion")}
+PAGES = {
+    "method.md": ("ABCD", "solver"),
+    "method-adhesion.md": ("E", "adhesion"),
+    "method-derivatives.md": ("G", "gradients"),
+}
 page_and_code = pytest.mark.parametrize("page", PAGES)
 
 

@@ -94,6 +94,9 @@ MORE = [
                          "control": rc.Force(1e-3), "modulus": 1e9, "hardness": 1e8, "rise": 1e-8,
                          "lifting": 1e-12}),
     (PRESSED.problem.raised, {"rise": 1e-8, "lifting": 1e-12}),
+    *((rc.differentiable_curve, {"grid": FREE, "modulus": 1e9, "hardness": 1e9, name: [value]})
+      for name, value in (("forces", 1e-4), ("depths", 1e-8), ("pressures", 1e6))),
+    (rc.differentiable_curve(FREE, 1e9, forces=[1e-4]).linearise, {"heights": CUT.heights}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "depth": 1e-8}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "pressure": 1e6}),
     (rc.press, {"surface": SCAN, "modulus": 1e9, "force": 1.0, "operator": LINE_OPERATOR}),

@@ -36,7 +36,7 @@ _DERIVATIVES = "sensitivity sensitivities derivative derivatives gradient gradie
 _GUESSED = {
     "roughcontact": _BUDGET
     | {
-        "rc.sensitivity": "derivative derivatives gradient gradients",
+        "rc.sensitivity": "derivative derivatives gradient",
         "rc.read": "load open",
         "rc.write": "save to_csv",
         "rc.press": "solve",

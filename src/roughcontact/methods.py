@@ -53,6 +53,14 @@ if TYPE_CHECKING:
         tangential_dataset as tangential_dataset,
         tangential_record as tangential_record,
     )
+    from roughcontact.gradients.parameters import (
+        to_hardness as to_hardness,
+        to_load as to_load,
+        to_modulus as to_modulus,
+        to_radius as to_radius,
+        to_rms_height as to_rms_height,
+        to_tilt as to_tilt,
+    )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
         plot_loop as plot_loop,
@@ -104,6 +112,7 @@ else:
         "contact.loop_dataset": "loop_dataset loop_record",
         "contact.notes": "notes_on",
         "evaluation.interface_dataset": "interface_dataset",
+        "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from libraries import LIBRARIES
 from perturbed import CASES, MODULUS, STEP, TOLERANCE, uncertainty
 from roughcontact.gradients import differentiable
 
@@ -84,6 +85,15 @@ def test_several_quantities_add_up():
     np.testing.assert_allclose(both, apart, rtol=0, atol=8 * np.finfo(float).eps * np.abs(both).max())
     assert not pullback().any()
     assert not pullback(force=1.0).any()  # given
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=lambda kind: kind.__name__)
+def test_arrays_of_other_libraries_are_copied(library):
+    body, curve = made("forces from a level")
+    values, pullback = curve.linearise(body.heights)
+    copied, from_copied = curve.linearise(library.put(body.heights.copy()))
+    np.testing.assert_array_equal(copied.depth, values.depth)
+    np.testing.assert_array_equal(from_copied(depth=1.0), pullback(depth=1.0))
 
 
 def test_missing_cells():

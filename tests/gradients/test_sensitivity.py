@@ -52,7 +52,7 @@ def test_arrays_of_other_libraries(name, library):
         scale = max(map(abs, expected.values()))
         assert call(there, heights) == pytest.approx(expected, rel=1e-6, abs=AGREEMENT * scale), name
     assert there.notes == here.notes
-    with pytest.raises(rc.InputError, match="direction must be a .* like the heights, not a ndarray"):
+    with pytest.raises(rc.InputError, match=r"direction must be a .* like the heights, not a ndarray"):
         there.along(case.body.heights)
     assert here.along(case.body.heights.tolist()) == here.along(case.body.heights)
 
@@ -172,7 +172,7 @@ def test_answers_say_where_their_derivatives_are(name):
         ):
             getattr(answer, name)
     if name != "sensitivity":
-        with pytest.raises(AttributeError, match="did you mean rc.sensitivity"):
+        with pytest.raises(AttributeError, match=r"did you mean rc\.sensitivity"):
             getattr(rc, name)
 
 

@@ -146,10 +146,10 @@ def test_in_full_contact_the_depth_follows_the_mean():
     energy = (forth.elastic_energy - back.elastic_energy) / (2 * step)
     assert energy == pytest.approx(along["energy_at_force"], abs=state.force * allowed)
     for name in ("force_at_depth", "mean_gap_at_depth", "energy_at_depth"):
-        with pytest.raises(rc.InputError, match="full contact.*infinite.*at a given force"):
+        with pytest.raises(rc.InputError, match=r"full contact.*infinite.*at a given force"):
             getattr(found, name)
     for refused in (found.to_load, found.to_modulus, lambda: found.pullback(gap=direction)):
-        with pytest.raises(rc.InputError, match="full contact.*infinite.*at a given force"):
+        with pytest.raises(rc.InputError, match=r"full contact.*infinite.*at a given force"):
             refused()
 
 
@@ -158,7 +158,7 @@ def test_ties_of_the_highest_cell():
     state = rc.press(disc, MODULUS, force=0.01, tolerance=1e-12)
     found = rc.sensitivity(state)
     cells = np.count_nonzero(np.isfinite(disc.heights))
-    with pytest.raises(rc.InputError, match=f"{cells} cells share the greatest height.*reference='level'"):
+    with pytest.raises(rc.InputError, match=rf"{cells} cells share the greatest height.*reference='level'"):
         _ = found.depth_at_force
     assert found.mean_gap_at_force.any()  # at a given force it does not depend on first touch
     assert rc.sensitivity(state, reference="level").depth_at_force.sum() == pytest.approx(-1)

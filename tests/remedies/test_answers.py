@@ -1,10 +1,13 @@
 """What is refused of adhesion, friction and answers: the message is followed, and the numbers are there."""
 
+import math
+
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from followed import LINE, MODULUS, PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, row
+from roughcontact.contact.press import solve
 from roughcontact.theory.law import LoadingLaw
 
 STEEL = rc.Solid(205e9, 0.29)
@@ -376,6 +379,161 @@ ANSWERS = [
         ),
     ),
 ]
+
+
+def differentiated(solution=None, **named):
+    return rc.sensitivity(solution or pressed(), **named)
+
+
+def hard(**named):
+    return pressed(hardness=6e7, **named)
+
+
+def first_state():
+    return next(rc.detachment_path(rc.press(ROUGH, MODULUS, depth=2e-8), 1e-3, depths=[1e-8]))
+
+
+def unloaded():
+    """Return the last load, after flow under a larger one."""
+    return list(rc.loading_path(ROUGH, MODULUS, forces=[2e-4, 1e-4], hardness=6e7))[-1]
+
+
+def full():
+    return differentiated(rc.press(PERIODIC, MODULUS, pressure=2e8))
+
+
+DISC = rc.shapes.flat_disc(PLANE, radius=5e-6)
+DERIVATIVES = [
+    row(
+        lambda: differentiated(stuck(force=1e-6)),
+        "an AdhesiveState depends on the states before it, so it has no derivative with respect to the heights: give "
+        "the Solution of rc.press, which is without adhesion",
+        lambda: differentiated(rc.press(ROUGH, MODULUS, force=1e-6)),
+    ),
+    row(
+        lambda: differentiated(first_state()),
+        "give the Solution from which the detachment began",
+        lambda: differentiated(rc.press(ROUGH, MODULUS, depth=2e-8)),
+    ),
+    row(
+        lambda: differentiated(slid(force=1e-6)),
+        "a TangentialSolution depends on the states before it, so it has no derivative with respect to the heights: "
+        "give the Solution that rc.slide was given",
+        lambda: differentiated(pressed()),
+    ),
+    row(
+        lambda: differentiated(curve(ROUGH, forces=[1e-5, 1e-4])),
+        "give each solution of rc.loading_path, or take rc.differentiable_curve",
+        lambda: [differentiated(each) for each in rc.loading_path(ROUGH, MODULUS, forces=[1e-5, 1e-4])],
+        lambda: rc.differentiable_curve(PLANE, MODULUS, forces=[1e-5, 1e-4]).linearise(ROUGH.heights),
+    ),
+    row(
+        lambda: differentiated(1.0),
+        "a float has no derivatives: give a Solution, as rc.press and rc.loading_path return it",
+        lambda: differentiated(pressed()),
+        lambda: differentiated(next(rc.loading_path(ROUGH, MODULUS, forces=[1e-4]))),
+    ),
+    row(
+        lambda: differentiated(unloaded()),
+        "press its present heights without a hardness: rc.press(solution.problem.surface, ...)",
+        lambda: differentiated(rc.press(unloaded().problem.surface, MODULUS, force=1e-4)),
+    ),
+    row(
+        lambda: differentiated(pressed(hardness=rc.NixGao(6e7, 1e-6))),
+        "a hardness that depends on the size of spots changes in steps with the heights: give the hardness as a number",
+        lambda: differentiated(hard()),
+    ),
+    row(
+        lambda: differentiated(
+            list(rc.loading_path(ROUGH, MODULUS, forces=[1e-4, 2e-4], hardness=6e7, flow="raised"))[-1]
+        ),
+        "a surface that rises with flow depends on the loads before: give loading_path flow='removed'",
+        lambda: differentiated(
+            list(rc.loading_path(ROUGH, MODULUS, forces=[1e-4, 2e-4], hardness=6e7, flow="removed"))[-1]
+        ),
+    ),
+    row(
+        lambda: differentiated(rc.press(ROUGH, MODULUS, depth=0.0)),
+        "without contact there is nothing to differentiate: press deeper",
+        lambda: differentiated(rc.press(ROUGH, MODULUS, depth=1e-9)),
+    ),
+    row(
+        lambda: differentiated(pressed(1e-4, hardness=2e7)),
+        "so no force grows with the depth: press under a greater hardness",
+        lambda: differentiated(pressed(1e-4, hardness=1e9)),
+    ),
+    row(
+        lambda: differentiated(reference="top"),
+        "must be 'first touch' or 'level', not 'top'",
+        lambda: differentiated(reference="first touch"),
+        lambda: differentiated(reference="level"),
+    ),
+    row(
+        lambda: differentiated(rc.press(DISC, MODULUS, force=1e-4)).depth_at_force,
+        "take it from a level: sensitivity(solution, reference='level')",
+        lambda: differentiated(rc.press(DISC, MODULUS, force=1e-4), reference="level").depth_at_force,
+    ),
+    row(
+        lambda: full().force_at_depth,
+        "take the derivatives at a given force",
+        lambda: (full().depth_at_force, full().mean_gap_at_force, full().energy_at_force),
+    ),
+    row(
+        lambda: differentiated(hard()).energy_at_force,
+        "it depends on how the surface has flowed; take the derivative of force or depth",
+        lambda: differentiated(hard()).force_at_depth,
+        lambda: differentiated(hard()).depth_at_force,
+    ),
+    row(
+        lambda: differentiated(hard()).to_modulus(),
+        "take the difference of two loads at two moduli",
+        lambda: [rc.press(ROUGH, modulus, force=1e-4, hardness=6e7).depth for modulus in (1e9, 1.01e9)],
+    ),
+    row(
+        lambda: differentiated().to_hardness(),
+        "the load has no hardness: press with hardness=",
+        lambda: differentiated(hard()).to_hardness(),
+    ),
+    row(
+        lambda: differentiated(rc.press(PERIODIC, MODULUS, force=1e-4)).to_tilt(),
+        "cannot be tilted: give the change of its heights to along",
+        lambda: differentiated(rc.press(PERIODIC, MODULUS, force=1e-4)).along(
+            np.tile(PERIODIC.grid.coordinates[0][:, None], 16)
+        ),
+    ),
+    row(
+        lambda: differentiated().secant_stiffness(pressed(2e-4)),
+        "other is a Solution: give sensitivity(solution) of the other load",
+        lambda: differentiated().secant_stiffness(differentiated(pressed(2e-4))),
+    ),
+    row(
+        lambda: differentiated().secant_stiffness(differentiated()),
+        "has the same depth as this load: give another load",
+        lambda: differentiated().secant_stiffness(differentiated(pressed(2e-4))),
+    ),
+    row(
+        lambda: differentiated().secant_stiffness(full()),
+        "is a load on another grid: give a load of the same surface",
+        lambda: differentiated().secant_stiffness(differentiated(pressed(2e-4))),
+    ),
+    row(
+        lambda: rc.sensitivity(solved(math.nan)).to_modulus(),
+        "the problem does not state a reduced modulus: give modulus= to ContactProblem",
+        lambda: rc.sensitivity(solved(MODULUS)).to_modulus(),
+    ),
+]
+
+
+def solved(modulus):
+    """Return the solution of a problem that was put together by hand."""
+    separation = ROUGH.heights.max() - ROUGH.heights
+    operator = rc.half_space(PLANE, MODULUS)
+    return solve(rc.ContactProblem(separation, operator, rc.Force(1e-4), modulus=modulus))
+
+
+@pytest.mark.parametrize("refusal", DERIVATIVES)
+def test_derivatives(refusal):
+    follow(refusal)
 
 
 @pytest.mark.parametrize("refusal", ADHESION)

@@ -6,23 +6,18 @@ region are exact, except in states in which a cell is about to touch or to open.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
-import numpy as np
-
-from roughcontact.arrays import as_like
+from roughcontact import methods
 from roughcontact.cached import cached_property
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.gradients.linearised import LinearisedContact
-from roughcontact.grid import RadialGrid
 from roughcontact.guesses import hinted
-from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.labels.note import Note, Rank, in_order
-from roughcontact.validation import Array, numeric, positive_scalar
+from roughcontact.validation import Array
 
 __all__ = ["Reference", "Sensitivity", "require_reference"]
 
@@ -76,41 +71,41 @@ class Sensitivity:
     @property
     def share(self) -> Array:
         """Part of a further load that each cell takes [1]; the sum over all cells is 1."""
-        return self._linear.share
+        return self.linearised.share
 
     @cached_property
     def depth_at_force(self) -> Array:
         """Derivative of the depth at given force [1]."""
-        return self._highest - self.share
+        return self._highest - self.share  # G3
 
     @cached_property
     def force_at_depth(self) -> Array:
         """Derivative of the force at given depth [N/m]."""
-        return -self._linear.finite_stiffness * self.depth_at_force
+        return -self.linearised.finite_stiffness * self.depth_at_force  # G3
 
     @cached_property
     def mean_gap_at_force(self) -> Array:
         """Derivative of the mean gap at given force [1]."""
-        return self._linear.mean_gap + (1 - self._linear.closing) * self.share
+        return self.linearised.mean_gap + (1 - self.linearised.closing) * self.share  # G6
 
     @cached_property
     def mean_gap_at_depth(self) -> Array:
         """Derivative of the mean gap at given depth [1]."""
-        self._linear.require_finite_stiffness()
-        return self._linear.mean_gap + (1 - self._linear.closing) * self._highest
+        self.linearised.require_finite_stiffness()
+        return self.linearised.mean_gap + (1 - self.linearised.closing) * self._highest  # G6
 
     @cached_property
     def energy_at_force(self) -> Array:
         """Derivative of the elastic energy at given force [N]."""
         self._require_elastic()
-        return self._linear.forces - self.solution.force * self.share
+        return self.linearised.forces - self.solution.force * self.share  # G4
 
     @cached_property
     def energy_at_depth(self) -> Array:
         """Derivative of the elastic energy at given depth [N]."""
         self._require_elastic()
-        self._linear.require_finite_stiffness()
-        return self._linear.forces - self.solution.force * self._highest
+        self.linearised.require_finite_stiffness()
+        return self.linearised.forces - self.solution.force * self._highest  # G4
 
     def along(self, direction: Array) -> dict[str, float]:
         """Return the derivatives as all heights change along a direction.
@@ -118,7 +113,7 @@ class Sensitivity:
         Parameters
         ----------
         direction : array, shape of the grid
-            Change of each height per unit of a parameter [m per unit]; values of missing cells do not count.
+            Change of each height, in metres per unit of a parameter; values of missing cells do not count.
 
         Returns
         -------
@@ -140,8 +135,8 @@ class Sensitivity:
         >>> abs(raised["depth_at_force"]) < 1e-15
         True
         """
-        field, xp = self._linear.checked(direction, "direction"), self.solution.problem.measure.xp
-        plastic, full = self.solution.problem.plastic, self._linear.full
+        field, xp = self.linearised.checked(direction, "direction"), self.solution.problem.measure.xp
+        plastic, full = self.solution.problem.plastic, self.linearised.full
         names = [
             each
             for each in DIFFERENTIABLE
@@ -162,9 +157,10 @@ class Sensitivity:
         Parameters
         ----------
         pressure : array, shape of the grid, optional
-            Derivatives of the scalar with respect to the pressure of each cell [per Pa].
+            Derivatives of the scalar with respect to the pressure of each cell, per pascal.
         displacement, gap : array, shape of the grid, optional
-            Derivatives with respect to displacement and gap of each cell [per m]; those of missing cells do not count.
+            Derivatives with respect to displacement and gap of each cell, per metre; those of missing cells do not
+            count.
         held : {"force", "depth"}
             The given load.
 
@@ -192,9 +188,9 @@ class Sensitivity:
         """
         if held not in ("force", "depth"):
             raise about("held", f"must be 'force' or 'depth', not {held!r}")
-        self._linear.require_finite_stiffness()
-        heights, depth = self._linear.pullback(pressure, displacement, gap)
-        return heights - depth * (self.share if held == "force" else self._highest)
+        self.linearised.require_finite_stiffness()
+        heights, depth = self.linearised.pullback(pressure, displacement, gap)
+        return heights - depth * (self.share if held == "force" else self._highest)  # G10
 
     def secant_stiffness(self, other: Sensitivity) -> tuple[float, Array]:
         """Return the secant stiffness to another load of the same bodies, and its derivatives.
@@ -238,195 +234,17 @@ class Sensitivity:
         secant = (b.force - a.force) / (b.depth - a.depth)
         return secant, secant / (b.depth - a.depth) * (other.share - self.share)
 
-    def to_rms_height(self) -> dict[str, float]:
-        """Return the derivatives with respect to the rms height [m], as all heights over their mean are scaled.
-
-        Returns
-        -------
-        dict of str to float
-            See `along`.
-        """
-        problem = self.solution.problem
-        heights = self._heights - problem.measure.mean(self._heights, problem.measured)
-        return self.along(heights / math.sqrt(problem.measure.mean(heights * heights, problem.measured)))
-
-    @numeric(radius="m")
-    def to_radius(self, radius: float) -> dict[str, float]:
-        """Return the derivatives with respect to the radius of a paraboloid, whose highest cell stays where it is.
-
-        On a grid the derivatives vary by some per cent as the contact grows by whole cells: refine the grid for more.
-
-        Parameters
-        ----------
-        radius : float
-            Present radius [m].
-
-        Returns
-        -------
-        dict of str to float
-            See `along`.
-
-        Raises
-        ------
-        ValueError
-            If the radius is not positive.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
-        >>> f"{derivatives.to_radius(1e-4)['depth_at_force'] * 1e6:.0f} nm/mm"  # Hertz: -d/(3 R), here -590
-        '-613 nm/mm'
-        """
-        return self.along(-self._heights / positive_scalar(radius, "radius [m]"))
-
-    def to_tilt(self, axis: int = 0) -> dict[str, float]:
-        """Return the derivatives with respect to the slope of the surface along an axis [1].
-
-        Parameters
-        ----------
-        axis : int
-            The heights rise along it, about the middle of the map.
-
-        Returns
-        -------
-        dict of str to float
-            See `along`.
-
-        Raises
-        ------
-        ValueError
-            If there is no such axis, or the surface is periodic along it, or rings.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> tilt = rc.sensitivity(rc.press(ball, 1e9, force=1e-3)).to_tilt(axis=1)
-        >>> abs(tilt["force_at_depth"]) < 1e-15  # by symmetry
-        True
-        """
-        grid = self.solution.problem.grid
-        if axis not in range(grid.ndim):
-            raise about("the axis", f"must be one of {tuple(range(grid.ndim))}, not {axis!r}")
-        if isinstance(grid, RadialGrid) or grid.periodic[axis]:
-            raise InputError(
-                "a periodic or axisymmetric surface cannot be tilted",
-                "give the change of its heights to along",
-                "axis",
-            )
-        x = grid.coordinates[axis]
-        shape = [-1 if each == axis else 1 for each in range(grid.ndim)]
-        field = np.broadcast_to((x - 0.5 * (x[0] + x[-1])).reshape(shape), grid.shape)
-        return self.along(as_like(np.ascontiguousarray(field), self.solution.pressure))
-
-    def to_load(self) -> dict[str, float]:
-        """Return the derivatives with respect to the load: those at given force [per N], those at given depth [per m].
-
-        Returns
-        -------
-        dict of str to float
-            See `along`. ``force_at_depth`` is the stiffness, ``depth_at_force`` its inverse.
-
-        Raises
-        ------
-        ValueError
-            In full contact of a periodic surface.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
-        >>> derivatives.to_load()["energy_at_depth"]  # the work of the force
-        0.001
-        """
-        k, opening, force = self._linear.finite_stiffness, self._linear.closing - 1, self.solution.force
-        found = {
-            "force_at_depth": k,
-            "depth_at_force": 1 / k,
-            "mean_gap_at_force": opening / k,
-            "mean_gap_at_depth": opening,
-        }
-        if self.solution.problem.plastic:
-            return found
-        return found | {"energy_at_force": force / k, "energy_at_depth": force}
-
-    def to_modulus(self) -> dict[str, float]:
-        """Return the derivatives with respect to the reduced modulus [Pa], with which all moduli of a body grow.
-
-        Returns
-        -------
-        dict of str to float
-            See `along`.
-
-        Raises
-        ------
-        ValueError
-            Under a hardness, in full contact of a periodic surface, or if the problem does not state its modulus.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> derivatives = rc.sensitivity(rc.press(ball, 1e9, force=1e-3))
-        >>> f"{derivatives.to_modulus()['force_at_depth'] * 1e9 / 1e-3:.12g}"  # the force is proportional to it
-        '1'
-        """
-        modulus, force = self.solution.problem.modulus, self.solution.force
-        if not math.isfinite(modulus):
-            raise InputError(
-                "the problem does not state a reduced modulus", "give modulus= to ContactProblem"
-            )
-        if self.solution.problem.plastic:
-            raise InputError(
-                "under a hardness the pressure is not proportional to the modulus",
-                "take the difference of two loads at two moduli",
-            )
-        load, energy = self.to_load(), self.solution.elastic_energy
-        return {
-            "force_at_depth": force / modulus,
-            "depth_at_force": -force * load["depth_at_force"] / modulus,
-            "mean_gap_at_force": -force * load["mean_gap_at_force"] / modulus,
-            "mean_gap_at_depth": 0.0,
-            "energy_at_force": (energy - force * load["energy_at_force"]) / modulus,
-            "energy_at_depth": energy / modulus,
-        }
-
-    def to_hardness(self) -> dict[str, float]:
-        """Return the derivatives with respect to the hardness [Pa]; that of a map grows by as much on all cells.
-
-        Returns
-        -------
-        dict of str to float
-            Those of ``force_at_depth`` and ``depth_at_force``.
-
-        Raises
-        ------
-        ValueError
-            If the load has no hardness.
-
-        Examples
-        --------
-        >>> import roughcontact as rc
-        >>> ball = rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4)
-        >>> derivatives = rc.sensitivity(rc.press(ball, 1e11, force=0.2, hardness=2e9))
-        >>> derivatives.to_hardness()["depth_at_force"] < 0  # a harder body is indented less
-        True
-        """
-        problem, measure = self.solution.problem, self.solution.problem.measure
-        if not problem.plastic:
-            raise InputError("the load has no hardness", "press with hardness=")
-        flowing = measure.xp.astype(self.solution.plastic, self.solution.pressure.dtype)
-        displacement = exact_of(problem.operator).apply(flowing)
-        force = measure.total(flowing) - measure.dot(self._linear.frozen.tangent, displacement)
-        return {"force_at_depth": force, "depth_at_force": -force / self._linear.finite_stiffness}
+    to_rms_height = methods.to_rms_height
+    to_radius = methods.to_radius
+    to_tilt = methods.to_tilt
+    to_load = methods.to_load
+    to_modulus = methods.to_modulus
+    to_hardness = methods.to_hardness
 
     @property
     def residual(self) -> float:
         """Largest error of the unit displacement that the derivatives follow from: their certificate."""
-        return self._linear.frozen.residual
+        return self.linearised.frozen.residual
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -443,11 +261,11 @@ class Sensitivity:
             yield Note(
                 Rank.WRONG, "The load missed its tolerance: these are not the derivatives of its limit."
             )
-        if self.residual > self._linear.tolerance:
+        if self.residual > self.linearised.tolerance:
             yield Note(
                 Rank.WRONG,
                 f"The derivatives follow from a unit displacement whose error is {self.residual:.1e}, more than the "
-                f"{self._linear.tolerance:.1e} that the tolerance of the load allows.",
+                f"{self.linearised.tolerance:.1e} that the tolerance of the load allows.",
             )
         touching = int(solution.problem.measure.xp.count_nonzero(solution.touching))
         if touching:
@@ -459,7 +277,8 @@ class Sensitivity:
             )
 
     @cached_property
-    def _linear(self) -> LinearisedContact:
+    def linearised(self) -> LinearisedContact:
+        """The load linearised on its fixed region."""
         return LinearisedContact(self.solution)
 
     @cached_property
@@ -477,12 +296,6 @@ class Sensitivity:
                 "reference",
             )
         return xp.astype(highest, problem.separation.dtype)  # type: ignore[no-any-return]
-
-    @property
-    def _heights(self) -> Array:
-        """Heights over the highest cell [m], so none is positive; zero for missing cells."""
-        problem = self.solution.problem
-        return problem.measure.xp.where(problem.measured, -problem.separation, 0.0)  # type: ignore[no-any-return]
 
     def _require_elastic(self) -> None:
         if self.solution.problem.plastic:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from array_api_compat import is_jax_array, is_torch_array
 
-from roughcontact.arrays import is_array, on_host
+from roughcontact.arrays import on_host
 from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.loading import solutions_along
 from roughcontact.contact.problem import Body
@@ -20,9 +20,11 @@ from roughcontact.errors import about
 from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 from roughcontact.gradients.sensitivity import sensitivity
 from roughcontact.grid import AnyGrid, Grid
+from roughcontact.halfspace.operators.build import body_on
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.labels.variables import force_unit
 from roughcontact.materials import Modulus
+from roughcontact.solver.control import checked_tolerance
 from roughcontact.solver.loads import Loads
 from roughcontact.surface.radial import RadialProfile
 from roughcontact.surface.surface import Surface
@@ -138,7 +140,7 @@ class DifferentiableCurve:
         """
         given: Any = heights
         if not (is_torch_array(given) or is_jax_array(given)):
-            values: Any = self.linearise(on_host(given) if is_array(given) else given)[0]
+            values: Any = self.linearise(given)[0]
             return values  # type: ignore[no-any-return]
         self._require_recordable(given)
         if is_torch_array(given):
@@ -155,7 +157,7 @@ class DifferentiableCurve:
         Parameters
         ----------
         heights : array, shape of the grid
-            Heights [m]; NaN where nothing was measured.
+            Heights [m]; NaN where nothing was measured. Arrays of other libraries are copied to the host.
 
         Returns
         -------
@@ -187,7 +189,7 @@ class DifferentiableCurve:
         (16, 16)
         """
         body = self._body(heights)
-        level = float(np.nanmax(heights)) if self.reference == "level" else 0.0
+        level = float(np.nanmax(body.heights)) if self.reference == "level" else 0.0
         loads = self._since_first_touch(level)
         path = solutions_along(body, self.modulus, loads, self.operator, None, self.tolerance, self.hardness)
         states = [self._derivatives(solution) for solution in path]
@@ -264,10 +266,10 @@ class DifferentiableCurve:
 
     def _body(self, heights: Array) -> Body:
         self._require_shape(np.shape(heights))
-        heights = np.asarray(heights, dtype=np.float64)
-        if isinstance(self.grid, Grid):
-            return Surface(heights, self.grid)
-        return RadialProfile(heights, self.grid)
+        if not isinstance(self.grid, Grid):
+            return RadialProfile(heights, self.grid)
+        surface = Surface(heights, self.grid)
+        return replace(surface, heights=on_host(surface.heights))
 
 
 @numeric(modulus="Pa", forces=force_unit, depths="m", pressures="Pa", hardness="Pa")
@@ -309,7 +311,7 @@ def differentiable_curve(
     Raises
     ------
     ValueError
-        If not exactly one kind of loads is given, they do not increase, or grid or reference is another value.
+        If not exactly one kind of loads is given, they do not increase, or another argument is out of range.
 
     Examples
     --------
@@ -325,4 +327,5 @@ def differentiable_curve(
     loads = Loads.of(forces=forces, depths=depths, pressures=pressures).rising(
         "give the loads in order, each once"
     )
-    return DifferentiableCurve(grid, modulus, loads, reference, operator, tolerance, hardness)
+    body = body_on(grid, modulus, operator)  # once for all heights
+    return DifferentiableCurve(grid, modulus, loads, reference, body, checked_tolerance(tolerance), hardness)

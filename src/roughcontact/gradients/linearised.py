@@ -2,6 +2,7 @@
 
 On the elastic cells c in contact, ``A_cc p_c = D + h_c`` with the depth D from a level and the heights h. All cells
 carry the weights w, under which A is symmetric; t is the tangent, ``A_cc t_c = 1``, and the stiffness ``k = sum w t``.
+Labels G1 to G11 are the lines of the algorithm in docs/concepts/method-derivatives.md.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ class LinearisedContact:
     @cached_property
     def frozen(self) -> FrozenContact:
         """The response of the region to a unit displacement, about as accurate as the load."""
-        known = self.solution.frozen
+        known = self.solution.frozen  # G1
         if known.residual <= self.tolerance or math.isinf(known.stiffness):
             return known
         begun, operator = Tangent(known.tangent, known.residual), self.solution.problem.operator
@@ -50,7 +51,7 @@ class LinearisedContact:
 
     @property
     def tolerance(self) -> float:
-        """Of the linear problems on the region."""
+        """The tolerance of the linear problems on the region."""
         return min(TOLERANCE, DIGITS * self.solution.problem.tolerance)
 
     @property
@@ -81,9 +82,9 @@ class LinearisedContact:
     @cached_property
     def share(self) -> Array:
         """Part of a further load that each cell takes, ``w t / k`` [1]."""
-        if self.full:  # contact: a load is spread evenly
+        if self.full:  # G2: a load is spread evenly
             return self._of_measured
-        return self.weighted(self.frozen.tangent) / self.frozen.stiffness
+        return self.weighted(self.frozen.tangent) / self.frozen.stiffness  # G2
 
     @property
     def forces(self) -> Array:
@@ -105,7 +106,7 @@ class LinearisedContact:
         if self._moves_no_mean:
             return -self._of_measured
         mean_response = self.solution.problem.mean_response
-        return self.weighted(self._pressure_under(mean_response)) - self._of_measured
+        return self.weighted(self._pressure_under(mean_response)) - self._of_measured  # G5
 
     def weighted(self, field: Array) -> Array:
         """Return a field times the weights of its cells."""
@@ -122,15 +123,15 @@ class LinearisedContact:
         moved = 0.0 if displacement is None else self.checked(displacement, "displacement")
         opened = None if gap is None else self.checked(gap, "gap")
         lifted = moved if opened is None else moved + opened
-        if not isinstance(lifted, float):  # by symmetry, displacements follow from pressures
+        if not isinstance(lifted, float):  # G7: by symmetry, displacements follow from pressures
             total = total + self.weighted(exact_of(problem.operator).apply(self._unweighted(lifted)))
         heights = self.weighted(self._pressure_under(self._unweighted(total)))
-        depth = float(xp.sum(heights))
+        depth = float(xp.sum(heights))  # G9
         return (heights, depth) if opened is None else (heights - opened, depth - float(xp.sum(opened)))
 
     def _pressure_under(self, displacement: Array) -> Array:
         """Return the pressure on the region that displaces it as given."""
-        inside = self._measure.xp.where(self.region, displacement, 0.0)
+        inside = self._measure.xp.where(self.region, displacement, 0.0)  # G8
         if not max_abs(inside):
             return inside  # type: ignore[no-any-return]
         operator = exact_of(self.solution.problem.operator)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from roughcontact.contact.solution import Solution
+from roughcontact.contact.stiffness import elastic_contact
 from roughcontact.errors import InputError
 from roughcontact.gradients.derivatives import Reference, Sensitivity, require_reference
 
@@ -26,9 +27,9 @@ OTHERS = {
 def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> Sensitivity:
     """Return the derivatives of a load with respect to the height of every cell.
 
-    They follow from the tangent of the stiffness (docs/concepts/method.md, G3), so they cost what the stiffness costs.
-    The derivatives are exact except in states in which a cell touches without pressure; there they are one-sided, and a
-    note reports it. For a curve, take them for each solution of `loading_path`, or use `differentiable_curve`.
+    They follow from the tangent of the stiffness, so they cost what the stiffness costs. The derivatives are exact
+    except in states in which a cell touches without pressure; there they are one-sided, and a note reports it. For a
+    curve, take them for each solution of `loading_path`, or use `differentiable_curve`.
 
     Parameters
     ----------
@@ -36,7 +37,7 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
         Of `press` or `loading_path`: elastic, or on first loading under a hardness.
     reference : {"first touch", "level"}
         Where the depth counts from. If cells share the greatest height, as on a flat punch, only the depth from a level
-        has derivatives. Raising the highest cell alone moves first touch, but no level.
+        has derivatives. The highest cell moves first touch, but no level.
 
     Returns
     -------
@@ -59,7 +60,7 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
     if not isinstance(solution, Solution):
         raise _without(solution)
     require_reference(reference)
-    problem = solution.problem
+    problem, xp = solution.problem, solution.problem.measure.xp
     for found, words, remedy in (
         (
             problem.flow is not None,
@@ -74,17 +75,21 @@ def sensitivity(solution: Solution, *, reference: Reference = "first touch") -> 
         (
             problem.rise != 0,
             "a surface that rises with flow depends on the loads before",
-            "press with flow='removed'",
+            "give loading_path flow='removed'",
+        ),
+        (
+            not solution.contact_area,
+            "without contact there is nothing to differentiate",
+            "press deeper",
+        ),
+        (
+            not bool(xp.any(elastic_contact(solution.pressure, problem.hardness))),
+            "all cells in contact are plastic, so no force grows with the depth",
+            "press under a greater hardness",
         ),
     ):
         if found:
             raise InputError(words, remedy, "solution")
-    if not solution.frozen.stiffness > 0:
-        raise InputError(
-            "no cell is in contact elastically, so no force grows with the depth",
-            "press deeper, or under a greater hardness",
-            "solution",
-        )
     return Sensitivity(solution, reference)
 
 
