@@ -76,36 +76,42 @@ class Sensitivity:
     @cached_property
     def depth_at_force(self) -> Array:
         """Derivative of the depth at given force [1]."""
-        return self._highest - self.share  # G3
+        # G3
+        return self._highest - self.share
 
     @cached_property
     def force_at_depth(self) -> Array:
         """Derivative of the force at given depth [N/m]."""
-        return -self.linearised.finite_stiffness * self.depth_at_force  # G3
+        # G3
+        return -self.linearised.finite_stiffness * self.depth_at_force
 
     @cached_property
     def mean_gap_at_force(self) -> Array:
         """Derivative of the mean gap at given force [1]."""
-        return self.linearised.mean_gap + (1 - self.linearised.closing) * self.share  # G6
+        # G6
+        return self.linearised.mean_gap + (1 - self.linearised.closing) * self.share
 
     @cached_property
     def mean_gap_at_depth(self) -> Array:
         """Derivative of the mean gap at given depth [1]."""
         self.linearised.require_finite_stiffness()
-        return self.linearised.mean_gap + (1 - self.linearised.closing) * self._highest  # G6
+        # G6
+        return self.linearised.mean_gap + (1 - self.linearised.closing) * self._highest
 
     @cached_property
     def energy_at_force(self) -> Array:
         """Derivative of the elastic energy at given force [N]."""
         self._require_elastic()
-        return self.linearised.forces - self.solution.force * self.share  # G4
+        # G4
+        return self.linearised.forces - self.solution.force * self.share
 
     @cached_property
     def energy_at_depth(self) -> Array:
         """Derivative of the elastic energy at given depth [N]."""
         self._require_elastic()
         self.linearised.require_finite_stiffness()
-        return self.linearised.forces - self.solution.force * self._highest  # G4
+        # G4
+        return self.linearised.forces - self.solution.force * self._highest
 
     def along(self, direction: Array) -> dict[str, float]:
         """Return the derivatives as all heights change along a direction.
@@ -190,7 +196,8 @@ class Sensitivity:
             raise about("held", f"must be 'force' or 'depth', not {held!r}")
         self.linearised.require_finite_stiffness()
         heights, depth = self.linearised.pullback(pressure, displacement, gap)
-        return heights - depth * (self.share if held == "force" else self._highest)  # G10
+        # G10
+        return heights - depth * (self.share if held == "force" else self._highest)
 
     def secant_stiffness(self, other: Sensitivity) -> tuple[float, Array]:
         """Return the secant stiffness to another load of the same bodies, and its derivatives.

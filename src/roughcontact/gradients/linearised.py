@@ -84,7 +84,8 @@ class LinearisedContact:
         """Part of a further load that each cell takes, ``w t / k`` [1]."""
         if self.full:  # G2: a load is spread evenly
             return self._of_measured
-        return self.weighted(self.frozen.tangent) / self.frozen.stiffness  # G2
+        # G2
+        return self.weighted(self.frozen.tangent) / self.frozen.stiffness
 
     @property
     def forces(self) -> Array:
@@ -106,7 +107,8 @@ class LinearisedContact:
         if self._moves_no_mean:
             return -self._of_measured
         mean_response = self.solution.problem.mean_response
-        return self.weighted(self._pressure_under(mean_response)) - self._of_measured  # G5
+        # G5
+        return self.weighted(self._pressure_under(mean_response)) - self._of_measured
 
     def weighted(self, field: Array) -> Array:
         """Return a field times the weights of its cells."""

@@ -27,6 +27,14 @@ def to_rms_height(derivatives: Sensitivity) -> dict[str, float]:
     -------
     dict of str to float
         See `Sensitivity.along`.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> surface = rc.self_affine(rc.Grid((32, 32), 1e-6, periodic=True), hurst=0.8, rms=1e-7, rng=1)
+    >>> derivatives = rc.sensitivity(rc.press(surface, 1e9, pressure=1e7))
+    >>> derivatives.to_rms_height()["force_at_depth"] < 0  # of a rougher surface fewer cells touch
+    True
     """
     problem = derivatives.solution.problem
     heights = _below_highest(derivatives)
