@@ -33,6 +33,7 @@ export PIP_RETRIES ?= 2
 export PIP_DEFAULT_TIMEOUT ?= 15
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
 TORCH ?= torch==2.13.0+cpu
+JAX ?= jax==0.10.2
 STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python .ci/prose.py
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
@@ -110,7 +111,8 @@ $(ENV)/.ready-to-read: $(ENV)/.ready $(ASKED)
 
 $(ENV)/.ready-to-test: $(ENV)/.ready $(ASKED)
 	@$(BIN)/python .ci/install.py $@ "Installing what the tests need ..." formats page test lint
-	@$(BIN)/python $(INSTALL) "$(TORCH)" 2>/dev/null || echo "$(TORCH): not found here, its tests are skipped"
+	@for each in "$(TORCH)" "$(JAX)"; do \
+	  $(BIN)/python $(INSTALL) "$$each" 2>/dev/null || echo "$$each: not found here, its tests are skipped"; done
 
 $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@$(call create,$(MPI_ENV))

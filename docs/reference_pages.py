@@ -26,6 +26,7 @@ TITLES = {  # in this order
     "contact": "Contact",
     "evaluation": "Readers of a contact",
     "friction": "Friction",
+    "gradients": "Derivatives",
     "adhesion": "Adhesion",
     "halfspace": "Operators",
     "slabs": "Slabs: one surface on several machines",

@@ -21,6 +21,7 @@ QUESTIONS = {
     "my curve is unresolved": "how-to/unresolved",
     "which cut-off": "gallery/questions/short_cutoff",
     "gpu": "how-to/devices",
+    "jax": "how-to/autograd",
     "abaqus": "coming-from/abaqus",
     "tamaas": "coming-from/tamaas",
     "aspher": "coming-from/aspher",

@@ -34,7 +34,7 @@ FEWER = {
     **{"points = 64": "points = 32", "samples = 4": "samples = 1"},
 }
 # Libraries that a block may want and a machine may lack.
-OPTIONAL = {"torch": "import torch\n", "tqdm": "rc.progress.bar("}
+OPTIONAL = {"jax": "import jax\n", "torch": "import torch\n", "tqdm": "rc.progress.bar("}
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^    (roughcontact .*?)(?: {2,}#.*)?$", re.MULTILINE)
 

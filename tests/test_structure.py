@@ -63,8 +63,8 @@ DISK_AND_SCREEN = {
     *("sqlite3", "tempfile", "typer"),
 }
 HEAVY = {
-    *("SurfaceTopography", "h5netcdf", "h5py", "llvmlite", "matplotlib", "pandas", "pint", "rich", "typer"),
-    "xarray",
+    *("SurfaceTopography", "h5netcdf", "h5py", "jax", "llvmlite", "matplotlib", "pandas", "pint", "rich"),
+    *("torch", "typer", "xarray"),
 }
 WRITES = {"open", "print", "save", "savetxt", "savez", "tofile", "to_netcdf", "write_bytes", "write_text"}
 
@@ -235,6 +235,7 @@ def test_a_load_loads_only_what_it_computes_with(tmp_path):
 import roughcontact as rc
 ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
 rc.press(ball, 1e9, force=1e-3)
+rc.differentiable_curve(ball.grid, 1e9, forces=[1e-3])(ball.heights)
 """
     idle = ("integrate", "interpolate", "optimize", "sparse", "spatial")
     unasked = HEAVY - {"llvmlite"} | {f"scipy.{name}" for name in idle}

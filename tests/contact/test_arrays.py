@@ -158,8 +158,14 @@ def test_bad_heights_are_refused_there_too(library, heights, message):
 def test_what_is_to_be_differentiated_is_refused(rough):
     import torch
 
-    with pytest.raises(ValueError, match="detach"):
-        rc.Surface(torch.tensor(rough.heights, requires_grad=True), rough.grid)
+    heights = torch.tensor(rough.heights, requires_grad=True)
+    message = (
+        r"detach them, heights.detach\(\), or .*: rc.differentiable_curve\(grid, modulus, forces=\[...\]\)\("
+    )
+    with pytest.raises(ValueError, match=message):
+        rc.Surface(heights, rough.grid)
+    assert rc.Surface(heights.detach(), rough.grid).rms > 0
+    assert rc.differentiable_curve(rough.grid, 1.0, forces=[1e-4])(heights).depth.requires_grad
 
 
 def test_two_libraries_are_not_mixed(library, rough):

@@ -11,8 +11,12 @@ import pytest
 import roughcontact as rc
 
 STARTS = [start for start in ("fork", "spawn") if start in multiprocessing.get_all_start_methods()]
-# Python 3.12 warns of forks beside threads, which this process may have: that they go well is what is shown here.
-FORKS = pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+# Python 3.12 warns of forks beside threads, which this process may have, and JAX if it is loaded: that they go well is
+# what is shown here.
+FORKS = pytest.mark.filterwarnings(
+    "ignore:This process .* is multi-threaded:DeprecationWarning",
+    r"ignore:os.fork\(\) was called:RuntimeWarning",
+)
 PATIENCE = 240  # [s], of a busy machine
 
 BODY = rc.Solid(1.0, 0.3)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple, TypeAlias
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
+from array_api_compat import is_jax_array, is_torch_array
 
 from roughcontact.arrays import on_host
 from roughcontact.contact.convergence import ConvergenceError
@@ -30,12 +32,15 @@ from roughcontact.validation import Array, number, numeric, shown
 
 __all__ = ["CurveValues", "DifferentiableCurve", "differentiable_curve"]
 
+A = TypeVar("A")
 Weights: TypeAlias = float | Sequence[float] | Array
 """Derivatives of a scalar with respect to one quantity of each load."""
 
 
-class CurveValues(NamedTuple):
+class CurveValues(NamedTuple, Generic[A]):
     """What a `DifferentiableCurve` returns for heights: one value for each load, arrays of shape (n,).
+
+    They are of the library of the heights.
 
     Attributes
     ----------
@@ -57,10 +62,10 @@ class CurveValues(NamedTuple):
     (('force', 'depth', 'mean_gap', 'energy'), (2,))
     """
 
-    force: Array
-    depth: Array
-    mean_gap: Array
-    energy: Array
+    force: A
+    depth: A
+    mean_gap: A
+    energy: A
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +99,59 @@ class DifferentiableCurve:
     tolerance: float = 1e-8
     hardness: Hardness | None = None
 
-    def linearise(self, heights: Array) -> tuple[CurveValues, Callable[..., Array]]:
+    def __call__(self, heights: A) -> CurveValues[A]:
+        """Return the curve of heights, which PyTorch and JAX can differentiate.
+
+        PyTorch and JAX record the call for reverse-mode differentiation (``backward``, ``jax.grad``), in JAX also under
+        ``jax.jit``. Forward mode (``torch.func.jvp``, ``jax.jvp``) is not supported; both libraries raise an error. The
+        curve is computed on the host: heights on a GPU are copied there, and the values are copied back. Batches of
+        ``vmap`` are computed one after the other.
+
+        Parameters
+        ----------
+        heights : array, shape of the grid
+            Heights [m] of NumPy, PyTorch or JAX, in double precision; NaN where nothing was measured.
+
+        Returns
+        -------
+        CurveValues
+            Arrays of the same library, of shape (n,).
+
+        Raises
+        ------
+        ValueError
+            If the heights do not fit the grid, are neither float64 nor float32, hold no values (PyTorch's device
+            ``meta``), or a load has no derivatives, see `sensitivity`. Also if a second derivative is requested.
+        ConvergenceError
+            If a load missed its tolerance. Errors that depend on the values of the heights reach users of JAX as errors
+            of its runtime.
+
+        Warns
+        -----
+        UserWarning
+            If heights of PyTorch or JAX are in single precision.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> curve = rc.differentiable_curve(rc.Grid((33, 33), 1e-6), 1e9, forces=[1e-3])
+        >>> f"{curve(rc.shapes.paraboloid(curve.grid, radius=1e-4).heights).depth[0] * 1e9:.0f} nm"
+        '177 nm'
+        """
+        given: Any = heights
+        if not (is_torch_array(given) or is_jax_array(given)):
+            values: Any = self.linearise(given)[0]
+            return values  # type: ignore[no-any-return]
+        self._require_recordable(given)
+        if is_torch_array(given):
+            from roughcontact.gradients.torch_curve import torch_values
+
+            return CurveValues(*torch_values(self.linearise, given))
+        from roughcontact.gradients.jax_curve import jax_values
+
+        return CurveValues(*jax_values(self.linearise, len(self.loads.values), given))
+
+    def linearise(self, heights: Array) -> tuple[CurveValues[Array], Callable[..., Array]]:
         """Return the curve of heights, and the function that takes derivatives with respect to it back to the heights.
 
         Parameters
@@ -107,8 +164,8 @@ class DifferentiableCurve:
         values : CurveValues
         pullback : function
             It takes the derivatives of a scalar with respect to `force`, `depth`, `mean_gap` and `energy`, by these
-            names, each of shape (n,), and returns those with respect to the heights. Given loads do not depend on the
-            heights, so derivatives with respect to them do not count.
+            names or in this order, each of shape (n,), and returns those with respect to the heights. Given loads do
+            not depend on the heights, so derivatives with respect to them do not count.
 
         Raises
         ------
@@ -144,7 +201,6 @@ class DifferentiableCurve:
         )
 
         def pullback(
-            *,
             force: Weights = 0.0,
             depth: Weights = 0.0,
             mean_gap: Weights = 0.0,
@@ -191,9 +247,25 @@ class DifferentiableCurve:
             raise ConvergenceError(solution)
         return sensitivity(solution, reference=self.reference)
 
+    def _require_recordable(self, heights: Any) -> None:
+        """Refuse heights of PyTorch or JAX that cannot be differentiated, and warn of single precision."""
+        self._require_shape(tuple(heights.shape))
+        precision = str(heights.dtype).removeprefix("torch.")
+        if precision not in ("float32", "float64"):
+            raise about("heights", f"must be of type float64, not {precision}", "convert them to float64")
+        if precision == "float32":
+            warnings.warn(
+                "heights in single precision hold about 7 digits of the largest height, and depths and derivatives "
+                "are rounded to 7 digits; use float64, in JAX after jax.config.update('jax_enable_x64', True)",
+                stacklevel=3,
+            )
+
+    def _require_shape(self, shape: tuple[int, ...]) -> None:
+        if shape != self.grid.shape:
+            raise about("the heights", f"have the shape {shape}, the grid {self.grid.shape}")
+
     def _body(self, heights: Array) -> Body:
-        if np.shape(heights) != self.grid.shape:
-            raise about("the heights", f"have the shape {np.shape(heights)}, the grid {self.grid.shape}")
+        self._require_shape(np.shape(heights))
         if not isinstance(self.grid, Grid):
             return RadialProfile(heights, self.grid)
         surface = Surface(heights, self.grid)

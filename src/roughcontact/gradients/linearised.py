@@ -23,7 +23,7 @@ from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.prescribed import prescribed_displacement
 from roughcontact.validation import Array, Mask, number, shown
 
-__all__ = ["LinearisedContact"]
+__all__ = ["LinearisedContact", "no_second_derivative"]
 
 DIGITS = 10  # the tangent is at most this many times less accurate than the load
 
@@ -172,3 +172,12 @@ class LinearisedContact:
     @property
     def _measure(self) -> Measure:
         return self.solution.problem.measure
+
+
+def no_second_derivative() -> InputError:
+    """Return the error for derivatives of derivatives."""
+    return InputError(
+        "second derivatives with respect to heights are zero, except where a cell starts to touch: there the first "
+        "derivatives jump",
+        "use a method that needs only first derivatives",
+    )

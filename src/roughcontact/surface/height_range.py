@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from array_api_compat import is_jax_array
 
 from roughcontact.arrays import is_array, is_numpy, namespace, wants_gradient
 from roughcontact.errors import InputError, about
@@ -37,7 +38,19 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
                 "convert whole numbers to float64",
             )
         if wants_gradient(own):
-            raise InputError("gradients are not supported", "give heights without gradients, .detach()")
+            raise InputError(
+                "heights that require gradients are not recorded by a surface",
+                "detach them, heights.detach(), or differentiate a curve: "
+                "rc.differentiable_curve(grid, modulus, forces=[...])(heights)",
+                "heights",
+            )
+        if is_jax_array(own):
+            raise InputError(
+                "heights of JAX cannot be pressed, because its arrays cannot be changed",
+                "give np.asarray(heights); for gradients, call rc.differentiable_curve(grid, modulus, "
+                "forces=[...])(heights)",
+                "heights",
+            )
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
