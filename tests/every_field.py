@@ -68,6 +68,8 @@ BESIDE = {
     "AfterLoad.after": {"hardness": "2GPa"},
     "LoopOfLoads.loop": {"hardness": "2GPa"},
     "Errors.shortest_wave": {"errors": True},
+    "Errors.noise": {"errors": True},
+    "Errors.noise_length": {"errors": True, "noise": "3nm"},
     "Theories.hurst": {"theory": "finite-size"},
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
