@@ -26,7 +26,7 @@ SHOWN = (
     "contact_area",
     "corrected_contact_area",
 )
-# Boundary, correlation length of the noise [cells], and pressure [Pa], at which A/A0 is about 0.25 or 0.06.
+# Boundary, correlation length of the noise [cells], and pressure [Pa], at which A/A0 is about 0.2 or 0.05.
 CASES = ((True, 0.0, 4e6), (False, 0.0, 1e6), (True, 3.0, 4e6))
 
 

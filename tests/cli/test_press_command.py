@@ -358,9 +358,9 @@ def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
 
 def test_noise_has_its_share_of_the_errors(invoke, rough, surface):
     words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--noise", "3nm")
-    length = ("--noise-length", "0.04mm")
+    length = ("--noise-length", "4um")
     found = json.loads(invoke(*words, *length, "--json").stdout)["errors"]
-    noise = rc.Noise(3e-9, 4e-5)
+    noise = rc.Noise(3e-9, 4e-6)
     expected = rc.error_budget(rc.press(surface, 110e9, force=1e-2), noise=noise).to_record()
     assert found["sources"] == expected["sources"]
     assert found["mean_gap"] == pytest.approx(expected["mean_gap"], rel=1e-6)

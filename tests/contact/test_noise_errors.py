@@ -9,6 +9,7 @@ import pytest
 import roughcontact as rc
 from roughcontact.evaluation.error_noise import TOO_MUCH, errors_of_noise
 from roughcontact.evaluation.error_numbers import NUMBERS, number_table
+from roughcontact.evaluation.noise import between_neighbours, require_fits
 
 RMS = 1e-7
 GAP, AREA, STIFFNESS = (NUMBERS.index(name) for name in ("mean_gap", "contact_area", "interfacial_stiffness"))
@@ -59,7 +60,7 @@ def test_the_difference_of_neighbours():
     for length in (0.0, 1e-6, 4e-6):
         noise = rc.Noise(3e-9, length)
         steps = [np.diff(noise.draw(grid, seed), axis=1).std() for seed in range(8)]
-        assert np.mean(steps) == pytest.approx(noise.between_neighbours(grid), rel=0.03)
+        assert np.mean(steps) == pytest.approx(between_neighbours(noise, grid), rel=0.03)
 
 
 @pytest.mark.parametrize("periodic", [True, False])
@@ -183,5 +184,4 @@ def test_refusals():
     ):
         with pytest.raises(rc.InputError, match=words):
             call()
-    longest = rc.Noise(3e-9, 8e-6)
-    longest.require_fits(rough().grid)
+    require_fits(rc.Noise(3e-9, 8e-6), rough().grid)

@@ -2,8 +2,8 @@
 
 The pressed map holds the noise once. It is pressed again with the same noise added once and twice more, in pairs of
 opposite sign, whose mean has no part of first order. Numbers with a derivative are smooth: their spread follows from
-it, and their bias is extrapolated by a parabola in the variance. Areas and stiffnesses change in steps: the number of
-one map has a step of its own, so their spread follows from the draws, and their bias from the means of the draws only.
+it, and their bias is extrapolated by a parabola in the variance. Areas and stiffnesses change in steps, which scatter
+from map to map, so their spread follows from the draws, and their bias from the means of the draws only.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.evaluation.error_budget import ErrorSource
 from roughcontact.evaluation.error_numbers import NUMBERS, number_table
-from roughcontact.evaluation.noise import Noise
+from roughcontact.evaluation.noise import Noise, between_neighbours, require_fits
 from roughcontact.gradients.sensitivity import sensitivity
 from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Force
@@ -64,7 +64,7 @@ class NoiseErrors:
 
 
 def errors_of_noise(patches: Sequence[Solution], noise: Noise) -> NoiseErrors:
-    """Return the errors of the mean over patches under a force, each with noise of its own.
+    """Return the errors of the mean over patches under a force, each with other noise.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def errors_of_noise(patches: Sequence[Solution], noise: Noise) -> NoiseErrors:
             "noise",
         )
     grids = [each.grid for each in map(_surface, patches)]
-    noise.require_fits(grids[0])
+    require_fits(noise, grids[0])
     rng, found = np.random.default_rng(SEED), []
     rounds = [each for each in patches for _ in range(PAIRS)]
     with np.errstate(invalid="ignore"):  # in full contact stiffnesses are infinite
@@ -99,7 +99,7 @@ def errors_of_noise(patches: Sequence[Solution], noise: Noise) -> NoiseErrors:
     correction, left = np.where(sure, change, 0.0), np.where(sure, error, change)
     if len(patches) > 1:  # whose scatter contains that of their noise
         return NoiseErrors((removed,), (left,), correction)
-    share = noise.between_neighbours(grids[0]) / _between_neighbours(_surface(patches[0]))
+    share = between_neighbours(noise, grids[0]) / _between_neighbours(_surface(patches[0]))
     of_cells = f"{100 * share:.2g} % of the height differences of neighbouring cells"
     scatter = ErrorSource("noise", "standard error", f"{noise}, {of_cells}; {WAYS}")
     return NoiseErrors((scatter, removed), (spread[0], left), correction, (TOO_MUCH,) if share > 1 else ())

@@ -70,12 +70,13 @@ def require_errors(asked: Errors, surface: Surface) -> None:
         return
     import roughcontact
     from roughcontact.evaluation.error_sources import checked_cutoff
+    from roughcontact.evaluation.noise import require_fits
 
     with placed("errors.shortest_wave"):
         checked_cutoff(surface, value_of(asked, "shortest_wave"))
     if (noise := asked.call().named.get("noise")) is not None:
         with placed("errors.noise_length"):
-            noise.value({"rc": roughcontact}).require_fits(surface.grid)
+            require_fits(noise.value({"rc": roughcontact}), surface.grid)
 
 
 def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors, ...]:
