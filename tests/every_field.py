@@ -83,6 +83,8 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
+# Other parts of the job in which a field has a meaning: noise needs a force.
+ELSEWHERE = dict.fromkeys(("Errors.noise", "Errors.noise_length"), {"load": {"force": "1mN"}})
 
 
 def smallest(job, kind="file"):
@@ -114,7 +116,7 @@ def with_value(field, value):
     each, _, job, name, source = FIELDS[field]
     plain = smallest(job, source)
     part = plain.get(name, {}) | BESIDE.get(field, {}) | {each.name: value}
-    return plain | {name: part}
+    return plain | ELSEWHERE.get(field, {}) | {name: part}
 
 
 def place_of(field):

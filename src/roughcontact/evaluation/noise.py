@@ -83,7 +83,7 @@ class Noise:
         Returns
         -------
         Noise
-            The correlation length is the mean of those along both axes; zero if it is shorter than two thirds of a cell.
+            The correlation length is the mean of those along both axes; zero if it is below two thirds of a cell.
 
         Raises
         ------
