@@ -84,7 +84,7 @@ BESIDE = {
     "SmoothBody.wavelength": _WAVE,
 }
 # Other parts of the job in which a field has a meaning: noise needs a force.
-ELSEWHERE = dict.fromkeys(("Errors.noise", "Errors.noise_length"), {"load": {"force": "1mN"}})
+ELSEWHERE = {field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")}
 
 
 def smallest(job, kind="file"):

@@ -106,7 +106,7 @@ class Errors:
     )
     noise: str | None = described(
         "Rms noise of one height of the map, for its share of the errors; needs a force or a pressure. This takes as "
-        "long as ten to thirty more loads.",
+        "long as about thirty more loads.",
         "3nm",
         read=Amount(LENGTH, "an rms noise"),
         needs="errors",
