@@ -34,8 +34,8 @@ PAIRS = 8  # of draws: a spread from draws has a standard error of a quarter (do
 SEED = 0  # the same for each map: two budgets differ by their maps only
 SURE = 2  # standard errors of a bias, above which it is corrected
 FLOOR = 1e-6  # of a number: smaller changes may be those of the tolerance
-# The bias of a number that changes in steps grows as rms^(4/3): from no noise to the noise of the map by twice as much
-# as from once to twice more, give or take a half (benchmarks/noise_coverage.py).
+# A fit to 60 free surfaces with 10 % noise, where the bias of the areas grew as rms^(4/3): from no noise to that of the
+# map by twice as much as from once to twice more, give or take a half (docs/concepts/noise-errors.md).
 STEPS, UNSURE = 2.0, 0.5
 DERIVATIVES = {
     "depth": "depth_at_force",
