@@ -68,6 +68,8 @@ BESIDE = {
     "AfterLoad.after": {"hardness": "2GPa"},
     "LoopOfLoads.loop": {"hardness": "2GPa"},
     "Errors.shortest_wave": {"errors": True},
+    "Errors.noise": {"errors": True},
+    "Errors.noise_length": {"errors": True, "noise": "3nm"},
     "Theories.hurst": {"theory": "finite-size"},
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
@@ -81,6 +83,8 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
+# Other parts of the job in which a field has a meaning: noise needs a force.
+ELSEWHERE = {field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")}
 
 
 def smallest(job, kind="file"):
@@ -112,7 +116,7 @@ def with_value(field, value):
     each, _, job, name, source = FIELDS[field]
     plain = smallest(job, source)
     part = plain.get(name, {}) | BESIDE.get(field, {}) | {each.name: value}
-    return plain | {name: part}
+    return plain | ELSEWHERE.get(field, {}) | {name: part}
 
 
 def place_of(field):

@@ -123,6 +123,7 @@ MORE = [
     (rc.below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),
+    (rc.Noise, {"rms": 3e-9, "correlation_length": 4e-6}),
     (CURVE.fit, {"window": (1e-2, 1e-1)}),
     (rc.SurfaceSpecification, {"sigma": 1e-6, "slope": 0.1, "hurst": 0.8, "nayak": 9.0}),
     (rc.SurfaceSpecification, {"sigma": 1e-6, "hurst": 0.8, "rolloff": 5e-5, "short_cutoff": 5e-6}),

@@ -356,6 +356,21 @@ def test_errors_are_those_of_the_library(invoke, rough, surface, tmp_path):
     assert json.loads(invoke("press", rough, *FORCE, *MODULUS, "--json").stdout)["errors"] is None
 
 
+def test_noise_has_its_share_of_the_errors(invoke, rough, surface):
+    words = ("press", rough, *FORCE, *MODULUS, "--level", "none", "--errors", "--noise", "3nm")
+    length = ("--noise-length", "4um")
+    found = json.loads(invoke(*words, *length, "--json").stdout)["errors"]
+    noise = rc.Noise(3e-9, 4e-6)
+    expected = rc.error_budget(rc.press(surface, 110e9, force=1e-2), noise=noise).to_record()
+    assert found == {"force": found["force"], **expected}
+    assert "white noise of 3e-09 m rms" in invoke(*words).stdout
+    refused = invoke(*words, "--noise-length", "1m")
+    assert refused.exit_code == 2
+    assert "at most a quarter of the map" in refused.stderr
+    at_depth = ("press", rough, "--depth", "10nm", *MODULUS, "--errors", "--noise", "3nm")
+    assert "--noise needs a force or a pressure" in invoke(*at_depth).stderr
+
+
 def test_errors_are_told_in_units_that_suit(invoke, rough):
     force = ("--force", "0.5N")  # 11 spots
     told = invoke("press", rough, *force, *MODULUS, "--errors").stdout

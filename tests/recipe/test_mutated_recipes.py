@@ -44,6 +44,8 @@ OUT_OF_RANGE = {
     "AfterLoad.flow": ("up", "removed", "raised"),
     "Errors.errors": ("all", True, False),
     "Errors.shortest_wave": ("0", "5um"),
+    "Errors.noise": ("-3nm", "5um"),
+    "Errors.noise_length": ("nan", "5um"),
     "PressureTheory.theory": ("gw", "persson"),
     "RisingLoads.forces": ("10N:1N:5", "1mN:1N:100"),
     "RisingLoads.pressures": ("1kPa:1MPa:1", "1kPa:1MPa:2"),

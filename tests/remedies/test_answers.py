@@ -379,6 +379,27 @@ ANSWERS = [
         lambda: rc.error_budget(rc.press(FINE, MODULUS, force=1e-4), short_cutoff=5e-6),
     ),
     row(
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, force=1e-4), noise=1e-9),
+        "give one, such as noise=rc.Noise(rms=3e-9)",
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, force=1e-4), noise=rc.Noise(rms=3e-9)),
+    ),
+    row(
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, depth=1e-8), noise=rc.Noise(1e-9)),
+        "prescribe the force or the pressure",
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, force=1e-4), noise=rc.Noise(1e-9)),
+        lambda: rc.error_budget(rc.press(ROUGH, MODULUS, pressure=1e4), noise=rc.Noise(1e-9)),
+    ),
+    row(
+        lambda: rc.Noise(1e-9, 1.0).draw(ROUGH.grid, 1),
+        "remove longer errors from the map as a form: levelled('quadratic')",
+        lambda: ROUGH.levelled("quadratic"),
+    ),
+    row(
+        lambda: rc.Noise.from_repeats([ROUGH]),
+        "give several maps of one place",
+        lambda: rc.Noise.from_repeats([ROUGH, ROUGH]),
+    ),
+    row(
         lambda: rc.below(line(), [1e-6], STEEL),
         "not of a line: press a map of heights",
         lambda: rc.below(pressed(), [1e-6], STEEL),

@@ -16,6 +16,7 @@ MANY_TIMES = 10  # a value: larger errors are shown as "> 1000 %"
 ROUNDING = (
     1e-12  # of a value: smaller errors count as zero, and so do gaps that are smaller relative to the depth
 )
+SMALLEST = 5e-4  # of a number: smaller corrections are not listed in words
 SAMPLED = ("interfacial_stiffness", "contact_area", "mean_gap")  # numbers that pictures show
 
 Kind: TypeAlias = Literal["bias", "standard error", "order of magnitude", "unknown"]
@@ -56,7 +57,8 @@ class QuotedNumber:
     name : str
         Name as in a `Curve`.
     value : float
-        Value in its SI unit; the mean over several patches.
+        Value in its SI unit; the mean over several patches. With noise it is corrected if `ErrorBudget.corrections`
+        has the name.
     unit : str
         SI unit, ``"N m-1"``.
     parts : tuple of float
@@ -92,12 +94,15 @@ class ErrorBudget:
     bias_of_size : mapping of str to float
         Relative difference between the mean over four quarters of the map and the whole map, for the numbers that do
         not depend on the size of a map; empty if no quarter was pressed. It is neither an error nor a correction.
+    corrections : mapping of str to float
+        What was added to a number to remove the bias by noise, in its unit, for the numbers that were corrected.
     """
 
     numbers: tuple[QuotedNumber, ...]
     sources: tuple[ErrorSource, ...]
     notes: tuple[str, ...]
     bias_of_size: Mapping[str, float] = field(default_factory=dict)
+    corrections: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> QuotedNumber:
         """Return the number of a name."""
@@ -150,7 +155,8 @@ class ErrorBudget:
         Returns
         -------
         dict
-            Value, error and parts by the name of each number, with the sources, the bias of size and the notes.
+            Value, error and parts by the name of each number, with the sources, the bias of size, the corrections and
+            the notes.
         """
         keys = [source.name.replace(" ", "_").replace("-", "") for source in self.sources]
         numbers = {
@@ -166,11 +172,14 @@ class ErrorBudget:
             key: {"kind": source.kind, "how": source.how}
             for key, source in zip(keys, self.sources, strict=True)
         }
-        bias = {name: plain_values(value) for name, value in self.bias_of_size.items()}
-        return {**numbers, "sources": sources, "bias_of_size": bias, "notes": list(self.notes)}
+        more = {
+            key: {name: plain_values(value) for name, value in values.items()}
+            for key, values in (("bias_of_size", self.bias_of_size), ("corrections", self.corrections))
+        }
+        return {**numbers, "sources": sources, **more, "notes": list(self.notes)}
 
     def facts(self) -> list[tuple[str, str]]:
-        """Return a description of each source, and the change of the numbers with the size of the map, in words.
+        """Return a description of each source, the changes with the size of the map, and the corrections, in words.
 
         Returns
         -------
@@ -185,6 +194,14 @@ class ErrorBudget:
             )
             words = f"from the whole map to quarters of it, the numbers change: {each}; not part of the error"
             facts.append(("size of the map", words))
+        changes = {name: part / (self[name].value - part) for name, part in self.corrections.items()}
+        shown = [
+            f"{VARIABLES[name].label} by {_percent(change, '+')}"
+            for name, change in changes.items()
+            if abs(change) > SMALLEST
+        ]
+        if shown:
+            facts.append(("corrected", f"{', '.join(shown)}, for the bias of noise"))
         return facts
 
     @property

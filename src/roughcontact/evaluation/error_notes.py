@@ -22,6 +22,8 @@ REMEDIES = MappingProxyType(
         "levelling": "The longest waves are about as long as the map, and a quadratic form removes them: measure a "
         "larger map, or check whether the form is that of the instrument.",
         "sampling": "Other maps of this surface differ by about as much: measure a larger map, or several.",
+        "noise": "Measure with less noise, for example as the mean of several repeats.",
+        "noise bias": "Measure with less noise, for example as the mean of several repeats.",
         "patches": "The patches differ by as much: take more or larger ones.",
     }
 )

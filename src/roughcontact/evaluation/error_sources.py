@@ -16,8 +16,10 @@ from roughcontact.contact.problem import ContactProblem, separation_of
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.evaluation.error_budget import ErrorBudget, ErrorSource, QuotedNumber
+from roughcontact.evaluation.error_noise import errors_of_noise
 from roughcontact.evaluation.error_notes import note_on_size, notes_on_sources
 from roughcontact.evaluation.error_numbers import NUMBERS, border_floor, number_table, symmetries
+from roughcontact.evaluation.noise import Noise
 from roughcontact.evaluation.other_maps import sampling_of
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import capabilities
@@ -45,7 +47,9 @@ SAME = 1e-9  # relative difference up to which two loads or spacings are equal
 
 
 @numeric(short_cutoff="m")
-def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None) -> ErrorBudget:
+def error_budget(
+    pressed: Solution | Sequence[Solution], *, short_cutoff: float | None = None, noise: Noise | None = None
+) -> ErrorBudget:
     """Return the errors of the numbers of a pressed map, or of the means of several patches.
 
     The load is computed again on half as many cells, on the map without its short waves, and, if the map is nominally
@@ -61,6 +65,9 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     short_cutoff : float, optional
         Wavelength [m] below which the instrument does not measure: the Gaussian filter halves the amplitude there. By
         default four cells.
+    noise : Noise, optional
+        Noise that the heights of the map contain. It adds spread and bias to the sources, and corrects the numbers that
+        it surely changes.
 
     Returns
     -------
@@ -71,7 +78,8 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     ------
     ValueError
         If a solution is not that of a map of heights, if the cut-off has fewer than four cells or is as long as the
-        map, or if patches differ in their grid or load.
+        map, or if patches differ in their grid or load. Noise is refused for a load at given depth, and with a
+        correlation length above a quarter of the map.
     ConvergenceError
         If a load missed its tolerance.
 
@@ -89,7 +97,10 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
     (docs/concepts/errors.md). *Sampling*: how much another map of the surface would differ, as an order of magnitude,
     for one periodic or nominally flat map under a force. Four free quarters are pressed at the same nominal pressure;
     the part is half of their relative standard deviation. With fewer than ten spots the part, and therefore the error,
-    is NaN.
+    is NaN. *Noise*, *noise bias*: the standard deviation of a number by the noise of the map, and the change of the
+    number without this noise, extrapolated from maps with more noise. A change above two of its errors is added to the
+    value; `ErrorBudget.corrections` lists these changes, and the part is then the error of the correction
+    (docs/concepts/noise-errors.md).
 
     The area is given both as counted by cells and corrected for its perimeter by Yastrebov, Anciaux and Molinari,
     Tribology International 114 (2017) 161.
@@ -152,17 +163,26 @@ def error_budget(pressed: Solution | Sequence[Solution], *, short_cutoff: float 
             sources.append(sampling.source)
             parts.append(sampling.parts)
             bias_of_size = sampling.bias_of_size
+    means, corrections = values.mean(axis=1), {}
+    if noise is not None:
+        noisy = errors_of_noise(patches, noise)
+        means += noisy.correction
+        added = zip(NUMBERS, noisy.correction.tolist(), strict=True)
+        corrections = {name: change for name, change in added if change and name != prescribed}
+        sources += noisy.sources
+        parts += noisy.parts
+        notes += noisy.notes
     if any(map(is_rough_to_cells, surfaces)):
         for part in parts[: len(OF_CELLS)]:
             part[NUMBERS.index("depth")] = math.nan
         notes.append(_of_highest_point(prescribed))
     numbers = tuple(
         QuotedNumber(name, float(value), VARIABLES[name].unit, tuple(map(float, part)))
-        for name, value, part in zip(NUMBERS, values.mean(axis=1), np.transpose(parts), strict=True)
+        for name, value, part in zip(NUMBERS, means, np.transpose(parts), strict=True)
         if name != prescribed
     )
     notes += [*notes_on_sources(numbers, sources), *note_on_size(bias_of_size)]
-    return ErrorBudget(numbers, tuple(sources), tuple(notes), bias_of_size)
+    return ErrorBudget(numbers, tuple(sources), tuple(notes), bias_of_size, corrections)
 
 
 def _kind_of(surface: Surface) -> SurfaceKind:

@@ -93,12 +93,7 @@ class PressJob:
         function, result = ("rc.loading_path", "*_, solution") if path else ("rc.press", "solution")
         yield pressed(function, named | self.contact.named(), result, "load")
         if self.errors.errors:
-            yield _call(
-                "rc.error_budget",
-                "solution",
-                {"short_cutoff": value_of(self.errors, "shortest_wave")},
-                "budget",
-            )
+            yield self.errors.call()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,6 +175,14 @@ def _require_areas(job: PressJob | CurveJob) -> None:
     if job.errors.errors and profile is not None:
         raise InputError(
             "`errors` are those of a map of heights, not of a profile", "leave it out", "errors.errors"
+        )
+    depth = job.load.depth if isinstance(job, PressJob) else job.loads.depths
+    if job.errors.noise is not None and depth is not None:
+        raise InputError(
+            "`noise` needs a force or a pressure: depth counts from the highest cell, so at a given depth the load "
+            "follows the noise of this cell",
+            "give `pressure`, or leave out `noise`",
+            "errors.noise",
         )
     if job.plastic.hardness is not None and profile == "winkler":
         raise InputError(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AREA, Kind
+from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
 
@@ -103,9 +104,34 @@ class Errors:
         read=Amount(LENGTH, "a wavelength"),
         needs="errors",
     )
+    noise: str | None = described(
+        "Rms noise of one height of the map, for its share of the errors; needs a force or a pressure. This takes as "
+        "long as about thirty more loads.",
+        "3nm",
+        read=Amount(LENGTH, "an rms noise"),
+        needs="errors",
+    )
+    noise_length: str | None = described(
+        "Distance at which the correlation of the noise is 1/e (default: 0, the noise of all cells is independent).",
+        "2um",
+        read=Amount(LENGTH, "a correlation length"),
+        needs="noise",
+    )
 
     def __post_init__(self) -> None:
         check(self)
+
+    def call(self) -> Call:
+        """Return the call that estimates the errors of a solution."""
+        named: dict[str, Any] = {"short_cutoff": value_of(self, "shortest_wave")}
+        if self.noise is not None:
+            size = {
+                "rms": value_of(self, "noise"),
+                "correlation_length": value_of(self, "noise_length") or 0.0,
+            }
+            named["noise"] = Call("rc.Noise", (), size)
+        asked = {name: value for name, value in named.items() if value is not None}
+        return Call("rc.error_budget", (Name("solution"),), asked, result="budget", place="budget")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -68,27 +68,32 @@ def notes_on_errors(errors: Iterable[LoadErrors]) -> list[Note]:
 
 
 def require_errors(asked: Errors, surface: Surface) -> None:
-    """Raise an error before the work if no errors can be given for a surface or a shortest wave."""
+    """Raise an error before the work if no errors can be given for a surface, a shortest wave or a noise."""
     if not asked.errors:
         return
+    import roughcontact
     from roughcontact.evaluation.error_sources import checked_cutoff
+    from roughcontact.evaluation.noise import require_fits
 
     with placed("errors.shortest_wave"):
         checked_cutoff(surface, value_of(asked, "shortest_wave"))
+    if (noise := asked.call().named.get("noise")) is not None:
+        with placed("errors.noise_length"):
+            require_fits(noise.value({"rc": roughcontact}), surface.grid)
 
 
 def errors_of(asked: Errors, solutions: Iterable[Solution]) -> tuple[LoadErrors, ...]:
     """Return the errors of loads, if the job asks for them; print a note for each load without errors."""
     if not asked.errors:
         return ()
+    import roughcontact
     from roughcontact.contact.convergence import ConvergenceError
-    from roughcontact.evaluation.error_sources import error_budget
 
     found = []
     for solution in solutions:
         at = quantity("force", solution.force)
         try:
-            budget = error_budget(solution, short_cutoff=value_of(asked, "shortest_wave"))
+            budget = asked.call().value({"rc": roughcontact, "solution": solution})
         except ConvergenceError as error:
             note(f"no errors at {at}: {error}")
             continue
