@@ -56,14 +56,14 @@ class Pressed:
 
     def facts(self) -> list[tuple[str, str]]:
         """Return the facts, line by line."""
-        lines = [("the map is", self.words)]
+        lines = [("kind of surface", self.words)]
         if self.index is not None and self.softer is not None:
             index, of = self.index, f"{quantity('hardness', self.softer[0])} {self.softer[1]}"
             lines.append(
                 (
                     "plasticity index",
                     f"{index.value:.3g}, {index.regime} (elastic below {index.elastic_below:g}, plastic above "
-                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of})",
+                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}; rates the summits, not the load)",
                 )
             )
         return lines
