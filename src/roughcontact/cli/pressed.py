@@ -63,7 +63,8 @@ class Pressed:
                 (
                     "plasticity index",
                     f"{index.value:.3g}, {index.regime} (elastic below {index.elastic_below:g}, plastic above "
-                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}; rates the summits, not the load)",
+                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}; "
+                    "a measure of the summits, not of this load)",
                 )
             )
         return lines
