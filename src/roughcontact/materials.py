@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from difflib import get_close_matches
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -147,10 +148,13 @@ def handbook(name: str) -> Material:
     ('6061-T6', '1.05 GPa')
     """
     key = _key(name)
+    near = [each for each in MATERIALS if len(key) > 1 and each.startswith(key)]
+    near = near or get_close_matches(key, MATERIALS, 1)
     require(
         key in MATERIALS,
         f"there is no material named {name!r}; there are {', '.join(MATERIALS)}",
-        "for another metal give its modulus and Poisson's ratio (rc.Solid(210e9, 0.3), --young 210GPa --poisson 0.3)",
+        f"{f'did you mean {near[0]}? Otherwise ' if near else ''}give the numbers of the material, such "
+        "as rc.Solid(210e9, 0.3)",
     )
     return MATERIALS[key]
 

@@ -93,7 +93,7 @@ def free_memory() -> int:
 
 def gigabytes(size: float) -> str:
     """Return a number of bytes in words."""
-    return f"{size / 1e9:.3g} GB"
+    return f"{float(f'{size / 1e9:.3g}'):g} GB"  # 1880, not 1.88e+03
 
 
 def most_memory() -> float:

@@ -130,7 +130,9 @@ def moderate(value: float, what: str) -> float:
         If it is too small or too large for that.
     """
     if not SMALLEST <= value <= LARGEST:
-        problem = f"must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, not at {value:g}"
+        problem = (
+            f"must lie between {SMALLEST:g} and {LARGEST:g}, where products keep their digits, not {value:g}"
+        )
         raise about(what, problem, "give it in other units")
     return value
 

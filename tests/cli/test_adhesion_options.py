@@ -1,6 +1,7 @@
 """The commands `adhesion ...`: the numbers of the library, files, refusals, Ctrl-C."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -226,8 +227,8 @@ def test_an_unresolved_attraction_is_refused_with_a_remedy_that_works(invoke, ro
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--range", "2nm"), "--work: this option is missing; give one such as --work 50mJ/m^2"),
-        (("--work", "50mJ/m^2"), "--range: this option is missing"),
+        (("--range", "2nm"), "--work is required: add it, such as --work 50mJ/m^2"),
+        (("--work", "50mJ/m^2"), "--range is required"),
         (("--work", "0J/m^2", "--range", "2nm"), "the work of adhesion must be positive"),
         (("--work", "50mJ/m^2", "--range", "0nm"), "the range of the attraction must be positive"),
         (("--work", "50mJ", "--range", "2nm"), "'50mJ' is not an energy per area"),
@@ -254,14 +255,14 @@ def test_a_law_that_is_none_is_refused(invoke, rough, given, says):
         ),
         (
             ("adhesion", "press", *STICKS),
-            "--depth, --mean-gap is given; give one, such as --force 10mN",
+            "--depth or --mean-gap is required: add one, such as --force 10mN",
         ),
         (("press", "--depth", "-5nm"), "the depth is measured from first touch"),
         (
             ("adhesion", "curve", *STICKS),
-            "none of --depths, --forces, --pressures, --mean-gaps is given; give one, such as --depths",
+            "--depths, --forces, --pressures or --mean-gaps is required: add one, such as --depths",
         ),
-        (("adhesion", "loop", *STICKS), "--depth: this option is missing"),
+        (("adhesion", "loop", *STICKS), "--depth is required"),
         (
             ("adhesion", "loop", "--depth", "1nm", "--points", "1", *STICKS),
             "--points: the number of steps must be a whole number from 2 to 10000",
@@ -295,22 +296,22 @@ def test_what_is_adhesive_is_no_option_of_the_others(invoke, command):
 
 
 def test_an_option_of_the_other_press_says_where_it_is(invoke, rough):
-    words = (rough, "--force", "1uN", *MODULUS)
+    words, no = (rough, "--force", "1uN", *MODULUS), "this command has no such option; use"
     answer = invoke("press", *words, "--work", "10mJ/m^2")
     assert answer.exit_code == 2
-    assert "--work: there is no such option; use 'roughcontact adhesion press' for it" in answer.stderr
+    assert (
+        f"--work: {no} 'roughcontact adhesion press' (bring an adhesive surface to one load)" in answer.stderr
+    )
     answer = invoke("adhesion", "press", *words, *STICKS, "--hardness", "1GPa")
-    assert "--hardness: there is no such option; use 'roughcontact press' for it" in answer.stderr
+    assert f"--hardness: {no} 'roughcontact press' (press a rough surface by one load)" in answer.stderr
     for option, commands in (
-        ("--points", "'roughcontact adhesion loop'"),
-        (
-            "--range",
-            "'roughcontact adhesion press' or 'roughcontact adhesion curve' or 'roughcontact adhesion loop'",
-        ),
+        ("--points", ("adhesion loop",)),
+        ("--range", ("adhesion press", "adhesion curve", "adhesion loop")),
     ):
         told = invoke("adhesion", "detach", *words, "--work", "1mJ/m^2", option, "20").stderr
         told = " ".join(told.replace("│", "").split())
-        assert f"{option}: there is no such option; use {commands} for it" in told
+        named = " or ".join(rf"'roughcontact {name}' \([^()]+\)" for name in commands)
+        assert re.search(f"{option}: {no} {named}$", told)
     told = invoke("press", *words, "--pressures", "1kPa").stderr  # of curve, which is no press
     assert "did you mean --pressure" in told
-    assert "for it" not in told
+    assert "roughcontact" not in told

@@ -113,12 +113,12 @@ PRESS_OPTIONS = {
     "zero pressure": (changed(force=None, pressure="0"), "the pressure must be positive"),
     "no load": (
         changed(force=None),
-        "--force: none of --force, --pressure, --depth is given; give one, such as --force 10N",
+        "--force, --pressure or --depth is required: add one, such as --force 10N",
     ),
     "two loads": (changed(depth="1um"), "--force and --depth exclude each other"),
     "zero modulus": (changed(modulus="0GPa"), "modulus must be positive"),
     "negative modulus": (changed(modulus="-1GPa"), "modulus must be positive"),
-    "no modulus": (changed(modulus=None), "none of --modulus, --materials, --young is given"),
+    "no modulus": (changed(modulus=None), "--modulus, --materials or --young is required"),
     "two moduli": (changed(young="1GPa", poisson="0.3"), "exclude each other"),
     "half a body": (
         changed(modulus=None, young="1GPa"),

@@ -554,10 +554,12 @@ def test_the_edge_of_the_map_is_named_once_and_last(invoke, rough):
     words = ("curve", rough, "--pressures", "1MPa,5MPa,20MPa", *MODULUS, "--errors")
     answer = invoke(*words)
     notes = [line for line in answer.stderr.splitlines() if line.startswith("Note: ")]
-    assert "reaches the edge" in notes[-1]
+    assert "at the edge of the map" in notes[-1]
     assert len(notes) == len(set(notes))
-    assert sum("reaches the edge" in note for note in notes) == 1
-    assert not any("reaches the edge" in line for line in invoke(*words, "--periodic").stderr.splitlines())
+    assert sum("at the edge of the map" in note for note in notes) == 1
+    assert not any(
+        "at the edge of the map" in line for line in invoke(*words, "--periodic").stderr.splitlines()
+    )
 
 
 @pytest.mark.parametrize("areal", [True, False])

@@ -124,9 +124,9 @@ def test_a_preload_that_missed_the_tolerance_ends_with_its_status(invoke, rough,
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--depth", "10nm", "--range", "2nm"), "--range: there is no such option"),
-        (("--depth", "10nm", "--hardness", "2GPa"), "--hardness: there is no such option"),
-        ((), "none of --force, --pressure, --depth is given; give one, such as --force 10N"),
+        (("--depth", "10nm", "--range", "2nm"), "--range: this command has no such option"),
+        (("--depth", "10nm", "--hardness", "2GPa"), "--hardness: this command has no such option"),
+        ((), "--force, --pressure or --depth is required: add one, such as --force 10N"),
         (
             ("--depth", "10nm", "--depths", "5nm", "--forces", "0N"),
             "--depths and --forces exclude each other",

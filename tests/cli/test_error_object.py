@@ -44,8 +44,8 @@ hurts = 0.8
         (
             ("press", "FILE", *MODULUS),
             "usage",
-            "none of --force, --pressure, --depth is given",
-            "give one, such as --force 10N",
+            "--force, --pressure or --depth is required",
+            "add one, such as --force 10N",
             "--force",
         ),
         (
@@ -186,7 +186,7 @@ def test_a_misspelt_option_is_an_error_too(rough):
     error = error_of(answer)
     assert error == {
         "kind": "usage",
-        "message": "there is no such option",
+        "message": "this command has no such option",
         "remedy": "did you mean --force or --free?",
         "place": "--forec",
         "exit_status": 2,

@@ -65,7 +65,9 @@ def test_help_names_the_options_and_shows_examples(invoke, verb, options):
 def test_an_option_that_there_is_not_is_bad_input():
     answer = call("press", "part.x3p", "--forec", "1N")
     assert answer.returncode == 2
-    assert answer.stderr == "Error: --forec: there is no such option; did you mean --force or --free?\n"
+    assert (
+        answer.stderr == "Error: --forec: this command has no such option; did you mean --force or --free?\n"
+    )
     assert "Traceback" not in answer.stderr
 
 

@@ -125,7 +125,7 @@ def test_fields_of_a_recipe_become_options(made):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("a.txt",), "Error: --length: none of --length, --width is given; give one, such as --length 2"),
+        (("a.txt",), "Error: --length or --width is required: add one, such as --length 2"),
         (("a.txt", "--length", "x"), "Error: --length: the length must be a whole number from 1 up, not 'x'"),
         (
             ("a.txt", "--width", "1", "--names", "ann"),

@@ -142,7 +142,7 @@ def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):
     assert "the tilt is removed" in tilt
     assert [line.split(maxsplit=2)[1:2] for line in notes[:1]] in ([["A"]], [["Not"]])  # what is wrong
     assert "Note: 2 cells hold no height" in notes[-2]
-    assert "Note: Contact reaches the edge of the map" in notes[-1]
+    assert "Note: The cells at the edge of the map carry" in notes[-1]
 
 
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
@@ -472,12 +472,12 @@ def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, 
 def test_an_elastic_contact_of_named_metals_names_the_options_of_flow(invoke, rough):
     words = ("press", rough, "--force", "1N", "--materials", "steel,aluminium")
     note = invoke(*words).stderr
-    assert "of the contact area is above the hardness of aluminium, 1.05 GPa" in note
-    assert "Give --hardness 'aluminium' for first loading" in note
-    assert "above the hardness" in invoke("curve", *words[1:2], "--forces", "0.5N,1N", *words[4:]).stderr
+    assert "of the contact area the pressure exceeds the hardness of aluminium, 1.049 GPa" in note
+    assert "First loading: give --hardness aluminium." in note
+    assert "exceeds the hardness" in invoke("curve", *words[1:2], "--forces", "0.5N,1N", *words[4:]).stderr
     for given in (("--hardness", "aluminium"), ("--after", "2N")):
-        assert "above the hardness" not in invoke(*words, *given).stderr
-    assert "above the hardness" not in invoke(*words[:4], "--modulus", "57GPa").stderr
+        assert "exceeds the hardness" not in invoke(*words, *given).stderr
+    assert "exceeds the hardness" not in invoke(*words[:4], "--modulus", "57GPa").stderr
 
 
 @pytest.mark.parametrize(

@@ -66,7 +66,7 @@ def test_what_was_piped_is_pressed_and_named_by_its_fingerprint(tmp_path, monkey
         (
             ("surface", "make", "--out", "-", *MADE),
             b"",
-            "--out: there is no such option; write only its value",
+            "--out: this command has no such option; write only its value",
         ),
     ],
 )

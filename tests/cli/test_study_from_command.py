@@ -123,7 +123,7 @@ def test_semicolons_separate_values_that_hold_commas(invoke, here):
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8"],
-            "table.source.hurst: the Hurst exponent must lie between -1 and 3, not at '9'",
+            "table.source.hurst: the Hurst exponent must lie between -1 and 3, not '9'",
         ),
         (
             ["job.toml", "--vary", "source.hurst=9,8", "--vary", "preparation.levl=plane"],

@@ -253,7 +253,7 @@ def test_spectrum_of_a_line_scan_has_no_rings(invoke, line):
         (("--tip-shape", "sphere"), "--tip-shape belongs to --tip"),
         (("--share", "0.1"), "--share belongs to --window"),
         (("--window", "hann", "--share", "0.1"), "--share belongs to a Tukey window: give --window tukey"),
-        (("--window", "tukey", "--share", "1.5"), "must lie between 0 and 1, not at '1.5'"),
+        (("--window", "tukey", "--share", "1.5"), "must lie between 0 and 1, not '1.5'"),
         (("--crop", "1:5"), "--crop: a crop needs one slice an axis, 2 in all, not 1; give rows and columns"),
     ],
 )

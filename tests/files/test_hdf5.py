@@ -100,7 +100,7 @@ def test_numbers_that_were_never_written_take_no_memory(tmp_path, name):
     for chunks in (None, (1000, 1000)):
         with h5py.File(tmp_path / name, "w") as file:
             file.create_dataset("heights", (1_000_000, 1_000_000), np.float32, chunks=chunks)
-        with pytest.raises(rc.ReadError, match=r"reading it needs 1e\+05 GB of memory"):
+        with pytest.raises(rc.ReadError, match=r"reading it needs 100000 GB of memory"):
             rc.read(tmp_path / name, **GIVEN)
 
 

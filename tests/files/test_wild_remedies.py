@@ -23,7 +23,7 @@ def test_commas_of_thousands_hide_no_decimal_comma():
         (
             "a.txt",
             "Made by hand\n" + ROWS,
-            "lines before them must start with #",
+            "header lines must start with #",
             "# Made by hand\n" + ROWS,
         ),
         ("a.txt", "Made by hand\n" + ROWS, "or have the form name = value", "made = by hand\n" + ROWS),

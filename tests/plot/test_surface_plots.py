@@ -147,7 +147,7 @@ def test_a_profile_is_broken_where_points_are_missing_and_says_which_rows_there_
     profile_curve(surface, axes)  # the middle row, of which nothing was measured
     drawn(figure)
     assert np.isnan(axes.lines[0].get_ydata()).all()
-    with pytest.raises(ValueError, match="between -96 and 95, not at 96"):
+    with pytest.raises(ValueError, match="between -96 and 95, not 96"):
         profile_curve(surface, axes, row=96)
     scan = rc.Surface(heights[0], rc.Grid((128,), (1e-6,)))
     profile_curve(scan, axes)

@@ -99,10 +99,15 @@ RULES = [
     (
         without("press", "load", "depth"),
         "load.force",
-        "none of `force`",
+        "`force`, `pressure` or `depth` is required",
         [with_parts("press", load={"force": "10N", "depth": None})],
     ),
-    (without("press", "bodies", "modulus"), "bodies.modulus", "none of `modulus`", [smallest("press")]),
+    (
+        without("press", "bodies", "modulus"),
+        "bodies.modulus",
+        "`modulus`, `materials` or `young` is",
+        [smallest("press")],
+    ),
     (
         with_parts("press", load={"force": "1N"}),
         "load.force, load.depth",

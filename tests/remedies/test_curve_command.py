@@ -64,11 +64,11 @@ $ {SPRINGS} --hardness 1GPa
 
 ADHESION = f"""
 $ {CURVE} --forces 1uN,2uN --work 1mJ/m^2 --range 100nm
-! use 'roughcontact adhesion curve' for it
+! use 'roughcontact adhesion curve' (
 > {FAR} --forces 1uN,2uN
 
 $ {FAR}
-! is given; give one, such as --depths -20nm:20nm:9,-20nm
+! is required: add one, such as --depths -20nm:20nm:9,-20nm
 > {FAR} --depths -20nm:20nm:9,-20nm
 > {FAR} --depths 1nm,2nm
 > {FAR} --forces 1uN,2uN

@@ -151,7 +151,7 @@ PREPARED = [
 ]
 
 BODIES = [
-    row(bodies(), "Give one, such as modulus 110GPa", bodies(modulus="110GPa")),
+    row(bodies(), "Add one, such as modulus 110GPa", bodies(modulus="110GPa")),
     row(bodies(young="210 GPa"), "Give poisson, such as 0.3", bodies(young="210 GPa", poisson="0.3")),
     row(
         bodies(young="1GPa", poisson="0.7"),

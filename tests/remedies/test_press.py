@@ -125,6 +125,12 @@ BODIES = [
         lambda: press(modulus=rc.handbook("steel")),
     ),
     row(
+        lambda: press(modulus=("steel", "alu")),
+        "did you mean aluminium? Otherwise give the numbers of the material",
+        lambda: press(modulus=("steel", "aluminium")),
+        lambda: press(modulus=("steel", rc.Solid(70e9, 0.33))),
+    ),
+    row(
         lambda: press(hardness="cheese"),
         "there is no material named 'cheese'; there are steel",
         lambda: press(hardness="steel"),
@@ -138,7 +144,7 @@ BODIES = [
     ),
     row(
         lambda: rc.handbook("oak"),
-        "there are steel, stainless-steel, aluminium, titanium, copper, silver, gold, nickel, tungsten: for another",
+        "there are steel, stainless-steel, aluminium, titanium, copper, silver, gold, nickel, tungsten: give the",
         *(lambda name=name: rc.handbook(name) for name in ("steel", "gold", "tungsten")),
         lambda: rc.Solid(1e10, 0.3),
     ),

@@ -15,7 +15,7 @@ FLOWS = f"{PRESS} --force 1mN --hardness 1GPa"
 
 LOADS = f"""
 $ {PRESS}
-! none of --force, --pressure, --depth is given; give one, such as --force 10N
+! --force, --pressure or --depth is required: add one, such as --force 10N
 > {PRESS} --force 10N
 > {PRESS} --force 1mN
 > {PRESS} --pressure 1MPa
@@ -61,7 +61,7 @@ $ {PRESS} --periodic --depth 1um
 > {PRESS} --periodic --force 1mN
 
 $ {PRESS} --force 1mN --tolerance 1
-! the tolerance must lie between 1e-14 and 0.01, not at '1'; give a number such as 1e-8
+! the tolerance must lie between 1e-14 and 0.01, not '1'; give a number such as 1e-8
 > {PRESS} --force 1mN --tolerance 1e-8
 > {PRESS} --force 1mN --tolerance 1e-3
 
@@ -73,7 +73,7 @@ $ {PRESS} --force 1mN --hardness 1kPa
 
 BODIES = f"""
 $ {FORCE}
-! none of --modulus, --materials, --young is given; give one, such as --modulus 110GPa
+! --modulus, --materials or --young is required: add one, such as --modulus 110GPa
 > {FORCE} --modulus 110GPa
 > {FORCE} --materials steel,aluminium
 > {FORCE} --young 210GPa --poisson 0.3
@@ -119,7 +119,7 @@ $ {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa
 > {FORCE} --young 1GPa --poisson 0.3 --young2 1GPa --poisson2 0.3
 
 $ {FORCE} --young 1GPa --poisson 0.7
-! must lie between -0.99 and 0.5, not at '0.7'; give a number such as 0.3
+! must lie between -0.99 and 0.5, not '0.7'; give a number such as 0.3
 > {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --young 1GPa --poisson 0.5
 
@@ -138,7 +138,7 @@ $ {FORCE} --materials rigid,rigid
 > {FORCE} --materials steel,rigid
 
 $ {FORCE} --materials steel,oak
-! tungsten; for another metal give its modulus and Poisson's ratio
+! tungsten; give the numbers of the material, such as --young 210GPa --poisson 0.3
 > {FORCE} --materials steel,tungsten
 > {FORCE} --young 205GPa --poisson 0.29 --young2 11GPa --poisson2 0.4
 
@@ -239,11 +239,11 @@ $ {PROFILE} --profile line --errors
 
 ADHESION = f"""
 $ {PRESS} --force 1uN --work 1mJ/m^2 --range 100nm
-! use 'roughcontact adhesion press' for it
+! use 'roughcontact adhesion press' (
 > {FAR} --force 1uN
 
 $ {FAR}
-! none of --force, --pressure, --depth, --mean-gap is given; give one, such as --force 10mN
+! --force, --pressure, --depth or --mean-gap is required: add one, such as --force 10mN
 > {FAR} --force 1uN
 > {FAR} --pressure 1kPa
 > {FAR} --depth 1nm
@@ -270,7 +270,7 @@ $ {FAR} --mean-gap 100nm
 > {FAR} --force 1uN
 
 $ {FAR} --force 1uN --hardness 1GPa
-! use 'roughcontact press' for it
+! use 'roughcontact press' (
 > {PRESS} --force 1uN --hardness 1GPa
 """
 

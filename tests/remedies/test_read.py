@@ -158,7 +158,7 @@ STATEMENTS = [
 TEXTS = [
     row(
         text([*ROWS[:2], "Ra Rq Rz Rt a b c d", *ROWS[2:]]),
-        "give rows of numbers only; lines before them must start with # or have the form name = value",
+        "give rows of numbers only; header lines must start with # or have the form name = value",
         MAP,
         text(["# Ra Rq Rz Rt a b c d", *ROWS]),
         text(["Ra = 1", *ROWS]),

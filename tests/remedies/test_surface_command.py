@@ -10,7 +10,7 @@ PREPARE = "surface prepare rough.npz new.npz"
 
 MADE = f"""
 $ {BARE} --hurst 8 --points 32
-! the Hurst exponent must lie between -1 and 3, not at '8'; give a number such as 0.8
+! the Hurst exponent must lie between -1 and 3, not '8'; give a number such as 0.8
 > {BARE} --hurst 0.8 --points 32
 
 $ {BARE} --hurst 0.8 --points 6.4
@@ -107,7 +107,7 @@ $ {PREPARE} --share 0.5
 > {PREPARE} --share 0.5 --window tukey
 
 $ {PREPARE} --window tukey --share 2
-! must lie between 0 and 1, not at '2'; give a number such as 0.25
+! must lie between 0 and 1, not '2'; give a number such as 0.25
 > {PREPARE} --window tukey --share 0.25
 > {PREPARE} --window tukey --share 1
 """

@@ -91,7 +91,7 @@ HEIGHTS = [
     ),
     row(
         lambda: rc.Surface(VALUES.astype(str), PLANE),
-        "heights must be real numbers [m], not of type",
+        "heights must be real numbers [m], not text",
         lambda: rc.Surface(VALUES.astype(str).astype(float), PLANE),
     ),
     row(

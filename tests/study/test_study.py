@@ -133,7 +133,7 @@ def test_the_room_opens_at_its_public_names():
         ({"name": "a/b"}, "name: 'a/b' is not a valid name of a study; use letters"),
         ({"name": ""}, "name: '' is not a valid name"),
         ({"case": "curv"}, "there is no case 'curv': did you mean 'curve'? choose from"),
-        ({"case": "curv"}, "write your case as module:attribute"),
+        ({"case": "curv"}, "or give your own case in Python as module:attribute"),
         (
             {"case": "nowhere.at_all:CASE"},
             "no module nowhere is found; run in the folder that contains nowhere",

@@ -173,7 +173,9 @@ def _note_level(call: Call, surface: Surface) -> None:
         remark("the surface is periodic, so that it has no tilt: its mean height is removed")
     else:
         trend = "plane" if surface.grid.ndim == 2 else "line"
-        remark(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+        remark(
+            f"the tilt is removed by a least-squares {trend} (choose otherwise by --level mean or --level none)"
+        )
 
 
 def note_materials(bodies: Bodies) -> None:

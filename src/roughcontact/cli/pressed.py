@@ -56,7 +56,7 @@ class Pressed:
 
     def facts(self) -> list[tuple[str, str]]:
         """Return the facts, line by line."""
-        lines = [("the map is", self.words)]
+        lines = [("kind of surface", self.words)]
         if self.index is not None and self.softer is not None:
             index, of = self.index, f"{quantity('hardness', self.softer[0])} {self.softer[1]}"
             flow = "; --hardness computes the flow" if index.value > index.plastic_above else ""
@@ -64,7 +64,8 @@ class Pressed:
                 (
                     "plasticity index",
                     f"{index.value:.3g}, {index.regime} (elastic below {index.elastic_below:g}, plastic above "
-                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}){flow}",
+                    f"{index.plastic_above:g}; Greenwood and Williamson, hardness {of}; "
+                    f"a measure of the summits, not of this load){flow}",
                 )
             )
         return lines

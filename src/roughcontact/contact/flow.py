@@ -2,8 +2,8 @@
 
 Where the pressure equals the hardness H, the flat stands below the undeformed surface: this overlap f is the depth of
 flow. The flattened surface h - f touches the flat under the same pressure at the same place, so that it is in elastic
-contact. As the load grows, every pressure and every overlap grow (a kernel with a maximum principle). Therefore a state
-of first loading depends only on its load, and no smaller load makes the flattened surface flow again.
+contact. As the load grows, no pressure and no overlap decreases (the maximum principle of the half-space). Therefore a
+state of first loading depends only on its load, and no smaller load makes the flattened surface flow again.
 """
 
 from __future__ import annotations

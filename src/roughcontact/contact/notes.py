@@ -60,8 +60,8 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     if solution.edge_share >= EDGE and problem.surface is not None:
         yield Note(
             Rank.USUAL,
-            f"Contact reaches the edge of the map, whose cells carry {100 * solution.edge_share:.2g} % of the force: "
-            "the surface beyond the map would carry load as well.",
+            f"The cells at the edge of the map carry {100 * solution.edge_share:.2g} % of the force: the surface "
+            "beyond the map would carry load as well.",
         )
 
 
@@ -75,12 +75,13 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
     if above >= ABOVE:
         in_table = softer.name in MATERIALS and MATERIALS[softer.name].hardness == softer.hardness
         given = repr(softer.name) if in_table else f"{softer.hardness:.4g}"
+        most = solution.max_pressure / softer.hardness
         yield Note(
             Rank.WRONG,
-            f"{above:.0%} of the contact area is above the hardness of {softer.name}, {written(softer.hardness, 'Pa')} "
-            f"(the largest pressure is {solution.max_pressure / softer.hardness:.2g} times the hardness): "
-            f"{softer.name} flows there, and the elastic area and stiffness are wrong. Give hardness={given} "
-            "for first loading; for a joint that was pressed before, compute unloading by loading_loop.",
+            f"On {100 * above:.0f} % of the contact area the pressure exceeds the hardness of {softer.name}, "
+            f"{written(softer.hardness, 'Pa', 4)} (the largest pressure is {most:.2g} times the hardness): "
+            f"{softer.name} flows there, and the elastic area and stiffness are wrong. First loading: give "
+            f"hardness={given}. A joint that was pressed harder before: compute unloading by loading_loop.",
         )
 
 

@@ -30,7 +30,7 @@ _HOLE = "write nan where a point was not measured, so that all rows are equally 
 _ROWS = re.compile(
     r"(?:(?:number of )?rows|y-pixels|y-?res|ny|zeilen|lignes)\s*[:=,;\t]\s*(\d{1,9})", re.IGNORECASE
 )
-_PLAIN = "give rows of numbers only; lines before them must start with # or have the form name = value"
+_PLAIN = "give rows of numbers only; header lines must start with # or have the form name = value"
 _COMMENT = re.compile(r"(?:#(?!n/?a\b|num\b)|%|//|!)\s*", re.IGNORECASE)  # spreadsheets write #N/A and #NUM!
 # Above a table: a name that does not begin like a number, with a value; or the words that end a header.
 _STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)

@@ -20,6 +20,7 @@ _ARGUMENTS = {
     "poisson_ratio": "Poisson",
     "young_modulus": "Young",
     "by loading_loop": "by a loop of loads",
+    "rc.Solid(210e9, 0.3)": "210 GPa and 0.3",
 }
 _LACKING = {
     "unit": "Unit (of the heights)",

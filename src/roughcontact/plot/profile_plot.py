@@ -75,7 +75,7 @@ def profile_curve(
         rows = heights.shape[0]
         chosen = rows // 2 if row is None else row
         if not -rows <= chosen < rows:
-            raise about("row", f"must lie between {-rows} and {rows - 1}, not at {chosen}")
+            raise about("row", f"must lie between {-rows} and {rows - 1}, not {chosen}")
         heights = heights[chosen]
         marked = None if marked is None else marked[chosen]
     elif row is not None:

@@ -191,9 +191,10 @@ def _require_one(part: Any, names: tuple[str, ...], must: bool) -> None:
         )
     if must and names and not found:
         examples = {each.name: spec.example for each, spec in specs(part)}
+        quoted = [*map(_quoted, names)]
         raise InputError(
-            f"none of {', '.join(map(_quoted, names))} is given",
-            f"give one, such as {_quoted(names[0])} {examples[names[0]]}",
+            f"{' or '.join(filter(None, (', '.join(quoted[:-1]), quoted[-1])))} is required",
+            f"add one, such as {_quoted(names[0])} {examples[names[0]]}",
             names[0],
         )
 

@@ -86,7 +86,7 @@ class PureNumber:
         value = quantity.parse_number(text, self.example)
         if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
             raise InputError(
-                f"{self.what} must lie between {self.low:g} and {self.high:g}, not at {text!r}",
+                f"{self.what} must lie between {self.low:g} and {self.high:g}, not {text!r}",
                 f"give a number such as {self.example}",
             )
         return value

@@ -115,7 +115,7 @@ def fit_power_laws(
     >>> laws["exponent"].round(6).item(), laws["prefactor_error"].round(3).item()
     (0.6, 0.048)
     """
-    require(0 < level < 1, f"the level of an interval lies between 0 and 1, not at {level}", place="level")
+    require(0 < level < 1, f"the level of an interval lies between 0 and 1, not {level}", place="level")
     import xarray
 
     over = dimensions(samples)

@@ -54,7 +54,8 @@ def own_heights(heights: Any, shape: tuple[int, ...]) -> Array:
     else:
         given = np.ma.filled(heights, np.nan) if np.ma.isMaskedArray(heights) else np.asarray(heights)
         if given.dtype.kind not in "fiu":
-            raise about("heights", f"must be real numbers [m], not of type {given.dtype.name}")
+            kind = "text" if given.dtype.kind in "SU" else f"of type {given.dtype.name}"
+            raise about("heights", f"must be real numbers [m], not {kind}")
         own = np.array(given, dtype=np.float64)
         own.flags.writeable = False
     if tuple(own.shape) != shape:

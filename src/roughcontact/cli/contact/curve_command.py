@@ -63,7 +63,7 @@ roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --t
 
 CELLS: dict[str, Cells] = {
     "curve": {
-        "the map is": lambda record: str(record["kind"]),
+        "kind of surface": lambda record: str(record["kind"]),
         "loads": lambda record: str(len(record["force"])),
         "resolved": lambda record: str(sum(record["resolved"])),
         "from": lambda record: _shown(record, "force", 0),

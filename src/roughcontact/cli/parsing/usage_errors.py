@@ -45,7 +45,7 @@ def no_such_command(context: Any, name: str, known: Iterable[str]) -> UsageError
 def _stated(error: Any, context: Any) -> UsageError:
     name: Any = getattr(error, "option_name", None)
     if hasattr(error, "possibilities"):
-        return UsageError("there is no such option", _instead(context, name), name)
+        return UsageError("this command has no such option", _instead(context, name), name)
     if name is not None:
         named = next((each for each in context.command.params if name in each.opts), None)
         if named is None or named.is_flag:
@@ -55,7 +55,7 @@ def _stated(error: Any, context: Any) -> UsageError:
     if named is not None and type(error).__name__ == "MissingParameter":
         option = named.opts[0]
         if named.param_type_name == "option":
-            return UsageError("this option is missing", f"give one such as {option} {named.metavar}", option)
+            return UsageError(f"{option} is required", f"add it, such as {option} {named.metavar}", option)
         return UsageError(f"{named.metavar} is missing", _as_in_example(context), named.metavar)
     if (extra := re.search(r"unexpected extra argument\S* \((.*)\)", error.message)) is not None:
         words = f"unexpected argument {extra[1]!r}"
@@ -71,25 +71,28 @@ def _instead(context: Any, option: str) -> str:
     if option.removeprefix("--") in arguments:
         return f"write only its value, without {option}"
     if found := _elsewhere(context, option):
-        return f"use {' or '.join(found)} for it"
+        return f"use {' or '.join(found)}"
     known = [name for each in context.command.params for name in (*each.opts, *each.secondary_opts)]
+    if meant := [name for name in _GUESSED.get(option, ()) if name in known]:
+        return f"use {' or '.join(meant)}"
     words = {name.strip("-"): name for name in known}
     near = [words[each] for each in difflib.get_close_matches(option.strip("-"), words, 2)]
     slip = difflib.get_close_matches(option, known, 1, cutoff=_SLIP)
     if not slip and (found := _elsewhere(context, option, anywhere=True)):
-        return f"use {' or '.join(found)} for it"
+        return f"use {' or '.join(found)}"
     if near:
         return f"did you mean {' or '.join(near)}?"
     return f"choose one that '{context.command_path} --help-all' lists"
 
 
+_GUESSED = {"--load": ("--pressure", "--force"), "--loads": ("--pressures", "--forces")}
 _SLIP = 0.8  # least likeness of an option to a misspelt one
 _MOST = 3  # most commands that a message names
 _VERBOSITY = ("-q", "--quiet", "-v", "--verbose")
 
 
 def _elsewhere(context: Any, option: str, *, anywhere: bool = False) -> list[str]:
-    """Return commands that take an option: those of the same name or group, if any, otherwise among all."""
+    """Return commands that take an option, with their purpose: of the same name or group, otherwise among all."""
     root = context.find_root()
     if isinstance(context.command, TyperGroup):
         return []
@@ -101,7 +104,11 @@ def _elsewhere(context: Any, option: str, *, anywhere: bool = False) -> list[str
 
     def taking(path: str, names: Iterable[str]) -> list[str]:
         known = [(name, groups[path].get_command(context, name)) for name in names]
-        return [f"'{path} {name}'" for name, each in known if any(option in one.opts for one in each.params)]
+        return [
+            f"'{path} {name}' ({_purpose(each)})"
+            for name, each in known
+            if any(option in one.opts for one in each.params)
+        ]
 
     found = [
         word
@@ -114,6 +121,12 @@ def _elsewhere(context: Any, option: str, *, anywhere: bool = False) -> list[str
     if anywhere:
         found = [word for path, group in groups.items() for word in taking(path, group.commands)][:_MOST]
     return found
+
+
+def _purpose(command: Any) -> str:
+    """Return the beginning of the help of a command, up to the first colon or full stop."""
+    words = re.split(r"[:.](?= |$)", " ".join(command.help.split()))[0]
+    return words[:1].lower() + words[1:]
 
 
 def _as_in_example(context: Any) -> str:

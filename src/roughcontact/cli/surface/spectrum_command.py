@@ -163,7 +163,9 @@ def _analysed(surface: Surface, asked: Asked) -> tuple[PowerSpectrum, HurstFit]:
     band = asked.band()
     if asked.level is None and not all(surface.grid.periodic):
         trend = "plane" if surface.grid.ndim == 2 else "line"
-        remark(f"the tilt is removed by a least-squares {trend} (--level mean or none for another choice)")
+        remark(
+            f"the tilt is removed by a least-squares {trend} (choose otherwise by --level mean or --level none)"
+        )
     whole = rc.power_spectrum(surface, direction, level=level, per_decade=_FINE)
     whole = replace(whole, q_min=band.get("q_min", whole.q_min), q_max=band.get("q_max", whole.q_max))
     return whole, rc.fit_spectrum(whole, limit=limit)

@@ -31,7 +31,7 @@ __all__ = ["CASES", "find_case"]
 # The module of a case is imported when the case is first used.
 _NAMES = ("adhesion", "asperities", "cells", "curve", "job", "lines", "loop", "patch", "slip", "yielding")
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
-_OWN = "write your case as module:attribute"
+_OWN = "or give your own case in Python as module:attribute"
 
 
 def find_case(name: str) -> Case:
@@ -60,7 +60,7 @@ def find_case(name: str) -> Case:
     """
     place = CASES.get(name, name)
     if re.fullmatch(r"[\w.]+:\w+", place) is None:
-        raise StudyError(f"there is no case {name!r}: {choose(name, sorted(CASES))}; {_OWN}", place="case")
+        raise StudyError(f"there is no case {name!r}: {choose(name, sorted(CASES))}, {_OWN}", place="case")
     module, _, attribute = place.partition(":")
     found = getattr(_module(module, name), attribute, None)
     if not isinstance(found, Case):

@@ -79,7 +79,7 @@ class SurfaceSpecification:
                 )
         if self.hurst is not None and not 0 <= self.hurst <= 1:
             raise InputError(
-                f"`hurst` lies between 0 and 1, not at {self.hurst}", "give 0.8, for example", "hurst"
+                f"`hurst` lies between 0 and 1, not {self.hurst}", "give 0.8, for example", "hurst"
             )
         if self.nayak is not None and self.nayak <= 1.5:
             raise InputError(
