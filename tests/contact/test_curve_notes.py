@@ -113,7 +113,7 @@ def test_notes_on_the_states_are_those_on_the_largest_load(tmp_path):
 
 def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tmp_path):
     heights = rc.self_affine(GRID, 0.8, 1e-7, np.random.default_rng(3)).heights.copy()
-    heights[20:23, 20:23] += 1e-6
+    heights[20:30, 20:30] = 1e-6
     surface = rc.Surface(heights, GRID)
     curve = rc.loading_curve(surface, 1e9, forces=[0.003, 0.03, 0.1])
     [note] = [note for note in curve.notes if "points stand" in note]
