@@ -112,13 +112,16 @@ def test_notes_on_the_states_are_those_on_the_largest_load(tmp_path):
 
 
 def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tmp_path):
-    heights = rc.self_affine(GRID, 0.8, 1e-7, np.random.default_rng(3)).heights.copy()
-    heights[20:30, 20:30] = 1e-6
-    surface = rc.Surface(heights, GRID)
+    """Sixteen spikes of nine cells."""
+    heights = rc.self_affine(rc.Grid((128, 128), 1e-6), 0.8, 1e-7, np.random.default_rng(3)).heights.copy()
+    for row, column in np.ndindex(4, 4):
+        heights[30 * row + 10 :, 30 * column + 10 :][:3, :3] = 1.2e-6
+    surface = rc.Surface(heights, rc.Grid((128, 128), 1e-6))
     curve = rc.loading_curve(surface, 1e9, forces=[0.003, 0.03, 0.1])
+    assert curve.resolved.all()
     [note] = [note for note in curve.notes if "points stand" in note]
     light, heavy = (rc.press(surface, 1e9, force=force).notes for force in curve.force[[0, 2]])
-    assert note == f"At 3 mN (732 kPa): {next(each for each in light if 'points stand' in each)}"
+    assert note == f"At 3 mN (183 kPa): {next(each for each in light if 'points stand' in each)}"
     assert any("points stand" in each for each in heavy)
     parts = [rc.loading_curve(surface, 1e9, forces=forces) for forces in ([0.03, 0.1], [0.003])]
     both = joined(*parts)

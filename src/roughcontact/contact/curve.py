@@ -36,7 +36,9 @@ from roughcontact.validation import Array, number, numeric
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
-REMEDY = "take the forces that load_range finds for the surface, a finer grid, or another window of forces"
+REMEDY = (
+    "leave the loads out, so that suitable ones are chosen, or use a finer grid, or another window of forces"
+)
 
 
 @hinted
@@ -75,7 +77,7 @@ class Curve:
         Plastic flow along the curve, and the stiffness of unloading; None without a hardness.
     state_notes : tuple of (float, Note)
         Notes on the states, each with its force [N]: those on the largest load, and those on single cells on the
-        lightest resolved load, where such cells carry the largest share of the force.
+        first resolved load, where such cells carry the largest share of the force.
 
     Examples
     --------
@@ -334,6 +336,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         del solution  # with its maps, before the next load is solved
     if problem is None or heaviest is None:
         raise InputError("a curve needs at least one load")
+    few = of_few_cells or [(heaviest.force, note) for note in notes_on_few_cells(heaviest)]
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
@@ -352,5 +355,5 @@ def collect(path: Iterable[Solution]) -> Curve:
         geometry=problem.geometry,
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
-        state_notes=(*((heaviest.force, note) for note in notes_on_load(heaviest)), *(of_few_cells or ())),
+        state_notes=(*((heaviest.force, note) for note in notes_on_load(heaviest)), *few),
     )
