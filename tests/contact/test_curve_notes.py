@@ -123,9 +123,9 @@ def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tm
     light, heavy = (rc.press(surface, 1e9, force=force).notes for force in curve.force[[0, 2]])
     assert note == f"At 3 mN (183 kPa): {next(each for each in light if 'points stand' in each)}"
     assert any("points stand" in each for each in heavy)
-    parts = [rc.loading_curve(surface, 1e9, forces=forces) for forces in ([0.03, 0.1], [0.003])]
+    parts = [rc.loading_curve(surface, 1e9, forces=forces) for forces in ([0.1], [0.003, 0.03])]
     both = joined(*parts)
     assert note in both.notes
-    assert part_of(both, both.force > 0.05).notes == tuple(each for each in both.notes if "stand" not in each)
+    assert not any(each.startswith("At ") for each in part_of(both, both.force > 0.05).notes)
     missed = replace(curve, status=(curve.status[0], Status.MAX_STEPS, curve.status[2]))
     assert missed.notes[0] == "1 of 3 loads missed the tolerance: see their status"

@@ -252,7 +252,7 @@ ANSWERS = [
     ),
     row(
         lambda: curve(ROUGH).fit(),
-        "resolved points in the range of forces that is fitted, not 0: take",
+        "resolved points in the range of forces that is fitted, not 0: leave",
         lambda: curve(FINE).fit(),
     ),
     row(

@@ -22,8 +22,8 @@ def part_of(curve: Curve, chosen: Mask) -> Curve:
     """Return the loads of an elastic curve where `chosen`, shape (n,), is true."""
     status = tuple(each for each, kept in zip(curve.status, chosen, strict=True) if kept)
     columns: dict[str, Any] = {name: getattr(curve, name)[chosen] for name in _COLUMNS}
-    largest = columns["force"].max(initial=0.0)
-    notes = tuple((force, note) for force, note in curve.state_notes if force <= largest)
+    kept = set(columns["force"].tolist())
+    notes = tuple((force, note) for force, note in curve.state_notes if force in kept)
     return replace(curve, **columns, status=status, state_notes=notes)
 
 

@@ -36,6 +36,7 @@ __all__ = [
     "note_unresolved",
     "plot",
     "resolved_in",
+    "written_load",
 ]
 
 EXAMPLES = {
