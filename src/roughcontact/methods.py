@@ -27,7 +27,7 @@ if TYPE_CHECKING:
         state_record as state_record,
     )
     from roughcontact.contact.compare import compare as compare
-    from roughcontact.contact.curve_notes import curve_notes as curve_notes
+    from roughcontact.contact.curve_notes import curve_doubts as curve_doubts, curve_notes as curve_notes
     from roughcontact.contact.dataset import (
         curve_dataframe as curve_dataframe,
         curve_dataset as curve_dataset,
@@ -111,7 +111,7 @@ else:
         ),
         "adhesion.state_dataset": "state_dataset state_record",
         "contact.compare": "compare",
-        "contact.curve_notes": "curve_notes",
+        "contact.curve_notes": "curve_doubts curve_notes",
         "contact.dataset": ("curve_dataframe curve_dataset curve_record solution_dataset solution_record"),
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",

@@ -110,3 +110,15 @@ def test_a_body_that_is_drawn_back_from_a_tension_begins_with_it():
     last = rc.adhesive_curve(BALL, 1e8, SOFT, depths=[-6e-9, -12e-9])
     assert curve.lowest_force[-1] == curve.lowest_force[1] < curve.force[1]
     assert last.pull_off_force == pytest.approx(-last.force[0], rel=1e-9)
+
+
+def test_the_depth_of_the_pull_off_is_that_of_its_force():
+    """A loop that is pressed to this depth and no further has this force there."""
+    curve = rc.adhesive_loop(BALL, 1e8, SOFT, depth=10e-9, points=4)
+    at = curve.pull_off_point
+    assert curve.lowest_force[at] == curve.lowest_force[-1] == -curve.pull_off_force
+    depth = curve.lowest_force_depth[at]
+    assert depth not in curve.depth
+    state = rc.adhesive_curve(BALL, 1e8, SOFT, depths=[10e-9, depth])[-1]
+    assert state.force == pytest.approx(-curve.pull_off_force, rel=FORCE_TOLERANCE)
+    assert rc.adhesive_curve(BALL, 1e8, SOFT, depths=[10e-9, 9e-9]).pull_off_point is None

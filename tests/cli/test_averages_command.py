@@ -106,7 +106,8 @@ def test_means_can_be_asked_for_at_a_force(invoke, study, averaged):
             # The force is one of the loads: nothing is interpolated.
             assert row["stiffness"][word] == averaged[f"stiffness_{word}"][i, 3]
         assert row["rms"]["mean"] == pytest.approx(1e-6, rel=1e-12)
-    header, first, _ = invoke("study", "table", study, *words).stdout.splitlines()
+    load, header, first, _ = invoke("study", "table", study, *words).stdout.splitlines()
+    assert load == f"load   F/(E* h L) = {force:.4g}"
     assert header.split()[:5] == ["hurst", "samples", "resolved", "stiffness", "[MN/m]"]
     assert first.split()[3] == f"{averaged['stiffness_mean'][0, 3].item() * 1e-6:.2f}"
 
@@ -129,7 +130,8 @@ def test_means_can_be_asked_for_at_a_pressure_and_at_a_force(invoke, study, text
         assert row["stiffness"]["mean"] == pytest.approx(np.exp(logs).mean(), rel=1e-12)
         areal = row["interfacial_stiffness_per_area"]["mean"]
         assert 0.5 < areal / (row["stiffness"]["mean"] / 1e-6) < 2
-    header = invoke("study", "table", study, "--at", text).stdout.splitlines()[0]
+    load, header, *_ = invoke("study", "table", study, "--at", text).stdout.splitlines()
+    assert load.replace(" ", "") == f"load{text}"
     assert header.startswith(
         "hurst  samples  resolved  interfacial stiffness per area [N/µm/mm²]  stiffness [MN/m]"
     )
@@ -138,12 +140,12 @@ def test_means_can_be_asked_for_at_a_pressure_and_at_a_force(invoke, study, text
 def test_it_counts_the_samples_whose_load_is_resolved(invoke, study, tmp_path):
     """On 64 x 64 cells no load is, at the end of the power law; pressed twenty times as hard, all are."""
     answer = invoke("study", "table", study, "--at", "2MPa")
-    assert [row.split()[1:3] for row in answer.stdout.splitlines()[1:]] == [["3", "0"], ["3", "0"]]
+    assert [row.split()[1:3] for row in answer.stdout.splitlines()[2:]] == [["3", "0"], ["3", "0"]]
     assert "all means contain loads that are not resolved" in answer.stderr
     (tmp_path / "hard.toml").write_text(TEXT.replace("loads = 8", "loads = 3, highest_force = 1.0"))
     invoke("study", "run", tmp_path / "hard.toml", "--out", tmp_path / "hard", "--executor", "serial")
     answer = invoke("study", "table", tmp_path / "hard", "--at", "1.0")
-    assert [row.split()[1:3] for row in answer.stdout.splitlines()[1:]] == [["3", "3"], ["3", "3"]]
+    assert [row.split()[1:3] for row in answer.stdout.splitlines()[2:]] == [["3", "3"], ["3", "3"]]
     assert "not resolved" not in answer.stderr
     rows = json.loads(invoke("study", "table", tmp_path / "hard", "--at", "1.0", "--json").stdout)["rows"]
     assert [row["resolved"] for row in rows] == [3, 3]
@@ -159,7 +161,7 @@ def test_a_table_counts_the_samples_behind_each_mean(invoke, study, monkeypatch)
 
     monkeypatch.setattr(sys.modules["roughcontact.study.export"], "export", shortened)
     answer = invoke("study", "table", study, "--at", "2N")
-    assert [row.split()[1] for row in answer.stdout.splitlines()[1:]] == ["2", "2"]
+    assert [row.split()[1] for row in answer.stdout.splitlines()[2:]] == ["2", "2"]
     assert "the loads of some samples do not reach this load" in answer.stderr
     assert "do not reach" not in invoke("study", "table", study, "--at", "0.0002").stderr
 
@@ -257,11 +259,12 @@ def test_where_there_is_no_law_it_says_why(invoke, study):
         (("table", "STUDY", "--window", "a:1"), "--window: 'a' is not a number"),
         (
             ("table", "STUDY", "--at", "2"),
-            "--at: the loads go from 0.005 to 0.07; choose one between them, not 2",
+            "--at: the force over E* h L of the study goes from 0.005 to 0.07, and 2 is not between them; choose a "
+            "load between them; a pressure or a force has a unit: 1MPa, 10N",
         ),
         (
             ("table", "STUDY", "--at", "1GPa"),
-            "--at: the loads go from 550 kPa to 7.7 MPa; choose one between",
+            "--at: the pressure of the study goes from 550 kPa to 7.7 MPa, and",
         ),
         (
             ("table", "STUDY", "--at", "5kg"),

@@ -417,7 +417,9 @@ def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, r
     assert record["bias_of_size"] == {}
     assert f"at 10 mN, {sentence}" in texts(drawn[0])
     assert "sampling          order of magnitude: four free quarters" in known
-    changes = "size of the map   from the whole map to quarters of it, the numbers change: interfacial stiffness per"
+    changes = (
+        "size of the map   the numbers of quarters of the map differ from those of the map by: interfacial"
+    )
     assert changes in known
     assert "unknown" not in next(line for line in known.splitlines() if "mean gap" in line)
     number = numbers["interfacial_stiffness"]

@@ -221,7 +221,7 @@ def test_too_deep_for_a_periodic_surface_is_refused_at_once():
 def test_too_few_points_for_a_law():
     """The message names what would serve."""
     curve = rc.loading_curve(rough(16), 3.0, forces=[1e-5, 1e-4])
-    with pytest.raises(ValueError, match=r"not 0: take the forces that load_range finds"):
+    with pytest.raises(ValueError, match=r"not 0: leave the loads out"):
         curve.fit()
 
 

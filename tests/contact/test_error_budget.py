@@ -268,7 +268,7 @@ def test_the_record_is_plain_and_the_table_has_two_digits_of_the_error():
     )
     assert parts[0][0] in "+-"
     assert "contact area, corrected" in repr(budget)
-    with pytest.raises(KeyError, match="'hardness' is none of"):
+    with pytest.raises(KeyError, match="no error of 'hardness'"):
         budget["hardness"]
 
 

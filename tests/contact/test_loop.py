@@ -50,8 +50,10 @@ def test_its_branches_are_those_of_the_path(loop):
 def test_its_notes_are_those_of_first_loading():
     rough = rc.self_affine(rc.Grid((48, 48), 1e-6, periodic=True), 0.8, 3e-7, rng=np.random.default_rng(0))
     loop = rc.loading_loop(rough, 1e11, hardness=5e9)
-    (note,) = loop.unloading.notes  # of its power law, which unloading does not follow
-    assert loop.notes == loop.loading.notes == ()
+    (note,) = loop.unloading.doubts  # of its power law, which unloading does not follow
+    assert loop.loading.doubts == ()
+    (plastic,) = loop.notes
+    assert "are at the hardness" in plastic
     assert note not in loop._repr_html_()
     doubtful = replace(loop, loading=loop.unloading)
     assert doubtful.notes == (note,)

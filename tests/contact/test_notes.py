@@ -31,7 +31,7 @@ def test_the_edge_is_told_where_its_cells_carry_a_hundredth_of_the_force(part, t
     assert solution.touches_edge
     edge = [note for note in solution.notes if "at the edge of the map" in note]
     assert len(edge) == told
-    assert all(f"carry {100 * solution.edge_share:.2g} % of the force" in note for note in edge)
+    assert all(f"carry {100 * solution.edge_share:.0f} % of the force" in note for note in edge)
 
 
 def test_the_share_of_the_edge_counts_each_of_its_cells_once():

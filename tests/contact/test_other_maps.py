@@ -165,7 +165,7 @@ def test_the_budget_adds_it_to_the_error_and_keeps_the_bias_apart():
     assert printed[0].endswith("sampling")
     assert printed[-2] == f"sampling: order of magnitude: {found.source.how}"
     assert printed[-1].startswith(
-        "size of the map: from the whole map to quarters of it, the numbers change: "
+        "size of the map: the numbers of quarters of the map differ from those of the map by: "
     )
     few = rc.error_budget(pressed(rough((48, 48)), 1e4))
     assert math.isnan(few["mean_gap"].error)

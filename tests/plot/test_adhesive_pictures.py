@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 import roughcontact as rc
 from roughcontact.labels.engineering_units import written
 from roughcontact.plot.adhesive_facts import adhesive_curve_facts, jump_facts
+from roughcontact.plot.jumps import pieces_of
 from sticking import rough, sticky
 
 RINGS = rc.RadialGrid.uniform(30, radius=6e-7)
@@ -55,7 +56,11 @@ def test_a_loop_shows_its_points_and_breaks_at_its_jumps(loop):
     forces = np.concatenate(
         [loop.force, [each for jump in loop.jumps for each in (jump.force_before, jump.force_after)]]
     )
-    known = np.stack([depths * NM, forces * UN], 1)
+    at = loop.pull_off_point
+    pull_off = np.array([[loop.lowest_force_depth[at] * NM, -loop.pull_off_force * UN]])
+    np.testing.assert_allclose(names["pull-off"].get_xydata(), pull_off)
+    assert any(-loop.pull_off_force in force for _, force in pieces_of(loop, way=False))
+    known = np.concatenate([np.stack([depths * NM, forces * UN], 1), pull_off])
     drawn = np.concatenate([line.get_xydata() for line in axes.lines if line.get_linestyle() == "-"][1:])
     np.testing.assert_allclose(np.abs(drawn[:, None] - known).sum(axis=2).min(axis=1), 0, atol=1e-12)
     pieces = [line.get_xydata()[:, 1] / UN for line in axes.lines if line.get_linestyle() == "-"][1:]
@@ -215,7 +220,9 @@ def test_facts_name_the_jumps_that_lost_most(loop):
     assert lines[-1][1] == f"{len(many) - 12} that lost less"
     assert jump_facts((), loop.geometry) == [("jumps", "none")]
     facts = dict(adhesive_curve_facts(loop))
-    assert facts["pull-off force"] == f"{written(loop.pull_off_force, 'N', digits=4)} in tension"
+    depth = written(loop.lowest_force_depth[loop.pull_off_point], "m", digits=4)
+    force = written(loop.pull_off_force, "N", digits=4)
+    assert facts["pull-off force"] == f"{force} in tension at a depth of {depth}"
 
 
 def test_the_sign_of_a_tension_is_told_in_words(loop):

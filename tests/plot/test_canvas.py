@@ -110,7 +110,9 @@ def test_errors_are_bars_and_what_other_maps_would_give_is_written_below(per_are
         assert (bottom, top) != bare.get_ylim() or name == "stiffness"
         assert (high - low) / (high + low) == pytest.approx(known.relative_error, rel=1e-9)
     first, last = figure.get_supxlabel().split("\n")
-    assert first.startswith("at 48 ")
+    pressure = forces[0] / surface.grid.area
+    assert first.startswith(f"at {pressure / 1e9:.3g} GPa, " if per_area else "at 48 ")
+    assert ("[GPa]" in figure.axes[0].get_xlabel()) == per_area
     assert "too few to estimate" in first
     assert "sampling, in order of magnitude: interfacial stiffness" in last
     assert plain.get_supxlabel() == ""

@@ -224,6 +224,8 @@ def test_more_lines_than_a_legend_holds_stand_in_panels(averaged):
             np.testing.assert_array_equal(line.get_ydata(), expected[FORCE > 1e-3])
         assert len([line for line in axes.lines if line.get_linestyle() == "--"]) == 3
     assert len({axes.get_ylim() for axes in panels}) == 1
+    assert len({axes.get_xlim() for axes in panels}) == 1
+    assert not any(text.get_text() for axes in panels for text in axes.get_xticklabels(minor=True))
     assert [axes.get_legend() is None for axes in panels] == [False, True, True]
     assert [text.get_text() for text in panels[0].get_legend().get_texts()] == ["0.2", "0.8", "1.2"]
     assert last.get_legend().get_title().get_text() == "height [µm]"

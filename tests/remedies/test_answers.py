@@ -249,13 +249,13 @@ FRICTION = [
 ANSWERS = [
     row(
         lambda: curve(forces=HIGH).fit(),
-        "take the forces that load_range finds for the surface, a finer grid, or another window of forces",
+        "leave the loads out, so that suitable ones are chosen, or use a finer grid, or another window of forces",
         lambda: curve(forces=rc.load_range(FINE, MODULUS).forces).fit(),
         lambda: curve(forces=HIGH).fit((1.0, 10.0)),
     ),
     row(
         lambda: curve(ROUGH).fit(),
-        "resolved points in the range of forces that is fitted, not 0: take",
+        "resolved points in the range of forces that is fitted, not 0: leave",
         lambda: curve(FINE).fit(),
     ),
     row(
@@ -359,7 +359,7 @@ ANSWERS = [
     ),
     row(
         lambda: rc.interface_table(curve(ROUGH)),
-        "the curve has 0: take the forces that load_range finds for the surface, a finer grid",
+        "the curve has 0: leave the loads out, so that suitable ones are chosen, or use a finer grid",
         lambda: rc.interface_table(curve(FINE)),
     ),
     row(

@@ -165,7 +165,7 @@ $ {SERIAL} --workers 2
 > study run tried.toml --executor processes --workers 2
 
 $ study status nowhere
-! there is no study.toml in it; name the folder of the results of a study
+! there is no study.toml in it; name the folder of the results of a study; if 'study run' has just started, wait
 > {SERIAL} && study status tried
 
 $ study export done --out all.xlsx
@@ -211,7 +211,7 @@ $ study table loads --quantity stiffness
 > study table loads --quantity stiffness --at 0.01
 
 $ study table loads --at 100
-! choose one between them, not 100
+! and 100 is not between them; choose a load between them
 > study table loads --at 0.01
 
 $ study table loads --at 0

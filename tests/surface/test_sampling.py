@@ -17,8 +17,12 @@ def test_a_crop_keeps_its_cells_and_loses_its_periods():
     part = SURFACE.cropped(slice(2, -1), slice(None, 5))
     assert np.array_equal(part.heights, HEIGHTS[2:-1, :5])
     assert part.grid == rc.Grid((9, 5), GRID.spacing)
-    assert part.provenance == ("made", "cropped to cells 2:11, 0:5 of 12 x 18")
-    assert SURFACE.cropped(slice(None), slice(3, 9)).grid.periodic == (True, False)
+    assert part.provenance == ("made", "cropped to cells 2:11, 0:5 of 12 x 18, no longer periodic along y")
+    strip = SURFACE.cropped(slice(None), slice(3, 9))
+    assert strip.grid.periodic == (True, False)
+    assert "periodic" not in strip.provenance[-1]
+    both = rc.Surface(HEIGHTS, rc.Grid(GRID.shape, GRID.spacing, periodic=True)).cropped(slice(6), slice(4))
+    assert both.provenance[-1].endswith(", no longer periodic along y and x")
     line = rc.Surface(HEIGHTS[0], rc.Grid(18, 1e-6)).cropped(slice(4, 8))
     assert np.array_equal(line.heights, HEIGHTS[0, 4:8])
 

@@ -39,7 +39,7 @@ __all__ = ["AdhesiveCurve", "AdhesivePoint", "approaches", "collect_states"]
 
 _POINTS = (
     *("depth", "force", "contact_area", "energy", "residual"),
-    *("stiffness", "contact_stiffness", "mean_gap", "elastic_energy", "lowest_force"),
+    *("stiffness", "contact_stiffness", "mean_gap", "elastic_energy", "lowest_force", "lowest_force_depth"),
 )
 
 
@@ -63,6 +63,8 @@ class AdhesivePoint:
         [J]; the last is their sum.
     lowest_force : float
         Lowest force since the begin of the retreat [N].
+    lowest_force_depth : float
+        Depth at this force [m].
     residual : float
         The certificate of the state.
     status : Status
@@ -91,6 +93,7 @@ class AdhesivePoint:
     adhesive_energy: float
     energy: float
     lowest_force: float
+    lowest_force_depth: float
     residual: float
     status: Status
 
@@ -128,6 +131,8 @@ class AdhesiveCurve:
     lowest_force : array, shape (n,)
         Lowest force since the begin of the retreat [N], including values between the points and in jumps; on an
         approach, the force of the point. See `AdhesiveState`.
+    lowest_force_depth : array, shape (n,)
+        Depth at the lowest force [m].
     status : tuple of Status
     control : {"depth", "force"}
         The prescribed quantity.
@@ -171,6 +176,7 @@ class AdhesiveCurve:
     mean_gap: Array
     elastic_energy: Array
     lowest_force: Array
+    lowest_force_depth: Array
     status: tuple[Status, ...]
     control: Literal["depth", "force"]
     adhesion: Adhesion
@@ -208,6 +214,18 @@ class AdhesiveCurve:
         under prescribed depths; under prescribed forces it is that of the jump that pulls the body off.
         """
         return float(max(0.0, *-self.lowest_force[~self.approach], 0.0))
+
+    @property
+    def pull_off_point(self) -> int | None:
+        """The first point at or after the largest tension of the retreat; None if there is no tension.
+
+        ``lowest_force_depth`` of this point is the depth of the pull-off force.
+        """
+        return (
+            int(np.argmax(~self.approach & (-self.lowest_force == self.pull_off_force)))
+            if self.pull_off_force
+            else None
+        )
 
     @property
     def jump_in_force(self) -> float:

@@ -101,6 +101,8 @@ class AdhesiveState:
         Lowest force since the begin of the retreat [N], including values between states and in jumps: minus the largest
         tension, to 1e-6 of it (under prescribed forces, to the bracket of the last jump). After an approach, the force
         of the state.
+    lowest_force_depth : float
+        Depth at the lowest force [m].
 
     Examples
     --------
@@ -125,6 +127,7 @@ class AdhesiveState:
     jumps: tuple[Jump, ...]
     products: int
     lowest_force: float
+    lowest_force_depth: float
 
     @property
     def status(self) -> Status:
@@ -329,9 +332,9 @@ def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> Adh
     law = energy.attraction.on(inside)
     if detached(energy, point):
         nothing = np.zeros(energy.form.grid.shape)
-        lowest = min(0.0, reached.lowest_force)
+        lowest = min((reached.lowest_force, reached.lowest_force_depth), (0.0, -math.inf))
         return AdhesiveState(
-            problem, law, -math.inf, nothing, nothing > 0, 0.0, reached.jumps, products, lowest
+            problem, law, -math.inf, nothing, nothing > 0, 0.0, reached.jumps, products, *lowest
         )
     depth = control.depth(value, point)
     gap = point.gap[inside]
@@ -348,5 +351,5 @@ def state_of(problem: AdhesiveProblem, reached: PathPoint, products: int) -> Adh
     force = float(weighted.sum())
     if isinstance(control, ForceControl):
         residual = max(residual, abs(force - value) / float(np.abs(weighted).sum()))
-    lowest = min(force, reached.lowest_force)
-    return AdhesiveState(problem, law, depth, pressure, contact, residual, reached.jumps, products, lowest)
+    lowest = min((reached.lowest_force, reached.lowest_force_depth), (force, depth))
+    return AdhesiveState(problem, law, depth, pressure, contact, residual, reached.jumps, products, *lowest)

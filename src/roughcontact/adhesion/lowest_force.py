@@ -43,11 +43,14 @@ class LowestForce:
         Counts products.
     force : float
         The lowest so far [N].
+    depth : float
+        The depth at which it acts [m].
     """
 
     control: DepthControl | ForceControl
     counter: Counter
     force: float
+    depth: float = math.nan
     _last: _BranchPoint | None = None
 
     def start_branch(self, value: float, point: Point) -> None:
@@ -58,13 +61,17 @@ class LowestForce:
     def extend(self, value: float, point: Point) -> None:
         """Continue to the next state of a branch; the energy is strictly convex between it and the last state."""
         if isinstance(self.control, ForceControl):
-            self.force = min(self.force, value)
+            self._take(value, self.control.depth(value, point))
             return
         new = _BranchPoint(value, self.control.energy_at(value).force(point), point.displacement, point.gap)
-        self.force = min(self.force, new.force)
+        self._take(new.force, value)
         if self._last is not None:
             self._search(self.control, self._last, new)
         self._last = new
+
+    def _take(self, force: float, depth: float) -> None:
+        if force < self.force:
+            self.force, self.depth = force, depth
 
     def _search(self, control: DepthControl, upper: _BranchPoint, lower: _BranchPoint) -> None:
         """Find the lowest force between two states, if it is a tension and lower than the lowest so far."""
@@ -83,7 +90,7 @@ class LowestForce:
             _, _, interval = heappop(intervals)
             between = interval.state_between(control, self.counter)
             if between is not None:
-                self.force = min(self.force, between.force)
+                self._take(between.force, between.depth)
                 add(interval.upper, between)
                 add(between, interval.lower)
 

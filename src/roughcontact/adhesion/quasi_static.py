@@ -76,7 +76,7 @@ class Jump:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PathPoint:
-    """A state on a path: the prescribed value, the jumps before it, and the lowest force of the retreat so far.
+    """A state on a path: the prescribed value, the jumps before it, the lowest force of the retreat, and its depth.
 
     The lowest force is infinite at the begin of the path, and after an approach.
     """
@@ -87,6 +87,7 @@ class PathPoint:
     converged: bool
     jumps: tuple[Jump, ...] = ()
     lowest_force: float = math.inf
+    lowest_force_depth: float = math.nan
 
 
 @dataclass(slots=True)
@@ -151,7 +152,7 @@ class QuasiStatic:
         jumps: list[Jump] = []
         if detached(self.control.energy_at(target), start.point):
             return replace(start, value=target, converged=True, jumps=())
-        lowest = LowestForce(self.control, self.counter, start.lowest_force)
+        lowest = LowestForce(self.control, self.counter, start.lowest_force, start.lowest_force_depth)
         if retreats := target < start.value:
             lowest.start_branch(start.value, start.point)
         here, steps = start, _StepControl(self.bracket, abs(target - start.value))  # E24
@@ -190,8 +191,8 @@ class QuasiStatic:
                 if retreats:
                     lowest.start_branch(value, here.point)
                 steps = _StepControl(self.bracket, abs(target - here.value))
-        force = math.inf if target > start.value else lowest.force
-        return PathPoint(target, here.point, here.residual, here.converged, tuple(jumps), force)
+        least = (math.inf, math.nan) if target > start.value else (lowest.force, lowest.depth)
+        return PathPoint(target, here.point, here.residual, here.converged, tuple(jumps), *least)
 
     def _end(
         self, energy: GapEnergy, before: Point, moved: Point, guess: Array, tolerances: tuple[float, ...]

@@ -47,7 +47,7 @@ app = typer.Typer(
     name="roughcontact",
     cls=late_group(ALONE, added_commands, refuse_missing),
     help="Elastic contact of rough surfaces: certified pressure, area, stiffness and depth against load.",
-    epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units. "
+    epilog="Quantities carry units: 10N, 110GPa, '1e-6 m'. A bare number is in SI units, except --at of a study. "
     "Exit status: 0 every answer met its tolerance, 1 an answer missed it, 2 bad input, 70 a mistake in this program, "
     "130 interrupted, 143 terminated.",
     no_args_is_help=True,

@@ -45,6 +45,7 @@ def _run() -> None:
             sys.exit(BAD_INPUT)
         app(prog_name="roughcontact")
     except KeyboardInterrupt:
+        sys.stderr.write("Interrupted.\n")
         if _as_json():
             emit_error("interrupted", "Interrupted.", INTERRUPTED)
         sys.exit(INTERRUPTED)

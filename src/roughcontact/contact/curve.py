@@ -14,6 +14,7 @@ from roughcontact import methods
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
+from roughcontact.contact.notes import notes_on_few_cells, notes_on_load
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution, mean_pressure
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
@@ -22,6 +23,7 @@ from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.records import records
 from roughcontact.labels.variables import force_unit, unit_of
 from roughcontact.solver.control import Status
@@ -34,7 +36,9 @@ from roughcontact.validation import Array, number, numeric
 __all__ = ["CURVE_POINTS", "Curve", "collect"]
 
 
-REMEDY = "take the forces that load_range finds for the surface, a finer grid, or another window of forces"
+REMEDY = (
+    "leave the loads out, so that suitable ones are chosen, or use a finer grid, or another window of forces"
+)
 
 
 @hinted
@@ -71,6 +75,9 @@ class Curve:
         Pressure that no cell exceeds [Pa]; cells that reach it do not contribute to the stiffness.
     flow : FlowCurve, optional
         Plastic flow along the curve, and the stiffness of unloading; None without a hardness.
+    state_notes : tuple of (float, Note)
+        Notes on the states, each with its force [N]: those on the largest load, and those on single cells on the
+        first resolved load, where such cells carry the largest share of the force.
 
     Examples
     --------
@@ -109,6 +116,7 @@ class Curve:
     geometry: Geometry = Geometry.SURFACE
     hardness: float = math.inf
     flow: FlowCurve | None = None
+    state_notes: tuple[tuple[float, Note], ...] = ()
 
     def __len__(self) -> int:
         return len(self.force)
@@ -274,14 +282,20 @@ class Curve:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Reasons to doubt the curve as a whole, in sentences."""
-        return methods.curve_notes(self)
+        """Limits of these numbers, in sentences; notes on wrong numbers come first."""
+        doubts = (Note(Rank.DOUBTFUL, doubt) for doubt in self.doubts)
+        return in_order((*doubts, *methods.curve_notes(self)))
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Reasons to doubt the curve as a whole, in sentences; they stand among the `notes`."""
+        return methods.curve_doubts(self)
 
     def __repr__(self) -> str:
         """Return the range of the curve, without its arrays."""
         resolved = f"{int(self.resolved.sum())} of {len(self)} points resolved"
         unit = unit_of("force", self.geometry)
-        doubt = "".join(f"; {note.partition(':')[0]}" for note in self.notes[:1])
+        doubt = "".join(f"; {note.partition(':')[0]}" for note in self.doubts[:1])
         return f"Curve({resolved}, force {self.force[0]:.4g} to {self.force[-1]:.4g} {unit}{doubt})"
 
     compare = methods.compare
@@ -305,6 +319,8 @@ def collect(path: Iterable[Solution]) -> Curve:
     flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
     hardness = 0.0
+    heaviest: Solution | None = None
+    of_few_cells: list[tuple[float, Note]] | None = None
     names = (*CURVE_POINTS, *names_of(CERTIFICATES))
     for solution in path:
         problem = problem or solution.problem
@@ -313,9 +329,14 @@ def collect(path: Iterable[Solution]) -> Curve:
         flows.append(flow_point(solution))
         points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)
+        if of_few_cells is None and solution.status.converged and solution.resolved_from_below:
+            of_few_cells = [(solution.force, note) for note in notes_on_few_cells(solution)]
+        if heaviest is None or solution.force >= heaviest.force:
+            heaviest = solution
         del solution  # with its maps, before the next load is solved
-    if problem is None:
+    if problem is None or heaviest is None:
         raise InputError("a curve needs at least one load")
+    few = of_few_cells or [(heaviest.force, note) for note in notes_on_few_cells(heaviest)]
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
@@ -334,4 +355,5 @@ def collect(path: Iterable[Solution]) -> Curve:
         geometry=problem.geometry,
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
+        state_notes=(*((heaviest.force, note) for note in notes_on_load(heaviest)), *few),
     )

@@ -1,19 +1,21 @@
-"""Reasons to doubt a curve as a whole: a contact that does not change, or loads that follow no power law."""
+"""Notes on a curve: reasons to doubt it as a whole, and notes on its states."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughcontact.errors import InputError
 from roughcontact.labels.engineering_units import written
+from roughcontact.labels.note import Note, Rank
 from roughcontact.labels.variables import unit_of
 
 if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
 
-__all__ = ["curve_notes"]
+__all__ = ["curve_doubts", "curve_notes"]
 
 # The area grows as F^(2/(m + 1)) under a body z ~ r^m: the exponent is 1 for rough surfaces, 2/3 for a sphere and 0 for
 # a flat punch. A body of m = 39 is almost a punch.
@@ -23,7 +25,20 @@ _MOST = 0.5  # of the nominal area in contact: beyond, little of the map is left
 _SCATTER = 0.1  # of ln k about the power law
 
 
-def curve_notes(curve: Curve) -> tuple[str, ...]:
+def curve_notes(curve: Curve) -> Iterator[Note]:
+    """Yield the notes on a curve that are no reasons to doubt it as a whole, see `curve_doubts`."""
+    if missed := sum(not status.converged for status in curve.status):
+        text = f"{missed} of {len(curve)} loads missed the tolerance: see their status"
+        yield Note(Rank.WRONG, text)
+    units = [unit_of(name, curve.geometry) for name in ("force", "nominal_pressure")]
+    for force, note in curve.state_notes:
+        load, pressure = map(written, (force, force / curve.nominal_area), units)
+        yield (
+            note if force >= curve.force.max() else note._replace(text=f"At {load} ({pressure}): {note.text}")
+        )
+
+
+def curve_doubts(curve: Curve) -> tuple[str, ...]:
     """Return the reasons to doubt a curve as a whole, the worst first.
 
     The reasons are: the same spots carry loads that differ by a factor of two or more, as under a spike or a streak;

@@ -71,7 +71,9 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     [ 8493. 10325.] N m-1
     """
     title = "normal contact stiffness of a rough surface against load"
-    return dataset_of(_of_curve(curve), {}, title, curve.geometry)
+    dataset = dataset_of(_of_curve(curve), {}, title, curve.geometry)
+    notes = [f"{note.rank.name.lower()} at {force!r}: {note.text}" for force, note in curve.state_notes]
+    return dataset.assign_attrs({"state_notes": "\n".join(notes)} if notes else {})
 
 
 def curve_record(curve: Curve) -> dict[str, Any]:
@@ -95,7 +97,7 @@ def curve_record(curve: Curve) -> dict[str, Any]:
     >>> [round(force, 6) for force in record["force"]], record["units"]["force"], record["status"][0]
     ([0.001, 0.002], 'N', 'converged')
     """
-    return record_of(_of_curve(curve), curve.geometry)
+    return record_of(_of_curve(curve), curve.geometry, notes=list(curve.notes))
 
 
 def _of_curve(curve: Curve) -> Variables:

@@ -22,7 +22,9 @@ def part_of(curve: Curve, chosen: Mask) -> Curve:
     """Return the loads of an elastic curve where `chosen`, shape (n,), is true."""
     status = tuple(each for each, kept in zip(curve.status, chosen, strict=True) if kept)
     columns: dict[str, Any] = {name: getattr(curve, name)[chosen] for name in _COLUMNS}
-    return replace(curve, **columns, status=status)
+    kept = set(columns["force"].tolist())
+    notes = tuple((force, note) for force, note in curve.state_notes if force in kept)
+    return replace(curve, **columns, status=status, state_notes=notes)
 
 
 def joined(first: Curve, second: Curve) -> Curve:
@@ -58,7 +60,7 @@ def joined(first: Curve, second: Curve) -> Curve:
         raise InputError("what flows depends on the loads before", "compute all loads in one curve")
     for each in fields(Curve):
         ours, theirs = getattr(first, each.name), getattr(second, each.name)
-        if each.name not in (*_COLUMNS, "status") and ours != theirs:
+        if each.name not in (*_COLUMNS, "status", "state_notes") and ours != theirs:
             raise InputError(
                 f"the curves are of different contacts: {each.name} is {ours} and {theirs}",
                 "join curves of one surface and one modulus",
@@ -69,4 +71,7 @@ def joined(first: Curve, second: Curve) -> Curve:
         name: np.concatenate([getattr(first, name), getattr(second, name)])[order] for name in _COLUMNS
     }
     status = (*first.status, *second.status)
-    return replace(first, **columns, status=tuple(status[k] for k in order))
+    light, heavy = sorted((first, second), key=lambda curve: curve.force.max(initial=0.0))
+    lightest = [(force, note) for force, note in light.state_notes if force < light.force.max()]
+    notes = (*heavy.state_notes, *lightest)
+    return replace(first, **columns, status=tuple(status[k] for k in order), state_notes=notes)

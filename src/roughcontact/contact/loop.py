@@ -101,7 +101,7 @@ class Loop:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Reasons to doubt first loading, in sentences. A power law describes first loading, not unloading."""
+        """The notes on first loading. A power law describes first loading, not unloading."""
         return self.loading.notes
 
     def __repr__(self) -> str:

@@ -21,7 +21,7 @@ from roughcontact.surface.border_step import open_border
 from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 from roughcontact.surface.surface import Surface
 
-__all__ = ["notes_on"]
+__all__ = ["notes_on", "notes_on_few_cells", "notes_on_load"]
 
 STRAINED = 0.5  # of the reduced modulus: small-strain elasticity does not hold at larger pressures
 ABOVE = 0.2  # of the contact area, above the hardness: below, area and stiffness change by less than a tenth
@@ -31,6 +31,12 @@ EDGE = 0.01  # of the force, on the outermost cells: below, a larger map would c
 
 def notes_on(solution: Solution) -> Iterator[Note]:
     """Yield the notes on a solution."""
+    yield from notes_on_load(solution)
+    yield from notes_on_few_cells(solution)
+
+
+def notes_on_load(solution: Solution) -> Iterator[Note]:
+    """Yield the notes on a solution that of all loads of a curve matter most at the largest."""
     count, problem = solution.problem.measure.xp.count_nonzero, solution.problem
     yielding, in_contact = int(count(solution.pressure >= problem.hardness)), int(count(solution.contact))
     if not solution.status.converged:
@@ -52,7 +58,6 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     yield from _of_hardness(solution)
     yield from _of_flow(solution)
     yield from _of_two_sides(solution, int(count(solution.touching)) if in_contact else 0)
-    yield from fault_notes(solution)
     yield from _of_input(solution)
     if solution.missing:
         hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"
@@ -60,7 +65,7 @@ def notes_on(solution: Solution) -> Iterator[Note]:
     if solution.edge_share >= EDGE and problem.surface is not None:
         yield Note(
             Rank.USUAL,
-            f"The cells at the edge of the map carry {100 * solution.edge_share:.2g} % of the force: the surface "
+            f"The cells at the edge of the map carry {100 * solution.edge_share:.0f} % of the force: the surface "
             "beyond the map would carry load as well.",
         )
 
@@ -127,11 +132,10 @@ def _of_input(solution: Solution) -> Iterator[Note]:
     modulus, surface = problem.modulus, problem.surface
     springs = problem.geometry is Geometry.FOUNDATION  # their pressure is a force per length
     if largest > STRAINED * modulus and not springs:
-        share = f"{largest / modulus:.2g} times" if largest > modulus else f"{largest / modulus:.0%} of"
         yield Note(
             Rank.DOUBTFUL,
-            f"The largest pressure, {written(largest, 'Pa')}, is {share} the reduced modulus: real "
-            "bodies yield or break at lower pressures, and the theory of small strains does not hold.",
+            f"The largest pressure, {written(largest, 'Pa')}, is {largest / modulus:.3g} times the reduced modulus: "
+            "real bodies yield or break at lower pressures, and the theory of small strains does not hold.",
         )
     if solution.depth > max(problem.grid.lengths):
         yield Note(
@@ -139,6 +143,19 @@ def _of_input(solution: Solution) -> Iterator[Note]:
             f"The depth, {written(solution.depth, 'm')}, is larger than the side of the map, "
             f"{written(max(problem.grid.lengths), 'm')}: check the units of depth, load and modulus.",
         )
+    if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := open_border(surface)):
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The periodic map does not close: heights step by {written(step.height, 'm')} from one edge to the "
+            f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does "
+            "not repeat itself, press it as free too and compare.",
+        )
+
+
+def notes_on_few_cells(solution: Solution) -> Iterator[Note]:
+    """Yield the notes on cells that carry too much of the force; they carry the largest share at light loads."""
+    yield from fault_notes(solution)
+    problem, surface = solution.problem, solution.problem.surface
     if surface is not None and is_numpy(surface.heights):
         _, above = height_limits(surface.heights)
         outlying = surface.heights > above
@@ -151,10 +168,3 @@ def _of_input(solution: Solution) -> Iterator[Note]:
                 f"{stand} more than {OUTLYING:g} rms heights above the mean of nearly all, and {carry} {borne:.0%} of "
                 f"the force. If they are faults of the measurement, remove them by masked(above={above:.6g}).",
             )
-    if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := open_border(surface)):
-        yield Note(
-            Rank.DOUBTFUL,
-            f"The periodic map does not close: heights step by {written(step.height, 'm')} from one edge to the "
-            f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does "
-            "not repeat itself, press it as free too and compare.",
-        )

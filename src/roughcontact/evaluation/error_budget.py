@@ -105,11 +105,12 @@ class ErrorBudget:
     corrections: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> QuotedNumber:
-        """Return the number of a name."""
+        """Return the number of a name; KeyError for a number without an error, such as the largest pressure."""
         for number in self.numbers:
             if number.name == name:
                 return number
-        raise KeyError(f"{name!r} is none of {', '.join(number.name for number in self.numbers)}")
+        names = ", ".join(number.name for number in self.numbers)
+        raise KeyError(f"the budget has no error of {name!r}; it has those of {names}")
 
     def table(
         self, names: Sequence[str] | None = None, in_unit: InUnit | None = None
@@ -192,7 +193,7 @@ class ErrorBudget:
                 f"{VARIABLES[name].label} by {_percent(bias, '+')}"
                 for name, bias in self.bias_of_size.items()
             )
-            words = f"from the whole map to quarters of it, the numbers change: {each}; not part of the error"
+            words = f"the numbers of quarters of the map differ from those of the map by: {each}; not part of the error"
             facts.append(("size of the map", words))
         changes = {name: part / (self[name].value - part) for name, part in self.corrections.items()}
         shown = [

@@ -18,6 +18,8 @@ from roughcontact.files.netcdf import StoredVariable, opened
 from roughcontact.files.stored_columns import REMEDY, numbers_of, require_columns, sizes_of, statuses_of
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import CERTIFICATES, FLOW, SCALES
+from roughcontact.labels.note import Note, Rank
+from roughcontact.units import word_of
 
 __all__ = ["read_curve"]
 
@@ -81,4 +83,14 @@ def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any
         geometry=geometry,
         hardness=hardness,
         flow=flow,
+        state_notes=tuple(map(_note, word_of(attributes.get("state_notes", "")).splitlines())),
     )
+
+
+def _note(line: str) -> tuple[float, Note]:
+    """Return the force and the note of a line such as ``"wrong at 2.5: text"``."""
+    load, _, text = line.partition(": ")
+    rank, _, force = load.partition(" at ")
+    if rank.upper() not in Rank.__members__:
+        raise ContentError(f"its note {line[:60]!r} has no known rank", REMEDY)
+    return float(force), Note(Rank[rank.upper()], text)

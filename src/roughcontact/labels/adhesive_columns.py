@@ -41,6 +41,7 @@ CONTACT_STIFFNESS = Column(
 LOWEST_FORCE = Column(
     "lowest_force", "N", "lowest force since the body is drawn back, between the loads and in jumps"
 )
+LOWEST_FORCE_DEPTH = Column("lowest_force_depth", "m", "depth at the lowest force")
 PULL_OFF = Column(
     "pull_off_force", "N", "largest tension of the retreat, positive, between the loads and in jumps"
 )
@@ -70,6 +71,7 @@ ADHESIVE_CURVE: Table = {
         *_POINTS,
         *_ENERGIES,
         LOWEST_FORCE,
+        LOWEST_FORCE_DEPTH,
         RESIDUAL,
         STATUS,
     ),

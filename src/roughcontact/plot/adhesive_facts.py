@@ -87,7 +87,9 @@ def adhesive_curve_facts(loop: AdhesiveCurve) -> list[tuple[str, str]]:
         facts.append(("jump-in force", tension(loop.jump_in_force, kind)))
     if not loop.approach.all():
         words = "pull-off force" if loop.contact_area[-1] == 0 else "largest tension on retreat"
-        facts.append((words, tension(loop.pull_off_force, kind)))
+        at = loop.pull_off_point
+        depth = "" if at is None else f" at a depth of {quantity('depth', loop.lowest_force_depth[at], kind)}"
+        facts.append((words, tension(loop.pull_off_force, kind) + depth))
     lost = math.fsum(jump.lost for jump in loop.jumps if math.isfinite(jump.lost))
     facts.append(("energy lost in jumps", quantity("lost_energy", lost, kind)))
     return [

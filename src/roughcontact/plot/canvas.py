@@ -16,7 +16,7 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.evaluation.error_budget import ErrorBudget
 from roughcontact.files.aside import WriteError, written_aside
-from roughcontact.labels.engineering_units import Scale, written
+from roughcontact.labels.engineering_units import Scale, scale, written
 from roughcontact.labels.variables import unit_of
 from roughcontact.plot.curves import areal_curve, force_curve, resistance_curve
 from roughcontact.plot.distributions import Density, height_distribution, pressure_distribution
@@ -203,7 +203,12 @@ def areal_figure(
         axes["stiffness"].legend(loc="best" if theories else "upper left", fontsize=TICK, frameon=False)
     areal_curve(curve, axes["area"], quantity="contact_fraction", **both)
     areal_curve(curve, axes["gap"], quantity="mean_gap", **both)
-    sampling_lines(figure, errors or {})
+    finite = curve.nominal_pressure[np.isfinite(curve.nominal_pressure)]
+    pressure = (units or {}).get("nominal_pressure") or scale(
+        float(finite.max(initial=0.0)), unit_of("nominal_pressure", curve.geometry)
+    )
+    of_force = Scale(pressure.factor / curve.nominal_area, pressure.unit)
+    sampling_lines(figure, errors or {}, of_force)
     return figure
 
 

@@ -77,6 +77,9 @@ def jump_loop(loop: AdhesiveCurve, ax: Axes | None = None) -> Axes:
             side = (4, "left") if jump.approach else (-4, "right")
             place: Any = {"xytext": (side[0], 4), "ha": side[1], "textcoords": "offset points"}
             axes.annotate(words, ends.mean(axis=0), fontsize=TICK - 1, **place)
+    if (at := loop.pull_off_point) is not None:
+        depth, force = loop.lowest_force_depth[at] * x.factor, loop.lowest_force[at] * y.factor
+        axes.plot([depth], [force], "kx", label="pull-off" if _is_off(loop) else "largest tension")
     axes.set_title(loop_words(loop), fontsize=LABEL)
     label_axes(axes, f"depth [{x.unit}]", f"force [{y.unit}]", grid=True)
     axes.legend(fontsize=TICK, frameon=False)
@@ -155,7 +158,7 @@ def loop_words(loop: AdhesiveCurve) -> str:
     """Return pull-off force, lost energy and number of jumps in words."""
     words = []
     if not loop.approach.all():
-        end = "pull-off" if loop.contact_area[-1] == 0 else "tension up to"
+        end = "pull-off" if _is_off(loop) else "tension up to"
         words.append(f"{end} {written(loop.pull_off_force, unit_of('force', loop.geometry))}")
     if loop.jumps:
         lost = [jump.lost for jump in loop.jumps if np.isfinite(jump.lost)]
@@ -167,8 +170,12 @@ def loop_words(loop: AdhesiveCurve) -> str:
     return ", ".join(words) + (" (unresolved)" if loop.unresolved else "")
 
 
+def _is_off(loop: AdhesiveCurve) -> bool:
+    return bool(loop.contact_area[-1] == 0)
+
+
 def pieces_of(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
-    """Return the pieces of a path between its jumps in one direction, as depths and forces."""
+    """Return the pieces of a path between its jumps in one direction, as depths and forces, with the pull-off."""
     pieces: list[list[tuple[float, float]]] = [[]]
     last: tuple[float, float] | None = None
     for k, here in enumerate(zip(loop.depth, loop.force, strict=True)):
@@ -177,10 +184,15 @@ def pieces_of(loop: AdhesiveCurve, way: bool) -> list[tuple[Any, Any]]:
         else:
             if not pieces[-1] and last is not None:
                 pieces[-1].append(last)  # the turning point of the path
+            pull_off = (
+                [(loop.lowest_force_depth[k], loop.lowest_force[k])] if k == loop.pull_off_point else []
+            )
             for jump in (jump for jump, at in zip(loop.jumps, loop.jumped, strict=True) if at == k):
+                while pull_off and pull_off[0][0] >= jump.depth:
+                    pieces[-1].append(pull_off.pop())
                 pieces[-1].append((jump.depth, jump.force_before))
                 pieces.append([(jump.depth_after, jump.force_after)])
-            pieces[-1].append(here)
+            pieces[-1] += [*pull_off, here]
         last = here
     arrays = [np.array([point for point in piece if np.isfinite(point).all()]) for piece in pieces]
     return [(piece[:, 0], piece[:, 1]) for piece in arrays if len(piece) > 1]

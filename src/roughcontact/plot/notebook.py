@@ -82,7 +82,8 @@ def curve_html(curve: Curve) -> str:
     figure, axes = _figure()
     plot_curve(curve, axes, quantity="interfacial_stiffness_per_area" if joint else "stiffness")
     facts = [
-        *_noted(curve.notes, "doubtful"),
+        *_noted(curve.doubts, "doubtful"),
+        *_noted([note for note in curve.notes if note not in curve.doubts]),
         ("loads", f"{len(curve)}, of which the grid resolves {int(curve.resolved.sum())}"),
         ("reduced modulus E*", quantity("modulus", curve.modulus)),
     ]
@@ -94,7 +95,7 @@ def loop_html(loop: Loop) -> str:
     """Return the numbers of a loop of loads beside force against depth."""
     figure, axes = _figure()
     plot_loop(loop, axes)
-    return _page("Loop", [*_noted(loop.notes, "doubtful"), *loop_facts(loop)], figure)
+    return _page("Loop", [*loop_facts(loop), *_noted(loop.notes)], figure)
 
 
 def state_html(state: AdhesiveState | DetachmentState) -> str:

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from roughcontact.errors import InputError
 from roughcontact.labels.engineering_units import scale
 from roughcontact.plot.drawing.parameter_labels import parameter_labels
-from roughcontact.plot.drawing.ticks import TICK
+from roughcontact.plot.drawing.ticks import LABEL, TICK, readable_ticks
 from roughcontact.plot.ensemble import fitted_values, hollow_marks, mean_curves, shades
 from roughcontact.recipe.texts import choose
 from roughcontact.statistics.averages import combinations
@@ -158,9 +158,13 @@ def _curves(
         axes.set_title(words, fontsize=TICK)
         if axes is not places[0] and (legend := axes.get_legend()) is not None:
             legend.remove()  # the legend of the first panel serves all panels
-    low, high = zip(*(axes.get_ylim() for axes in places[: len(panels)]), strict=True)
-    for axes in places[: len(panels)]:
-        axes.set_ylim(min(low), max(high))
+    for axis in ("xaxis", "yaxis"):
+        shared = [getattr(axes, axis) for axes in places[: len(panels)]]
+        ends = np.array([each.get_view_interval() for each in shared])
+        low, high = ends.min(), ends.max()
+        for each in shared:
+            each.set_view_interval(low, high, ignore=True)
+            readable_ticks(each, high / low)
     if there and along is not None:
         _against(places[len(panels)], averaged, "exponent", along)
     for axes in places[count:]:
@@ -265,6 +269,8 @@ def _against(axes: Axes, averaged: xarray.Dataset, quantity: str, along: str) ->
         fits = xarray.Dataset(data, {along: (along, chosen.factor * x, {"units": chosen.unit})})
         style: dict[str, Any] = {"label": label, "colour": colour, "shift": step * (k - middle)}
         fitted_values(fits, quantity, axes, along=along, resolved=fits["resolved"], **style)
+    if step and len(series) > 1:
+        axes.set_xlabel(f"{axes.get_xlabel()}; marks of one value stand side by side", fontsize=LABEL)
     axes.set_title(
         "95 % intervals" if f"{quantity}_low" in averaged else "means and their standard errors",
         fontsize=TICK,

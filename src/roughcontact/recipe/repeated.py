@@ -18,7 +18,6 @@ _WORDS = {
     "doubtful",
     "errors",
     "file",
-    "note_ranks",
     "notes",
     "provenance",
     "recipe",

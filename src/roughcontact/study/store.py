@@ -324,7 +324,8 @@ class Store:
 def _kept(folder: Path) -> Study:
     """Return the study of a folder."""
     if not (folder / STUDY).is_file():
-        raise StoreError(folder, f"there is no {STUDY} in it", "name the folder of the results of a study")
+        remedy = "name the folder of the results of a study; if 'study run' has just started, wait"
+        raise StoreError(folder, f"there is no {STUDY} in it", remedy)
     try:
         return Study.read(folder / STUDY)
     except StudyError as error:

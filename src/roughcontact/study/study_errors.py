@@ -66,7 +66,7 @@ class StoreError(InputError):
     ...     rc.study.Store.open("nowhere")
     ... except rc.study.StoreError as error:
     ...     print(error.problem, "-", error.remedy)
-    there is no study.toml in it - name the folder of the results of a study
+    there is no study.toml in it - name the folder of the results of a study; if 'study run' has just started, wait
     """
 
     def __init__(self, folder: str | os.PathLike[str], problem: str, remedy: str) -> None:

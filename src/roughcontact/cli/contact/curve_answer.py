@@ -55,7 +55,7 @@ class CurveAnswer:
     surface : Surface
         The surface that was pressed.
     notes : tuple of Note
-        On the last load, and on loads that are not computed.
+        On loads that are not computed.
     theories : TheoriesOf
         Of the surface.
     conductors : Conductors or None
@@ -183,6 +183,7 @@ class CurveAnswer:
         from roughcontact.labels.column import names_of
         from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
         from roughcontact.labels.labelled import plain_values
+        from roughcontact.labels.note import in_order
 
         conducted = {
             name: self.dataset[name]
@@ -204,9 +205,8 @@ class CurveAnswer:
             "errors": [each.to_record() for each in self.errors],
             "tolerance": self.tolerance,
             "converged": self.converged,
-            "doubtful": list(self.curve.notes),
-            "notes": [each.text for each in self.notes],
-            "note_ranks": [each.rank.name.lower() for each in self.notes],
+            "doubtful": list(self.curve.doubts),
+            "notes": list(in_order(self._of_states)),
             "loads": {f"{self.loads.kind}s": self.loads.values.tolist()},
             "recipe": self.recipe,
         }
@@ -252,7 +252,7 @@ class CurveAnswer:
         else:
             modulus = report.quantity("modulus", curve.modulus)
             size = report.size_of(self.surface.grid)
-            doubts = [("doubtful", worded(line)) for line in (self.loop or curve).notes]
+            doubts = [("doubtful", worded(line)) for line in curve.doubts]
             report.print_facts(
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
@@ -271,7 +271,14 @@ class CurveAnswer:
                 report.print_facts(report.loop_facts(self.loop))
             for each in self.errors:
                 each.tell(self.units, patch=not self.per_area, joint=self.per_area)
-        note_all([*self._notes(), *notes_on_errors(self.errors), *self.notes])
+        note_all([*self._notes(), *notes_on_errors(self.errors), *self._of_states])
+
+    @property
+    def _of_states(self) -> tuple[Note, ...]:
+        """The notes on the states, and on loads that are not computed."""
+        from roughcontact.contact.curve_notes import curve_notes
+
+        return (*curve_notes(self.curve), *self.notes)
 
     def _notes(self) -> Iterator[Note]:
         """Yield the notes on the curve as a whole."""
@@ -279,10 +286,6 @@ class CurveAnswer:
         from roughcontact.labels.note import Note, Rank
 
         curve = self.curve
-        missed = sum(not status.converged for status in curve.status)
-        if missed:
-            text = f"{missed} of {len(curve)} loads missed the tolerance: see their status"
-            yield Note(Rank.WRONG, text)
         law, why_none = self._fitted
         if law is None:
             yield Note(Rank.LIMITED, f"no power law: {why_none}")

@@ -112,7 +112,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             "flow": plastic.flow or "removed",
         }
         stored = None if in_slabs else stored_loads(job, loads, answer.out)
-        computed, done, notes, outer, loop = _computed(surface, modulus, loads, limits, stored, job)
+        computed, done, outer, loop = _computed(surface, modulus, loads, limits, stored, job)
+        notes: tuple[Note, ...] = ()
         left = np.setdiff1d(loads.values, done)
         if left.size:
             resumes = answer.out is not None and not in_slabs and can_be_continued(job)
@@ -161,7 +162,7 @@ def _computed(
     limits: dict[str, Any],
     stored: StoredLoads | None,
     job: CurveJob,
-) -> tuple[Curve, Array, tuple[Note, ...], list[Solution], Loop | None]:
+) -> tuple[Curve, Array, list[Solution], Loop | None]:
     """Return what `_load` returns, for computed and stored loads together, and these loads."""
     import numpy as np
 
@@ -169,15 +170,14 @@ def _computed(
     from roughcontact.solver.loads import Loads
 
     if stored is None:
-        curve, notes, outer, loop = _load(surface, modulus, loads, limits, loop=job.plastic.loop)
-        return curve, loads.values[: len(curve)], notes, outer, loop
+        curve, outer, loop = _load(surface, modulus, loads, limits, loop=job.plastic.loop)
+        return curve, loads.values[: len(curve)], outer, loop
     new = np.setdiff1d(loads.values, stored.values)
     if not new.size:
-        return stored.curve, stored.values, stored.notes, [], None
-    curve, notes, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, loop=False)
+        return stored.curve, stored.values, [], None
+    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, loop=False)
     done = np.union1d(stored.values, new[: len(curve)])
-    last = stored.notes if stored.values[-1] == done[-1] else notes
-    return joined(stored.curve, curve), done, last, outer, None
+    return joined(stored.curve, curve), done, outer, None
 
 
 def _rest(loads: Loads, left: Array, out: Path | None, *, resumes: bool) -> str:
@@ -251,18 +251,14 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 
 def _load(
     surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
-) -> tuple[Curve, tuple[Note, ...], list[Solution], Loop | None]:
-    """Return the curve, its notes, the first and last load that are resolved, and the whole loop.
-
-    The notes are those on the last load, and on faults that carry the first resolved one.
+) -> tuple[Curve, list[Solution], Loop | None]:
+    """Return the curve, the first and last load that are resolved, and the whole loop.
 
     With `loop`, unloading and reloading follow. Ctrl-C ends the curve with the loads that are done.
     """
     from roughcontact.contact.curve import collect
-    from roughcontact.contact.fault_notes import fault_notes
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
-    from roughcontact.contact.notes import notes_on
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
     path = solutions_along(surface, modulus, every, **limits)
@@ -286,8 +282,4 @@ def _load(
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):
             closed = closed_loop(curve, last[0], path)
-    notes = list(notes_on(last[0]))
-    if ends and ends[0] is not last[0]:
-        at = quantity("force", ends[0].force, ends[0].problem.geometry)
-        notes += [each._replace(text=f"At {at}: {each.text}") for each in fault_notes(ends[0])]
-    return curve, tuple(notes), ends, closed
+    return curve, ends, closed

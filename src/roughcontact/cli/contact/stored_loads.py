@@ -12,7 +12,6 @@ import numpy as np
 from roughcontact.cli.messages import remark
 from roughcontact.contact.join_curves import part_of
 from roughcontact.files.read_curve import read_curve
-from roughcontact.labels.note import Note, Rank
 from roughcontact.recipe.written import carried, contact_in
 from roughcontact.version import __version__
 
@@ -36,13 +35,10 @@ class StoredLoads:
         With these loads only.
     values : array, shape (n,)
         The loads.
-    notes : tuple of Note
-        On the last load.
     """
 
     curve: Curve
     values: npt.NDArray[np.float64]
-    notes: tuple[Note, ...]
 
 
 def can_be_continued(job: CurveJob) -> bool:
@@ -59,11 +55,6 @@ def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads |
         curve = read_curve(out / "curve.nc")
         [(kind, stored)] = record["loads"].items()
         recipe, version = record["recipe"], record["provenance"]["source"]
-        notes = tuple(
-            Note(Rank[rank.upper()], text)
-            for rank, text in zip(record["note_ranks"], record["notes"], strict=True)
-            if not text.startswith("stopped")
-        )
     except (OSError, ValueError, KeyError, TypeError):  # no file, or a damaged one, which is replaced
         return None
     same = contact_in(recipe) == contact_in(carried(job, out)) and kind == f"{loads.kind}s"
@@ -73,4 +64,4 @@ def stored_loads(job: CurveJob, loads: Loads, out: Path | None) -> StoredLoads |
     remark(
         f"{int(chosen.sum())} of {loads.values.size} loads of the same recipe are in {out} already: they are kept"
     )
-    return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen], notes)
+    return StoredLoads(part_of(curve, chosen), np.asarray(stored)[chosen])

@@ -36,6 +36,7 @@ __all__ = [
     "note_unresolved",
     "plot",
     "resolved_in",
+    "written_load",
 ]
 
 EXAMPLES = {
@@ -64,7 +65,9 @@ ALONG = option(
     "NAME",
 )
 AT = option(
-    "Load at which quantities along the loads are taken: a pressure, a force, or a force over E* h L.", "1MPa"
+    "Load at which quantities along the loads are taken: a pressure (1MPa) or a force (10N). A number without a unit "
+    "is not in SI units: it is the force over E* h L.",
+    "1MPa",
 )
 
 USUAL = ("interfacial_stiffness_per_area", "stiffness", "contact_fraction", "mean_gap")  # at one load
@@ -146,7 +149,7 @@ def plot(
         load = load_of(at)
         averaged = averaged_in(folder, window.value(), load)
         chosen = quantity or _first(averaged, () if load else (_STIFFNESS,))
-        save(study_figure(averaged, chosen, along, at=_written_load(*load) if load else ""), out)
+        save(study_figure(averaged, chosen, along, at=written_load(*load) if load else ""), out)
         if load is not None:
             note_unresolved(averaged, chosen)
         elif chosen == _STIFFNESS:
@@ -169,7 +172,7 @@ def load_of(at: str | None) -> tuple[str, float] | None:
     return name, value
 
 
-def _written_load(name: str, value: float) -> str:
+def written_load(name: str, value: float) -> str:
     """Return a load in words, such as 1 MPa."""
     from roughcontact.labels.variables import VARIABLES
 
@@ -216,23 +219,26 @@ def _require_between(dataset: xarray.Dataset, name: str, value: float) -> None:
     from roughcontact.statistics.power_law import ROUNDING
 
     words = VARIABLES[name].label
+    such = {
+        "nominal_pressure": "the pressure",
+        "force": "the force",
+        "dimensionless_force": "the force over E* h L",
+    }
     if name not in dataset or "load" not in dataset[name].dims:
-        known = [each for each in ("nominal_pressure", "force", "dimensionless_force") if each in dataset]
-        such = {
-            "nominal_pressure": "a pressure",
-            "force": "a force",
-            "dimensionless_force": "a force over E* h L",
-        }
+        known = [words.replace("the ", "a ") for each, words in such.items() if each in dataset]
         raise UsageError(
             f"the loads of the study have no {words}",
-            f"give {' or '.join(such[each] for each in known)}" if known else "see roughcontact study export",
+            f"give {' or '.join(known)}" if known else "see roughcontact study export",
             place="--at",
         )
     low, high = float(dataset[name].min()), float(dataset[name].max())
     if not low * (1 - ROUNDING) <= value <= high * (1 + ROUNDING):
         low_, high_, value_ = (written(each, VARIABLES[name].unit, 4) for each in (low, high, value))
         raise UsageError(
-            f"the loads go from {low_} to {high_}", f"choose one between them, not {value_}", place="--at"
+            f"{such[name]} of the study goes from {low_} to {high_}, and {value_} is not between them",
+            "choose a load between them"
+            + ("; a pressure or a force has a unit: 1MPa, 10N" if name == "dimensionless_force" else ""),
+            place="--at",
         )
 
 

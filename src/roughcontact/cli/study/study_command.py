@@ -81,6 +81,7 @@ def run(
     json: bool = JSON,
 ) -> None:
     """Compute the cases of a study that are left. Ctrl-C stops it; the same command resumes it."""
+    remark(f"starting {source}; the first cases take some seconds")
     with reported(source, out, as_json=json), own_cases():
         from roughcontact.study.run import run as run_study
 

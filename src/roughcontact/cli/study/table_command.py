@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from roughcontact.cli.messages import UsageError, reported
 from roughcontact.cli.option_groups import option
 from roughcontact.cli.options import JSON
-from roughcontact.cli.report import emit, print_table
+from roughcontact.cli.report import emit, print_facts, print_table
 from roughcontact.cli.study.averages_command import (
     AT,
     USUAL,
@@ -21,6 +21,7 @@ from roughcontact.cli.study.averages_command import (
     note_laws,
     note_unresolved,
     resolved_in,
+    written_load,
 )
 from roughcontact.cli.study.study_command import FOLDER, own_cases
 from roughcontact.labels.engineering_units import scale
@@ -69,6 +70,8 @@ def table(
         if json:
             emit(_record(averaged, folder, names, laws, load))
         else:
+            if load is not None:
+                print_facts([("load", written_load(*load))])
             print_table(*_table(averaged, names, laws))
         if laws or (quantity is None and load is None):
             note_laws(averaged)

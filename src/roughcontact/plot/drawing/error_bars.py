@@ -40,10 +40,12 @@ def error_bars(axes: Axes, errors: Errors, quantity: str, scales: tuple[Scale, S
     axes.set_ylim(low, high)
 
 
-def sampling_lines(figure: Figure, errors: Errors) -> None:
-    """Write the expected difference of another map below a figure, for each load."""
-    lines = [
-        f"at {written(force, 'N')}, {budget.sampling}" for force, budget in errors.items() if budget.sampling
-    ]
+def sampling_lines(figure: Figure, errors: Errors, load: Scale | None = None) -> None:
+    """Write the expected difference of another map below a figure, for each load; `load` turns forces into loads."""
+    words = {
+        force: written(force, "N") if load is None else f"{force * load.factor:.3g} {load.unit}"
+        for force in errors
+    }
+    lines = [f"at {words[force]}, {budget.sampling}" for force, budget in errors.items() if budget.sampling]
     if lines:
         figure.supxlabel("\n".join(lines), fontsize=TICK)

@@ -85,6 +85,7 @@ def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) 
     whole = curve.to_dataset()
     names = [*_ARRAYS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
     record = whole[names].drop_vars("axis", errors="ignore")
+    record.attrs.pop("state_notes", None)  # of one member
     record["dimensionless_force"] = "load", forces, whole["dimensionless_force"].attrs
     record["rms"] = described((), roughness.rms, "root mean square height of the roughness", "m")
     record["rms_slope"] = described((), moments.rms_slope, "root mean square slope of the roughness")

@@ -72,6 +72,7 @@ def run(parameters: LoopParameters, rng: np.random.Generator) -> Record:
     )
     whole = loop.loading.to_dataset()
     record = whole[[*_ARRAYS, *names_of(FLOW), "hardness"]].drop_vars("axis", errors="ignore")
+    record.attrs.pop("state_notes", None)  # of one member
     # The rms height of the parameters, without the body under the roughness.
     record["dimensionless_force"] = "load", parameters.forces, whole["dimensionless_force"].attrs
     record = record.assign(unloaded(loop))

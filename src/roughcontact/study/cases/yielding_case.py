@@ -84,6 +84,7 @@ def run(parameters: YieldingParameters, rng: np.random.Generator) -> Record:
     names = ("force", "depth", "stiffness", "contact_area", "dimensionless_stiffness")
     certificates = ("residual", "stiffness_residual", "status", "cell_stiffness")
     record = whole[[*names, *certificates]].drop_vars("axis", errors="ignore")
+    record.attrs.pop("state_notes", None)  # of one member
     scale = parameters.modulus * parameters.size * parameters.rms
     record["dimensionless_force"] = "load", whole["force"].values / scale, whole["dimensionless_force"].attrs
     regions = [

@@ -20,7 +20,7 @@ __all__ = ["averaged", "cell_ranges", "cropped", "downsampled", "range_words"]
 def cropped(surface: Surface, *parts: slice) -> Surface:
     """Return the part of the surface in `parts`.
 
-    An axis that is cut is free in the result; an axis that is kept whole is unchanged.
+    A periodic axis that is cut becomes free, which the provenance names; an axis that is kept whole is unchanged.
 
     Parameters
     ----------
@@ -55,6 +55,9 @@ def cropped(surface: Surface, *parts: slice) -> Surface:
         [kept and repeats for kept, repeats in zip(whole, grid.periodic, strict=True)],
     )
     line = f"cropped to cells {range_words(ranges)} of {' x '.join(map(str, grid.shape))}"
+    axes = zip("yx"[-grid.ndim :], grid.periodic, small.periodic, strict=True)
+    if cut := " and ".join(axis for axis, before, after in axes if before and not after):
+        line += f", no longer periodic along {cut}"
     return surface.with_heights(surface.heights[parts], line, small)
 
 
