@@ -27,7 +27,6 @@ if TYPE_CHECKING:
         state_record as state_record,
     )
     from roughcontact.contact.compare import compare as compare
-    from roughcontact.contact.curve_notes import curve_doubts as curve_doubts, curve_notes as curve_notes
     from roughcontact.contact.dataset import (
         curve_dataframe as curve_dataframe,
         curve_dataset as curve_dataset,
@@ -40,7 +39,11 @@ if TYPE_CHECKING:
         pressure_histogram as pressure_histogram,
     )
     from roughcontact.contact.loop_dataset import loop_dataset as loop_dataset, loop_record as loop_record
-    from roughcontact.contact.notes import notes_on as notes_on
+    from roughcontact.contact.notes.curve_notes import (
+        curve_doubts as curve_doubts,
+        curve_notes as curve_notes,
+    )
+    from roughcontact.contact.notes.solution_notes import notes_on as notes_on
     from roughcontact.evaluation.flux_dataset import (
         flux_dataframe as flux_dataframe,
         flux_dataset as flux_dataset,
@@ -111,11 +114,11 @@ else:
         ),
         "adhesion.state_dataset": "state_dataset state_record",
         "contact.compare": "compare",
-        "contact.curve_notes": "curve_doubts curve_notes",
+        "contact.notes.curve_notes": "curve_doubts curve_notes",
         "contact.dataset": ("curve_dataframe curve_dataset curve_record solution_dataset solution_record"),
         "contact.histograms": "gap_histogram pressure_histogram",
         "contact.loop_dataset": "loop_dataset loop_record",
-        "contact.notes": "notes_on",
+        "contact.notes.solution_notes": "notes_on",
         "evaluation.flux_dataset": "flux_dataframe flux_dataset",
         "evaluation.interface_dataset": "interface_dataset",
         "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",

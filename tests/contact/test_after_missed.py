@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.notes import BEYOND
+from roughcontact.contact.notes.solution_notes import BEYOND
 
 MODULUS, HARDNESS = 2.0, 0.1
 FORCES = (0.002, 0.005, 0.01, 0.02)

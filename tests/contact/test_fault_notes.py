@@ -8,7 +8,7 @@ import pytest
 
 import roughcontact as rc
 from measured import NOT_HERE, SURFACES
-from roughcontact.contact.fault_notes import FEW, fault_notes
+from roughcontact.contact.notes.fault_notes import FEW, fault_notes
 from roughcontact.labels.note import Rank
 
 GRID = rc.Grid((96, 96), 1e-6, periodic=True)

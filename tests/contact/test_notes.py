@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.contact.notes import EDGE, notes_on
+from roughcontact.contact.notes.solution_notes import EDGE, notes_on
 from roughcontact.labels.note import Note, Rank, in_order
 
 

@@ -14,7 +14,7 @@ from roughcontact import methods
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
-from roughcontact.contact.notes import notes_on_few_cells, notes_on_load
+from roughcontact.contact.notes.solution_notes import notes_on_few_cells, notes_on_load
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution, mean_pressure
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness

@@ -276,7 +276,7 @@ class CurveAnswer:
     @property
     def _of_states(self) -> tuple[Note, ...]:
         """The notes on the states, and on loads that are not computed."""
-        from roughcontact.contact.curve_notes import curve_notes
+        from roughcontact.contact.notes.curve_notes import curve_notes
 
         return (*curve_notes(self.curve), *self.notes)
 

@@ -195,7 +195,7 @@ def _tell(
     json: bool,
     per_area: bool,
 ) -> None:
-    from roughcontact.contact.notes import notes_on
+    from roughcontact.contact.notes.solution_notes import notes_on
 
     if json:
         emit(record)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from roughcontact.arrays import is_numpy
-from roughcontact.contact.fault_notes import fault_notes
+from roughcontact.contact.notes.fault_notes import fault_notes
 from roughcontact.contact.solution import Solution
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.engineering_units import written
