@@ -258,7 +258,7 @@ def test_a_pressure_beyond_half_the_modulus_is_warned_of(part, told):
     surface = rc.Surface(np.eye(1, 64, 27).reshape(8, 8), rc.Grid((8, 8), 0.5))
     solution = rc.press(surface, 4.0, force=part * 4.0 * 0.25)
     assert solution.pressure.max() == pytest.approx(part * 4.0, rel=1e-12)
-    words = f"The largest pressure, {part * 4:.3g} Pa, is {part:.0%} of the reduced modulus"
+    words = f"The largest pressure, {part * 4:.3g} Pa, is {part:.3g} times the reduced modulus"
     assert any(note.startswith(words) for note in solution.notes) == told
     assert any("small strains" in note for note in solution.notes) == told
 
