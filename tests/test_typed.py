@@ -18,6 +18,7 @@ from roughcontact.theory.laws import GivenValues, LawInputs
 # What has no type: tables of pandas, views of mpl_toolkits, options of Dask's cluster, entries of a study's file, and
 # what a figure of the thesis draws, each its own.
 UNTYPED = {
+    "roughcontact.ContactFlux.to_dataframe",
     "roughcontact.Curve.to_dataframe",
     "roughcontact.plot.surface_view",
     "roughcontact.study.Range.values",

@@ -100,9 +100,9 @@ def test_notes_on_the_states_are_those_on_the_largest_load(tmp_path):
     largest = rc.press(surface, ("steel", "aluminium"), pressure=pressures[-1])
     assert curve.notes == largest.notes
     flows, missing, edge = curve.notes
-    assert "above the hardness of aluminium" in flows
+    assert "exceeds the hardness of aluminium" in flows
     assert "hold no height" in missing
-    assert "reaches the edge" in edge
+    assert "at the edge of the map" in edge
     assert all(note in curve._repr_html_() for note in (missing, edge))
     assert curve.to_record()["notes"] == list(curve.notes)
     rc.write(curve, tmp_path / "curve.nc")

@@ -111,7 +111,7 @@ class TestTable:
         with pytest.raises(ValueError, match="needs the curve of a map, not of a line: press a map"):
             rc.interface_table(profile)
         with pytest.raises(
-            ValueError, match=r"needs two resolved loads, and the curve has 0: take the forces"
+            ValueError, match=r"needs two resolved loads, and the curve has 0: leave the loads out"
         ):
             rc.interface_table(replace(curve, stiffness=np.zeros(len(curve))))
         with pytest.raises(ValueError, match="the gap does not fall"):

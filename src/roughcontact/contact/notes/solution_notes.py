@@ -32,6 +32,7 @@ EDGE = 0.01  # of the force, on the outermost cells: below, a larger map would c
 def notes_on(solution: Solution) -> Iterator[Note]:
     """Yield the notes on a solution."""
     yield from notes_on_load(solution)
+    yield from _of_two_sides(solution)
     yield from notes_on_few_cells(solution)
 
 
@@ -57,7 +58,6 @@ def notes_on_load(solution: Solution) -> Iterator[Note]:
         )
     yield from _of_hardness(solution)
     yield from _of_flow(solution)
-    yield from _of_two_sides(solution, int(count(solution.touching)) if in_contact else 0)
     yield from _of_input(solution)
     if solution.missing:
         hold = "1 cell holds" if solution.missing == 1 else f"{solution.missing} cells hold"
@@ -109,8 +109,9 @@ def _of_flow(solution: Solution) -> Iterator[Note]:
             )
 
 
-def _of_two_sides(solution: Solution, touching: int) -> Iterator[Note]:
-    """Yield a note if the stiffness on loading differs from that on unloading."""
+def _of_two_sides(solution: Solution) -> Iterator[Note]:
+    """Yield a note if the stiffness on loading differs from that on unloading: it takes a product."""
+    touching = int(solution.problem.measure.xp.count_nonzero(solution.touching)) if solution.force else 0
     if not touching:
         return
     k, more = solution.stiffness, solution.loading_stiffness
