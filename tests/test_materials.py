@@ -48,7 +48,9 @@ def test_american_spelling_is_understood():
 
 
 def test_what_is_not_in_the_table_is_refused_with_the_names_that_are():
-    with pytest.raises(ValueError, match=r"no material named 'cheese'; there are steel, .*give the numbers of the material"):
+    with pytest.raises(
+        ValueError, match=r"no material named 'cheese'; there are steel, .*give the numbers of the material"
+    ):
         rc.handbook("cheese")
 
 
