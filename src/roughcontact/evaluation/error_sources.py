@@ -99,7 +99,7 @@ def error_budget(
     the part is half of their relative standard deviation. With fewer than ten spots the part, and therefore the error,
     is NaN. *Noise*, *noise bias*: the standard deviation of a number by the noise of the map, and the change of the
     number without this noise, extrapolated from maps with more noise. A change above two of its errors is added to the
-    value; `ErrorBudget.corrections` lists these changes, and the part is then the error of the correction
+    value; ``ErrorBudget.corrections`` lists these changes, and the part is then the error of the correction
     (docs/concepts/noise-errors.md).
 
     The area is given both as counted by cells and corrected for its perimeter by Yastrebov, Anciaux and Molinari,
