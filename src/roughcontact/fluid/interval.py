@@ -36,7 +36,9 @@ def flux_bound(network: Network, flow: Array, conductance: Array, grid: Grid) ->
         wide = grid.spacing[1 - axis] / grid.spacing[axis]
         of_axis = network.axis == axis
         out, into = (
-            np.stack([np.bincount(end[of_axis], each[of_axis], network.count) for each in flow])[:, : len(inside)]
+            np.stack([np.bincount(end[of_axis], each[of_axis], network.count) for each in flow])[
+                :, : len(inside)
+            ]
             for end in (network.first, network.second)
         )
         each = 1 / (3 * inside * wide)
@@ -75,7 +77,9 @@ def bilinear_bound(conductance: Array, grid: Grid, along: int | None) -> Array:
         places = np.array([[0, 0, 1, 1], [0, 1, 0, 1]]) * np.array(grid.spacing)[:, None]
         known = np.zeros((2, size))
         pull = np.einsum("ab,db->da", element, places)
-        loads = np.stack([sum(np.bincount(corners[a], pull[d, a] * m, size) for a in range(4)) for d in (0, 1)])
+        loads = np.stack(
+            [sum(np.bincount(corners[a], pull[d, a] * m, size) for a in range(4)) for d in (0, 1)]
+        )
         own = np.einsum("da,ab,eb->de", places, element, places) * m.sum()
         _, labels = connected_components(matrix, directed=False)
         fixed = np.unique(labels, return_index=True)[1]
@@ -96,7 +100,8 @@ def bilinear_bound(conductance: Array, grid: Grid, along: int | None) -> Array:
     factors = splu(matrix[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
     potential[:, free] += factors.solve(np.ascontiguousarray(right.T)).T
     crossed = loads @ potential.T
-    return potential @ (matrix @ potential.T) + crossed + crossed.T + own
+    bound: Array = potential @ (matrix @ potential.T) + crossed + crossed.T + own
+    return bound
 
 
 def _element(grid: Grid) -> Array:

@@ -8,7 +8,7 @@ closes; means of the gap or of its cube are neither.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -19,9 +19,9 @@ from roughcontact.fluid.winding import windings
 from roughcontact.grid import Grid
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Faces", "Network", "faces_of", "joined_network", "winding_network"]
+__all__ = ["Faces", "Indices", "Network", "faces_of", "joined_network", "winding_network"]
 
-Indices: TypeAlias = npt.NDArray[np.intp]
+Indices: TypeAlias = npt.NDArray[np.integer[Any]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +48,11 @@ class Faces:
     def taken(self, chosen: Mask) -> Faces:
         """Return some of the faces."""
         return Faces(
-            *(each[chosen] for each in (self.first, self.second, self.conductance, self.axis, self.wraps))
+            self.first[chosen],
+            self.second[chosen],
+            self.conductance[chosen],
+            self.axis[chosen],
+            self.wraps[chosen],
         )
 
 
@@ -98,10 +102,11 @@ class Network:
         return np.stack(into)
 
     def driven(self, flow: Array) -> Array:
-        """Return what flows of shape (d, f) achieve, shape (d, d): mean flux by area, or flow from the first reservoir."""
+        """Return the mean flux times the area, or the flow from the first reservoir, of flows of shape (d, f)."""
         if self.drive.any():
             return -flow @ self.drive.T
-        return flow[:, self.first == self.fixed[0]].sum(axis=1)[:, None]
+        total: Array = flow[:, self.first == self.fixed[0]].sum(axis=1)[:, None]
+        return total
 
     def matrix(self) -> sparse.csc_array:
         """Return the symmetric matrix from potentials to what flows out of each node."""
@@ -137,7 +142,7 @@ def faces_of(conductance: Array, grid: Grid) -> Faces:
     return Faces(*(np.concatenate(each) for each in zip(*parts, strict=True)))
 
 
-def winding_network(faces: Faces, grid: Grid) -> tuple[Network | None, npt.NDArray[np.intp]]:
+def winding_network(faces: Faces, grid: Grid) -> tuple[Network | None, Indices]:
     """Return the network of the components that percolate over a periodic map, and their winding vectors.
 
     The drives are those of unit mean gradients along both axes. Without such a component there is no network.
@@ -184,7 +189,9 @@ def joined_network(
     if labels[size] != labels[size + 1]:
         return None
     flows = labels == labels[size]
-    return _numbered(every, flows, np.zeros((1, len(first))), np.array([size, size + 1]), np.array([1.0, 0.0]), 2)
+    return _numbered(
+        every, flows, np.zeros((1, len(first))), np.array([size, size + 1]), np.array([1.0, 0.0]), 2
+    )
 
 
 def _numbered(
@@ -204,4 +211,3 @@ def _numbered(
         potential,
         faces.axis[kept],
     )
-

@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 from scipy.sparse.linalg import splu, spsolve_triangular
 
-from roughcontact.fluid.network import Network
+from roughcontact.fluid.network import Indices, Network
 from roughcontact.validation import Array
 
 __all__ = ["NetworkFlow", "solve"]
@@ -90,7 +90,9 @@ class _Repair:
         n, a, b = network.count, network.first, network.second
         # A virtual root joins the nodes of fixed potential, which may take any surplus.
         first, second = np.append(a, np.full(len(network.fixed), n)), np.append(b, network.fixed)
-        resistance = np.append(1 / network.conductance, np.full(len(network.fixed), 0.5 / network.conductance.max()))
+        resistance = np.append(
+            1 / network.conductance, np.full(len(network.fixed), 0.5 / network.conductance.max())
+        )
         graph = sparse.coo_array((resistance, (first, second)), (n + 1, n + 1)).tocsr()
         tree = minimum_spanning_tree(graph)
         order, parent = breadth_first_order(tree, n, directed=False)
@@ -113,7 +115,7 @@ class _Repair:
         return repaired
 
 
-def _faces_to(parents: Array, nodes: Array, network: Network) -> tuple[Array, Array]:
+def _faces_to(parents: Indices, nodes: Indices, network: Network) -> tuple[Indices, Array]:
     """Return the face between each node and its parent, -1 without one, and its sign from the node to the parent."""
     n = network.count
     low, high = np.minimum(network.first, network.second), np.maximum(network.first, network.second)

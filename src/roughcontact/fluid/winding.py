@@ -1,22 +1,28 @@
 """Whether the open part of a periodic map percolates: components that meet themselves across the border.
 
-A path of open cells that comes back to its start shifted by whole periods is a winding vector. Flow goes on for ever only
-along the winding vectors of a component: none, one direction, or all.
+The shift by whole periods of a path of open cells from a cell to itself is a winding vector. A component conducts along
+its winding vectors only: along none, one direction, or all.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 __all__ = ["windings"]
 
+Indices: TypeAlias = npt.NDArray[np.integer[Any]]
+
 
 def windings(
-    labels: npt.NDArray[np.intp], first: npt.NDArray[np.intp], second: npt.NDArray[np.intp], axis: npt.NDArray[np.int8]
-) -> tuple[npt.NDArray[np.intp], dict[int, npt.NDArray[np.intp]]]:
+    labels: Indices,
+    first: Indices,
+    second: Indices,
+    axis: Indices,
+) -> tuple[Indices, dict[int, Indices]]:
     """Return the component of each label, and the winding vectors of each component that has some.
 
     Parameters
@@ -43,7 +49,7 @@ def windings(
         beside[b].append((a, along, -1))
     component = np.arange(count)
     offset: dict[int, tuple[int, int]] = {}
-    vectors: dict[int, npt.NDArray[np.intp]] = {}
+    vectors: dict[int, Indices] = {}
     for root in list(beside):
         if root in offset:
             continue
@@ -63,7 +69,7 @@ def windings(
     return component, vectors
 
 
-def _independent(found: list[tuple[int, int]]) -> npt.NDArray[np.intp]:
+def _independent(found: list[tuple[int, int]]) -> Indices:
     """Return the first vector, and the first that is not parallel to it, each divided by its content."""
     first = found[0]
     other = next((each for each in found if first[0] * each[1] != first[1] * each[0]), None)
