@@ -319,12 +319,6 @@ def gap_flow(
     >>> flow.percolates, flow.transmissivity.shape, flow.residual < 1e-6
     (True, (2, 2), True)
     """
-    if not isinstance(solution, Solution):
-        raise InputError(
-            f"a {type(solution).__name__} is not the solution of a contact without adhesion",
-            "give a Solution, as rc.press and rc.loading_path return it",
-            "solution",
-        )
     problem, grid = solution.problem, solution.problem.grid
     if (
         problem.geometry is not Geometry.SURFACE
