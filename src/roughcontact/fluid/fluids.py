@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from roughcontact.errors import InputError, about
-from roughcontact.validation import require_numbers, scalar
+from roughcontact.validation import Array, require_numbers, scalar
 
 __all__ = ["Gas", "Liquid"]
 
@@ -191,6 +193,21 @@ class Gas:
         walls = sum((2 - a) / a for a in self.accommodation)
         ratio = 2 * self.heat_ratio / (self.heat_ratio + 1)
         return walls * ratio * self.mean_free_path(self.pressure) / self.prandtl
+
+    def conductance(self, gap: float | Array) -> Array:
+        """Return the conductance ``k_g/(gap + jump distance)`` of gaps [m], per area [W/(m^2 K)].
+
+        Parameters
+        ----------
+        gap : float or array
+            Distance of both walls [m].
+
+        Raises
+        ------
+        ValueError
+            Without pressure and accommodation coefficients.
+        """
+        return np.asarray(self.conductivity / (gap + self.jump_distance))
 
     @property
     def _tabled(self) -> _Tabled:
