@@ -32,7 +32,7 @@ QUESTIONS = {
     "leak": "reference/glossary",
     "viscoelastic": "concepts/mdr",
     "mated": "reference/glossary",
-    "K from ultrasound": "reference/glossary",
+    "K from ultrasound": "how-to/ultrasound",
     "mpi": "how-to/scale",
     "friction loop": "tutorials/friction",
     "periodic or free": "gallery/bodies/periodic_and_free",

@@ -39,6 +39,7 @@ ORDER = [
     {"contact"},
     {"gradients"},
     {"evaluation"},
+    {"fluid"},
     {"adhesion"},
     {"friction"},
     {"mdr"},

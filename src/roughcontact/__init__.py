@@ -100,6 +100,13 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
     from roughcontact.files.save import write as write
+    from roughcontact.fluid.fluids import Gas as Gas, Liquid as Liquid
+    from roughcontact.fluid.gap_flow import GapFlow as GapFlow, gap_flow as gap_flow
+    from roughcontact.fluid.joint_conductance import (
+        JointConductance as JointConductance,
+        joint_conductance as joint_conductance,
+    )
+    from roughcontact.fluid.leak import Leak as Leak, leak as leak
     from roughcontact.friction.slide import load_cycle as load_cycle, slide as slide, slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve, slide_curve as slide_curve
     from roughcontact.friction.slip_solution import TangentialSolution as TangentialSolution

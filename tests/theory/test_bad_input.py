@@ -14,7 +14,7 @@ from roughcontact.theory.asperity_models import (
     greenwood_williamson,
     interaction,
 )
-from roughcontact.theory.joints import cattaneo, conductance, holm, jaeger, mindlin, thermal
+from roughcontact.theory.joints import cattaneo, conductance, holm, jaeger, mindlin, thermal, ultrasound
 from roughcontact.theory.persson_theory import persson, persson_plastic, persson_separation
 from roughcontact.theory.plastic_asperities import (
     chang_etsion_bogy,
@@ -116,6 +116,7 @@ GOOD = {
         "law": SPHERE,
     },
     **{"decay": 1e-7, "turned": 2e-3},
+    **{"frequency": 1e6, "impedances": (4e7, 2e7), "reflected": 0.6, "density": 7850.0, "slope": 1e6},
 }
 OTHERS = {
     "hertz.point": {"modulus": 1e9, "radius": 1e-3, "force": 1e-2},
@@ -129,6 +130,8 @@ OTHERS = {
     "plasticity.summit_index": {"height": np.array([1e-6, 2e-6]), "curvature": np.array([1e4, 2e4])},
     "pullen_williamson.flattened": {"heights": np.array([1e-6, 2e-6])},
     "thermal.constriction": {"ratio": 0.3},
+    "ultrasound.combined": {"stiffness": np.array([1e14, 1.01e14]), "error": np.array([1e12, 1e12])},
+    "ultrasound.second_harmonic": {"stiffness": 1e14, "amplitude": 1e-9},
     "Asperity": {"exponent": 1.5},
     "SteppedIndenter": {"ratio": 2.0},
     "Hierarchy": {"ratio": 3.0},
@@ -143,7 +146,7 @@ MODULES = {
     "pohrt_popov": pohrt_popov, "power_law_indenter": power_law_indenter, "rough_sphere": rough_sphere,
     "rough_square": rough_square,
     "two_cosines": two_cosines, "chang_etsion_bogy": chang_etsion_bogy, "kogut_etsion": kogut_etsion,
-    "persson_plastic": persson_plastic, "pullen_williamson": pullen_williamson,
+    "persson_plastic": persson_plastic, "pullen_williamson": pullen_williamson, "ultrasound": ultrasound,
 }  # fmt: skip
 BODIES = (
     hertz.point(1e9, radius=1e-3, force=1e-2),

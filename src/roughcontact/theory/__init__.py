@@ -32,6 +32,7 @@ if TYPE_CHECKING or _LATE is None:
         joint as joint,
         mindlin as mindlin,
         thermal as thermal,
+        ultrasound as ultrasound,
     )
     from roughcontact.theory.persson_theory import (
         persson as persson,

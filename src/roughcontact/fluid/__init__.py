@@ -1,0 +1,1 @@
+"""Flow of a fluid through the gap of a contact."""

@@ -1,0 +1,242 @@
+"""The leak of a joint: what flows through its gap under a drop of pressure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.contact.solution import Solution
+from roughcontact.errors import InputError, about
+from roughcontact.fluid.fluids import Gas, Liquid
+from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow
+from roughcontact.labels.note import Note, Rank, in_order
+from roughcontact.validation import Mask, numeric
+
+__all__ = ["Leak", "leak"]
+
+RAREFIED = 5.0  # rarefaction parameter from which a slip length describes the flow
+SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid hardly opens the joint
+
+
+@dataclass(frozen=True, slots=True)
+class Leak:
+    """A leak rate.
+
+    Attributes
+    ----------
+    flow : GapFlow
+        The flow that it follows from.
+    fluid : Liquid or Gas
+    upstream, downstream : float
+        Pressures on both sides [Pa]; of a liquid whose drop alone was given, the drop and zero.
+    volume : float
+        Volume flow [m^3/s]; of a gas, at the mean pressure.
+    """
+
+    flow: GapFlow
+    fluid: Liquid | Gas
+    upstream: float
+    downstream: float
+    volume: float
+
+    @property
+    def drop(self) -> float:
+        """Drop of pressure [Pa]."""
+        return self.upstream - self.downstream
+
+    @property
+    def mass(self) -> float:
+        """Mass flow [kg/s]; NaN for a liquid without density."""
+        return self.volume * self._density
+
+    @property
+    def throughput(self) -> float:
+        """Pressure times volume flow of a gas [Pa m^3/s]; NaN for a liquid."""
+        return self.volume * self._mean if isinstance(self.fluid, Gas) else math.nan
+
+    @property
+    def reynolds(self) -> float:
+        """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density."""
+        place = self.flow.constriction
+        if place is None:
+            return 0.0
+        flux = max(
+            float(np.hypot(*self.flow.flux(each)).max()) for each in range(len(self.flow.transmissivity))
+        )
+        return self._density * flux * self.drop / (12 * self.fluid.viscosity**2) * place.gap / place.width
+
+    @property
+    def rarefaction(self) -> float:
+        """Rarefaction parameter in the critical constriction at the mean pressure [1]; infinite for a liquid."""
+        place = self.flow.constriction
+        if place is None or not isinstance(self.fluid, Gas):
+            return math.inf
+        return self.fluid.rarefaction(place.gap, self._mean)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Limits of these numbers, in sentences; those of the flow among them."""
+        return in_order((*self._notes(), *self.flow.ranked_notes()))
+
+    def _notes(self) -> Iterator[Note]:
+        nominal = self.flow.solution.nominal_pressure
+        if self.drop > SMALL_DROP * nominal:
+            yield Note(
+                Rank.DOUBTFUL,
+                f"The drop is {self.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
+                "leaks than computed.",
+            )
+        if isinstance(self.fluid, Liquid) and self.downstream < self.fluid.vapour_pressure:
+            yield Note(
+                Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
+            )
+        if self.reynolds > 1:
+            yield Note(
+                Rank.DOUBTFUL,
+                f"The reduced Reynolds number is {self.reynolds:.2g} in the critical constriction: inertia counts, and "
+                "less leaks than computed.",
+            )
+
+    @property
+    def _mean(self) -> float:
+        return 0.5 * (self.upstream + self.downstream)
+
+    @property
+    def _density(self) -> float:
+        if isinstance(self.fluid, Gas):
+            return self._mean / (self.fluid.gas_constant * self.fluid.temperature)
+        return math.nan if self.fluid.density is None else self.fluid.density
+
+
+@numeric(drop="Pa", upstream="Pa", downstream="Pa", seal_width="m", circumference="m")
+def leak(
+    solution: Solution,
+    fluid: Liquid | Gas,
+    *,
+    drop: float | None = None,
+    upstream: float | None = None,
+    downstream: float | None = None,
+    axis: int = 0,
+    between: tuple[Mask, Mask] | None = None,
+    seal_width: float | None = None,
+    circumference: float | None = None,
+    missing: Missing = "closed",
+) -> Leak:
+    """Return the leak rate of a joint.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a map of heights, see `gap_flow`.
+    fluid : Liquid or Gas
+        A gas flows with slip at the walls.
+    drop : float, optional
+        Drop of pressure of a liquid [Pa].
+    upstream, downstream : float, optional
+        Absolute pressures [Pa]: in place of the drop, and always for a gas.
+    axis : int
+        Axis along which the pressure falls.
+    between : tuple of two bool arrays, optional
+        Regions at both pressures in place of an axis, see `gap_flow`.
+    seal_width, circumference : float, optional
+        Length of the seal along the flow, and across it [m]: the map is then a sample of the seal. Without them the
+        map is the seal, from side to side; a periodic map needs them.
+    missing : {"closed", "open"}
+        See `gap_flow`.
+
+    Returns
+    -------
+    Leak
+
+    Raises
+    ------
+    ValueError
+        If the pressures do not suit the fluid, if the drop exceeds the nominal pressure, or if the gas is too rarefied
+        in the critical constriction for a slip length.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> solution = rc.press(surface, 1e9, pressure=2e6)
+    >>> water = rc.Liquid(viscosity=1e-3, density=1000)
+    >>> found = rc.leak(solution, water, drop=1e5, seal_width=1e-3, circumference=0.1)
+    >>> f"{found.volume * 6e7:.2g} ml/min"
+    '1.1e-05 ml/min'
+    """
+    if not isinstance(fluid, Liquid | Gas):
+        raise about("the fluid", f"must be an rc.Liquid or an rc.Gas, not {fluid!r}")
+    upstream, downstream = _pressures(fluid, drop, upstream, downstream)
+    if upstream - downstream > solution.nominal_pressure:
+        raise InputError(
+            f"the drop of {upstream - downstream:.3g} Pa exceeds the nominal pressure of "
+            f"{solution.nominal_pressure:.3g} Pa, so the fluid separates the bodies",
+            "press harder, or give a smaller drop",
+            "drop",
+        )
+    is_periodic = all(solution.problem.grid.periodic) and between is None
+    slip = fluid.slip_length(0.5 * (upstream + downstream)) if isinstance(fluid, Gas) else 0.0
+    flow = gap_flow(
+        solution,
+        axis=None if is_periodic or between is not None else axis,
+        between=between,
+        missing=missing,
+        slip_length=slip,
+    )
+    shape = _shape_factor(flow, axis, seal_width, circumference)
+    along = flow.transmissivity[axis, axis] if is_periodic else flow.transmissivity[0, 0]
+    found = Leak(
+        flow, fluid, upstream, downstream, along * shape / (12 * fluid.viscosity) * (upstream - downstream)
+    )
+    if not found.rarefaction >= RAREFIED:
+        raise InputError(
+            f"the gas is too rarefied in the critical constriction for a slip length: its rarefaction parameter is "
+            f"{found.rarefaction:.2g}, less than {RAREFIED:g}",
+            "raise the pressures, or press less",
+            "fluid",
+        )
+    return found
+
+
+def _pressures(
+    fluid: Liquid | Gas, drop: float | None, upstream: float | None, downstream: float | None
+) -> tuple[float, float]:
+    """Return the pressures on both sides [Pa]."""
+    if upstream is None and downstream is None and drop is not None and isinstance(fluid, Liquid):
+        upstream, downstream = drop, 0.0
+    elif drop is not None or upstream is None or downstream is None:
+        remedy = "give upstream= and downstream=, absolute" + (
+            "" if isinstance(fluid, Gas) else ", or drop= alone"
+        )
+        raise InputError("the pressures on both sides do not follow", remedy, "upstream, downstream")
+    if not 0 <= downstream < upstream < math.inf:
+        raise about(
+            "the upstream pressure", f"must exceed the downstream pressure, {upstream:g} to {downstream:g} Pa"
+        )
+    return upstream, downstream
+
+
+def _shape_factor(flow: GapFlow, axis: int, seal_width: float | None, circumference: float | None) -> float:
+    """Return the length across the flow over that along it [1]; one for a flow between two regions."""
+    if (seal_width is None) != (circumference is None):
+        raise InputError("a seal has a width and a circumference", "give both", "seal_width, circumference")
+    if seal_width is not None and circumference is not None:
+        if flow.between is not None:
+            raise InputError(
+                "between two regions the flow has no seal width", "leave seal_width and circumference out"
+            )
+        return circumference / seal_width
+    if flow.between is not None:
+        return 1.0
+    if flow.axis is None:
+        raise InputError(
+            "a periodic map is a sample of a seal",
+            "give seal_width= and circumference=",
+            "seal_width, circumference",
+        )
+    lengths = flow.solution.problem.grid.lengths
+    return lengths[1 - axis] / lengths[axis]
