@@ -62,7 +62,7 @@ def test_a_source_that_nothing_makes_again_has_no_form():
 
 def test_a_job_without_heights_has_no_form_and_is_refused():
     assert "theory" not in forms()["jobs"]
-    with pytest.raises(InputError, match="a job of theories has none: use the command") as met:
+    with pytest.raises(InputError, match="does not show the job") as met:
         PageRequest.of(smallest("theory"), {}, {})
     assert met.value.place == "job"
 

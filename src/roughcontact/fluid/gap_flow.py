@@ -9,11 +9,12 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
-from roughcontact.fluid.constriction import Constriction, constriction_of
+from roughcontact.fluid.constriction import Constriction, constriction_of, notes_on
 from roughcontact.fluid.interval import bilinear_bound, flux_bound
 from roughcontact.fluid.network import Indices, Network, faces_of, joined_network, winding_network
 from roughcontact.fluid.solve import NetworkFlow, solve
@@ -102,6 +103,12 @@ class GapFlow:
         return lower * self._unit, upper * self._unit
 
     @property
+    def eigenvalues(self) -> Array:
+        """Eigenvalues of the transmissivity, the larger first [m^3]; one from side to side."""
+        found: Array = np.linalg.eigvalsh(self.transmissivity)[::-1].astype(np.float64)
+        return found
+
+    @property
     def hydraulic_gap(self) -> float:
         """Uniform gap with the same mean transmissivity [m]."""
         return float(np.cbrt(np.trace(self.transmissivity) / self._rank))
@@ -151,29 +158,46 @@ class GapFlow:
     @cached_property
     def constriction(self) -> Constriction | None:
         """The critical constriction, of the better conducting principal direction; None without flow."""
-        if self._network is None or self._flow is None:
+        return None if self._flow is None else self._constriction(np.linalg.eigh(self._flow.upper)[1][:, -1])
+
+    def constriction_along(self, direction: int) -> Constriction | None:
+        """Return the critical constriction of the flow by a drop along one direction; None without flow.
+
+        Parameters
+        ----------
+        direction : int
+            Axis of the mean drop on a periodic map; 0 otherwise.
+
+        Returns
+        -------
+        Constriction or None
+        """
+        return self._constriction(np.eye(self._rank)[direction])
+
+    def _constriction(self, weights: Array) -> Constriction | None:
+        if self._network is None or self._flow is None or not weights @ self._flow.upper @ weights > 0:
             return None
-        weights = np.linalg.eigh(self._flow.upper)[1][:, -1]
-        drops = weights @ self._network.drops(self._flow.potential)
-        return constriction_of(self._network, drops, self.gap, self._grid)
+        return constriction_of(
+            self._network, weights @ self._network.drops(self._flow.potential), self.gap, self._grid
+        )
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order(self.ranked_notes())
+        return in_order((*self.ranked_notes(), *notes_on(self.constriction)))
+
+    plot = methods.plot_flow
+    to_dataset = methods.flow_dataset
 
     def __repr__(self) -> str:
         """Return the main numbers."""
         if not self.percolates:
             return "GapFlow(no open path)"
-        values = " and ".join(
-            f"{value:.4g}"
-            for value in np.linalg.eigvalsh(self.transmissivity)[::-1][: len(self.windings) or 1]
-        )
+        values = " and ".join(f"{value:.4g}" for value in self.eigenvalues[: len(self.windings) or 1])
         return f"GapFlow(transmissivity {values} m^3, bounds within {self.residual:.0e})"
 
     def ranked_notes(self) -> Iterator[Note]:
-        """Yield the notes with their ranks."""
+        """Yield the notes with their ranks, except those on a constriction."""
         if self._flow is None:
             yield Note(
                 Rank.LIMITED,
@@ -184,13 +208,6 @@ class GapFlow:
             yield Note(
                 Rank.WRONG,
                 f"The bounds of the flow differ by {self.residual:.1e}, where {self.tolerance:.0e} was asked for.",
-            )
-        place = self.constriction
-        if place is not None and not place.resolved:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The critical constriction is {place.cells} cells wide and takes {place.share:.0%} of the drop: there "
-                "the flow depends on the grid. Use smaller cells, or quote the order of magnitude only.",
             )
         if len(self.windings) == 1:
             vector = tuple(int(each) for each in self.windings[0])
