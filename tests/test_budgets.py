@@ -15,6 +15,7 @@ PARAMETERS = {"roughcontact.self_affine": 13}
 OPTIONS = {
     "curve": 57,
     "press": 49,
+    "leak": 60,
     "adhesion press": 46,
     "adhesion curve": 46,
     "adhesion detach": 45,

@@ -39,18 +39,16 @@ class Fluid:
         "1000kg/m^3",
         read=Amount(DENSITY),
         needs="viscosity",
-        everyday=True,
     )
     vapour_pressure: str | None = described(
         "Pressure below which the liquid boils.", "2.3kPa", read=_ABSOLUTE, needs="viscosity"
     )
-    gas: str | None = described("An ideal gas.", read=Choice(GASES), everyday=True)
+    gas: str | None = described("An ideal gas.", read=Choice(GASES))
     temperature: str | None = described(
         "Temperature of the gas, 200 to 600 K; required.",
         "20degC",
         read=temperature,
         needs="gas",
-        everyday=True,
     )
 
     def __post_init__(self) -> None:
@@ -79,10 +77,10 @@ class Seal:
         "Drop of the pressure of a liquid.", "1bar", read=Amount(PRESSURE), everyday=True
     )
     upstream: str | None = described(
-        "Absolute pressure before the seal; always needed for a gas.", "2bar", read=_ABSOLUTE, everyday=True
+        "Absolute pressure before the seal; always needed for a gas.", "2bar", read=_ABSOLUTE
     )
     downstream: str | None = described(
-        "Absolute pressure behind it; 0 is vacuum.", "1bar", read=_ABSOLUTE, needs="upstream", everyday=True
+        "Absolute pressure behind it; 0 is vacuum.", "1bar", read=_ABSOLUTE, needs="upstream"
     )
     axis: str = described(
         "Direction of the flow: 0 down the picture, along y; 1 along x.", read=Choice(("0", "1")), default="0"

@@ -41,7 +41,11 @@ _CHANGE = 0.1  # relative change on half the cells above which a note is printed
 
 
 def leak(job: LeakJob, *, answer: Answer) -> None:
-    """Press a rough surface by one load, and let a liquid or gas leak through the gap that is left."""
+    """Press a rough surface by one load: the leak rate of a liquid or gas.
+
+    The fluid does not press on the bodies: its drop of pressure must be below the nominal pressure. A periodic map is a
+    sample of a seal, whose width and circumference must be given.
+    """
     from roughcontact.contact.notes import notes_on
 
     hardness_of_job(job.pressed)
