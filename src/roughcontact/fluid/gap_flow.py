@@ -25,7 +25,7 @@ from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, Mask, numeric
 
-__all__ = ["GapFlow", "gap_flow"]
+__all__ = ["GapFlow", "gap_flow", "notes_on_flow"]
 
 Missing: TypeAlias = Literal["closed", "open"]
 OPEN = 1e4  # a missing cell that is open conducts this many times as well as the widest gap
@@ -50,6 +50,15 @@ class GapFlow:
         Largest relative difference of the two bounds.
     between : tuple of two bool arrays, optional
         Regions at the higher and at the lower pressure.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+    >>> flow.percolates, [f"{value:.3g}" for value in flow.eigenvalues]
+    (True, ['2.19e-22', '1.48e-22'])
     """
 
     solution: Solution
@@ -125,6 +134,15 @@ class GapFlow:
         -------
         array, shape of the grid
             From 1 to 0 along the flow.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> flow.pressure().shape
+        (64, 64)
         """
         if self._network is None or self._flow is None:
             return np.full(self._grid.shape, math.nan)
@@ -137,7 +155,27 @@ class GapFlow:
         return values
 
     def flux(self, direction: int = 0) -> tuple[Array, Array]:
-        """Return the flux along both axes for a unit drop and a viscosity of 1/12 [m^2], in the middle of the cells."""
+        """Return the flux along both axes for a unit drop and a viscosity of 1/12 [m^2], in the middle of the cells.
+
+        Parameters
+        ----------
+        direction : int
+            Axis of the mean drop on a periodic map, over one period; 0 otherwise.
+
+        Returns
+        -------
+        tuple of two arrays, shape of the grid
+            Along y and along x.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> [each.shape for each in flow.flux(1)]
+        [(64, 64), (64, 64)]
+        """
         shape = self._grid.shape
         if self._network is None or self._flow is None:
             return np.zeros(shape), np.zeros(shape)
@@ -171,6 +209,15 @@ class GapFlow:
         Returns
         -------
         Constriction or None
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> flow.constriction_along(0).cells
+        27
         """
         return self._constriction(np.eye(self._rank)[direction])
 
@@ -184,7 +231,7 @@ class GapFlow:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order((*self.ranked_notes(), *notes_on(self.constriction)))
+        return in_order((*notes_on_flow(self), *notes_on(self.constriction)))
 
     plot = methods.plot_flow
     to_dataset = methods.flow_dataset
@@ -195,31 +242,6 @@ class GapFlow:
             return "GapFlow(no open path)"
         values = " and ".join(f"{value:.4g}" for value in self.eigenvalues[: len(self.windings) or 1])
         return f"GapFlow(transmissivity {values} m^3, bounds within {self.residual:.0e})"
-
-    def ranked_notes(self) -> Iterator[Note]:
-        """Yield the notes with their ranks, except those on a constriction."""
-        if self._flow is None:
-            yield Note(
-                Rank.LIMITED,
-                "No open path leads through the gap: nothing flows but what the cells do not resolve.",
-            )
-            return
-        if not self.residual <= self.tolerance:
-            yield Note(
-                Rank.WRONG,
-                f"The bounds of the flow differ by {self.residual:.1e}, where {self.tolerance:.0e} was asked for.",
-            )
-        if len(self.windings) == 1:
-            vector = tuple(int(each) for each in self.windings[0])
-            yield Note(
-                Rank.LIMITED,
-                f"The open cells percolate along {vector} periods only: across it nothing flows.",
-            )
-        if self.solution.missing:
-            yield Note(
-                Rank.LIMITED,
-                f"{self.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
-            )
 
     @property
     def _grid(self) -> Grid:
@@ -371,3 +393,29 @@ def gap_flow(
         gap[~problem.measured] = OPEN ** (1 / 3) * gap.max()
     gap.flags.writeable = False
     return GapFlow(solution, gap, axis, slip_length, checked_tolerance(tolerance), between)
+
+
+def notes_on_flow(flow: GapFlow) -> Iterator[Note]:
+    """Yield the notes on a flow, except those on its constriction."""
+    if not flow.percolates:
+        yield Note(
+            Rank.LIMITED,
+            "No open path leads through the gap: nothing flows but what the cells do not resolve.",
+        )
+        return
+    if not flow.residual <= flow.tolerance:
+        yield Note(
+            Rank.WRONG,
+            f"The bounds of the flow differ by {flow.residual:.1e}, where {flow.tolerance:.0e} was asked for.",
+        )
+    if len(flow.windings) == 1:
+        vector = tuple(int(each) for each in flow.windings[0])
+        yield Note(
+            Rank.LIMITED,
+            f"The open cells percolate along {vector} periods only: across it nothing flows.",
+        )
+    if flow.solution.missing:
+        yield Note(
+            Rank.LIMITED,
+            f"{flow.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
+        )

@@ -13,12 +13,12 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.constriction import Constriction, notes_on
 from roughcontact.fluid.fluids import Gas, Liquid
-from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow
+from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow, notes_on_flow
 from roughcontact.grid import AnyGrid
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.validation import Mask, numeric
 
-__all__ = ["Leak", "leak", "shape_factor"]
+__all__ = ["Leak", "leak", "notes_on_leak", "shape_factor"]
 
 RAREFIED = 5.0  # rarefaction parameter from which a slip length describes the flow
 SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid hardly opens the joint
@@ -39,6 +39,16 @@ class Leak:
         Volume flow [m^3/s]; of a gas, at the mean pressure.
     direction : int
         Axis of the mean drop on a periodic map; 0 otherwise.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> solution = rc.press(surface, 1e9, pressure=2e6)
+    >>> found = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
+    >>> found.drop, found.constriction.cells
+    (100000.0, 27)
     """
 
     flow: GapFlow
@@ -88,31 +98,10 @@ class Leak:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences; those of the flow among them."""
-        return in_order(self.ranked_notes())
+        return in_order(notes_on_leak(self))
 
     to_dataset = methods.leak_dataset
     to_record = methods.leak_record
-
-    def ranked_notes(self) -> Iterator[Note]:
-        """Yield the notes with their ranks."""
-        yield from (*self.flow.ranked_notes(), *notes_on(self.constriction))
-        nominal = self.flow.solution.nominal_pressure
-        if self.drop > SMALL_DROP * nominal:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The drop is {self.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
-                "leaks than computed.",
-            )
-        if isinstance(self.fluid, Liquid) and self.downstream < self.fluid.vapour_pressure:
-            yield Note(
-                Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
-            )
-        if self.reynolds > 1:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The reduced Reynolds number is {self.reynolds:.2g} in the critical constriction: inertia counts, and "
-                "less leaks than computed.",
-            )
 
     @property
     def _mean(self) -> float:
@@ -123,6 +112,28 @@ class Leak:
         if isinstance(self.fluid, Gas):
             return self._mean / (self.fluid.gas_constant * self.fluid.temperature)
         return math.nan if self.fluid.density is None else self.fluid.density
+
+
+def notes_on_leak(leak: Leak) -> Iterator[Note]:
+    """Yield the notes on a leak, with those on its flow."""
+    yield from (*notes_on_flow(leak.flow), *notes_on(leak.constriction))
+    nominal = leak.flow.solution.nominal_pressure
+    if leak.drop > SMALL_DROP * nominal:
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The drop is {leak.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
+            "leaks than computed.",
+        )
+    if isinstance(leak.fluid, Liquid) and leak.downstream < leak.fluid.vapour_pressure:
+        yield Note(
+            Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
+        )
+    if leak.reynolds > 1:
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The reduced Reynolds number is {leak.reynolds:.2g} in the critical constriction: inertia counts, and "
+            "less leaks than computed.",
+        )
 
 
 @numeric(drop="Pa", upstream="Pa", downstream="Pa", seal_width="m", circumference="m")

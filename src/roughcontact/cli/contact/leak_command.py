@@ -47,6 +47,8 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     sample of a seal, whose width and circumference must be given.
     """
     from roughcontact.contact.notes import notes_on
+    from roughcontact.fluid.leak import notes_on_leak
+    from roughcontact.theory import leakage
 
     hardness_of_job(job.pressed)
     with output(answer.out) as folder:
@@ -71,6 +73,7 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
             "eigenvalues": flow.eigenvalues.tolist(),
             "interval": None if interval is None else [each.tolist() for each in interval],
             "other_missing": None if other is None else {"missing": _other(job), **_rates(other)},
+            "bruggeman": leakage.bruggeman(flow.gap**3),
             "half_grid": None if half is None else _rates(half),
             "tolerance": solution.problem.tolerance,
             "converged": bool(converged),
@@ -82,8 +85,8 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     if answer.json:
         emit(record)
     else:
-        _tell(job, found, interval, other, half)
-    note_all([*notes_on(solution), *found.ranked_notes(), *_notes(found, half)])
+        _tell(job, found, record["bruggeman"], interval, other, half)
+    note_all([*notes_on(solution), *notes_on_leak(found), *_notes(found, half)])
     answer.finish(folder, ("leak.json", "leak.nc", f"leak.{answer.ending}"), job, solution)
     if not converged:
         raise typer.Exit(MISSED)
@@ -160,7 +163,9 @@ def _notes(leak: Leak, half: Leak | None) -> list[Note]:
     return [Note(Rank.DOUBTFUL, f"{words}the grid does not resolve the gap. Use smaller cells.")]
 
 
-def _tell(job: LeakJob, found: Leak, interval: Any, other: Leak | None, half: Leak | None) -> None:
+def _tell(
+    job: LeakJob, found: Leak, bruggeman: float, interval: Any, other: Leak | None, half: Leak | None
+) -> None:
     from roughcontact.plot.leak_facts import leak_facts, rate_words
 
     facts = [("file", name_of(job.source)), *leak_facts(found)]
@@ -168,6 +173,10 @@ def _tell(job: LeakJob, found: Leak, interval: Any, other: Leak | None, half: Le
         low, high = (float(each[found.direction, found.direction]) for each in interval)
         words = f"{low:.4g} to {high:.4g} m³ for a gap that is constant in each cell"
         facts.append(("interval of the transmissivity", words))
+    theory = (
+        f"{bruggeman:.4g} m³, from the distribution of the gaps only (Bruggeman, isotropic, without slip)"
+    )
+    facts.append(("transmissivity by theory", theory))
     if other is not None:
         facts.append((f"leak rate, missing cells {_other(job)}", rate_words(other)))
     if half is not None:
