@@ -52,6 +52,7 @@ if TYPE_CHECKING:
         leak_dataset as leak_dataset,
         leak_record as leak_record,
     )
+    from roughcontact.fluid.flow_notes import notes_on_flow as notes_on_flow, notes_on_leak as notes_on_leak
     from roughcontact.friction.slip_dataset import (
         slip_curve_dataset as slip_curve_dataset,
         slip_curve_record as slip_curve_record,
@@ -113,6 +114,7 @@ else:
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "fluid.leak_dataset": "flow_dataset leak_dataset leak_record",
+        "fluid.flow_notes": "notes_on_flow notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_loop plot_solution plot_state plot_surface",
         "plot.detachment_plot": "detachment_force",

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from roughcontact.fluid.network import Network
 from roughcontact.grid import Grid
-from roughcontact.labels.note import Note, Rank
 from roughcontact.validation import Array
 
-__all__ = ["Constriction", "constriction_of", "notes_on"]
+__all__ = ["Constriction", "constriction_of"]
 
 FEWEST = 4  # cells across a constriction that is resolved
 
@@ -85,17 +83,6 @@ def constriction_of(network: Network, drops: Array, gap: Array, grid: Grid) -> C
     x, y = grid.coordinates
     at = (float(x[row]), float(y[column]))
     return Constriction(at, len(channel), alike * grid.spacing[axis], float(channel.max()), float(share))
-
-
-def notes_on(place: Constriction | None) -> Iterator[Note]:
-    """Yield the note on a constriction that is not resolved."""
-    if place is not None and not place.resolved:
-        cells = f"{place.cells} cells" if place.cells > 1 else "one cell"
-        yield Note(
-            Rank.DOUBTFUL,
-            f"The critical constriction is {cells} wide and takes {place.share:.0%} of the drop: there "
-            "the flow depends on the grid. Use smaller cells, or quote the order of magnitude only.",
-        )
 
 
 def _channel(across: Array, at: int, periodic: bool) -> Array:

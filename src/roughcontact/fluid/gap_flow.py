@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -14,18 +13,18 @@ from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
-from roughcontact.fluid.constriction import Constriction, constriction_of, notes_on
+from roughcontact.fluid.constriction import Constriction, constriction_of
 from roughcontact.fluid.interval import bilinear_bound, flux_bound
 from roughcontact.fluid.network import Indices, Network, faces_of, joined_network, winding_network
 from roughcontact.fluid.solve import NetworkFlow, solve
 from roughcontact.grid import Grid
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.note import Note, Rank, in_order
+from roughcontact.labels.note import in_order
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, Mask, numeric
 
-__all__ = ["GapFlow", "gap_flow", "notes_on_flow"]
+__all__ = ["GapFlow", "gap_flow"]
 
 Missing: TypeAlias = Literal["closed", "open"]
 OPEN = 1e4  # a missing cell that is open conducts this many times as well as the widest gap
@@ -217,7 +216,7 @@ class GapFlow:
         >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
         >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
         >>> flow.constriction_along(0).cells
-        27
+        28
         """
         return self._constriction(np.eye(self._rank)[direction])
 
@@ -231,7 +230,7 @@ class GapFlow:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order((*notes_on_flow(self), *notes_on(self.constriction)))
+        return in_order(methods.notes_on_flow(self))
 
     plot = methods.plot_flow
     to_dataset = methods.flow_dataset
@@ -260,7 +259,7 @@ class GapFlow:
 
     @property
     def _conductance(self) -> Array:
-        """Of the cells, in units of `_scale`."""
+        """Conductances of the cells, in units of `_scale`."""
         return (self.gap**3 + 6 * self.slip_length * self.gap**2) / self._scale
 
     @property
@@ -393,29 +392,3 @@ def gap_flow(
         gap[~problem.measured] = OPEN ** (1 / 3) * gap.max()
     gap.flags.writeable = False
     return GapFlow(solution, gap, axis, slip_length, checked_tolerance(tolerance), between)
-
-
-def notes_on_flow(flow: GapFlow) -> Iterator[Note]:
-    """Yield the notes on a flow, except those on its constriction."""
-    if not flow.percolates:
-        yield Note(
-            Rank.LIMITED,
-            "No open path leads through the gap: nothing flows but what the cells do not resolve.",
-        )
-        return
-    if not flow.residual <= flow.tolerance:
-        yield Note(
-            Rank.WRONG,
-            f"The bounds of the flow differ by {flow.residual:.1e}, where {flow.tolerance:.0e} was asked for.",
-        )
-    if len(flow.windings) == 1:
-        vector = tuple(int(each) for each in flow.windings[0])
-        yield Note(
-            Rank.LIMITED,
-            f"The open cells percolate along {vector} periods only: across it nothing flows.",
-        )
-    if flow.solution.missing:
-        yield Note(
-            Rank.LIMITED,
-            f"{flow.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
-        )

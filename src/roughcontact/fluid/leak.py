@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,17 +10,16 @@ import numpy as np
 from roughcontact import methods
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
-from roughcontact.fluid.constriction import Constriction, notes_on
+from roughcontact.fluid.constriction import Constriction
 from roughcontact.fluid.fluids import Gas, Liquid
-from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow, notes_on_flow
+from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow
 from roughcontact.grid import AnyGrid
-from roughcontact.labels.note import Note, Rank, in_order
+from roughcontact.labels.note import in_order
 from roughcontact.validation import Mask, numeric
 
-__all__ = ["Leak", "leak", "notes_on_leak", "shape_factor"]
+__all__ = ["Leak", "leak", "shape_factor"]
 
 RAREFIED = 5.0  # rarefaction parameter from which a slip length describes the flow
-SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid hardly opens the joint
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +32,7 @@ class Leak:
         The flow that it follows from.
     fluid : Liquid or Gas
     upstream, downstream : float
-        Pressures on both sides [Pa]; of a liquid whose drop alone was given, the drop and zero.
+        Pressures on both sides [Pa]; the drop and zero where only the drop of a liquid was given.
     volume : float
         Volume flow [m^3/s]; of a gas, at the mean pressure.
     direction : int
@@ -48,7 +46,7 @@ class Leak:
     >>> solution = rc.press(surface, 1e9, pressure=2e6)
     >>> found = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
     >>> found.drop, found.constriction.cells
-    (100000.0, 27)
+    (100000.0, 28)
     """
 
     flow: GapFlow
@@ -98,7 +96,7 @@ class Leak:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences; those of the flow among them."""
-        return in_order(notes_on_leak(self))
+        return in_order(methods.notes_on_leak(self))
 
     to_dataset = methods.leak_dataset
     to_record = methods.leak_record
@@ -112,28 +110,6 @@ class Leak:
         if isinstance(self.fluid, Gas):
             return self._mean / (self.fluid.gas_constant * self.fluid.temperature)
         return math.nan if self.fluid.density is None else self.fluid.density
-
-
-def notes_on_leak(leak: Leak) -> Iterator[Note]:
-    """Yield the notes on a leak, with those on its flow."""
-    yield from (*notes_on_flow(leak.flow), *notes_on(leak.constriction))
-    nominal = leak.flow.solution.nominal_pressure
-    if leak.drop > SMALL_DROP * nominal:
-        yield Note(
-            Rank.DOUBTFUL,
-            f"The drop is {leak.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
-            "leaks than computed.",
-        )
-    if isinstance(leak.fluid, Liquid) and leak.downstream < leak.fluid.vapour_pressure:
-        yield Note(
-            Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
-        )
-    if leak.reynolds > 1:
-        yield Note(
-            Rank.DOUBTFUL,
-            f"The reduced Reynolds number is {leak.reynolds:.2g} in the critical constriction: inertia counts, and "
-            "less leaks than computed.",
-        )
 
 
 @numeric(drop="Pa", upstream="Pa", downstream="Pa", seal_width="m", circumference="m")
@@ -234,7 +210,7 @@ def _pressures(
         upstream, downstream = drop, 0.0
     elif drop is not None or upstream is None or downstream is None:
         remedy = "give upstream= and downstream=, absolute" + (
-            "" if isinstance(fluid, Gas) else ", or drop= alone"
+            "" if isinstance(fluid, Gas) else ", or only drop="
         )
         raise InputError("the pressures on both sides do not follow", remedy, "upstream, downstream")
     if not 0 <= downstream < upstream < math.inf:

@@ -112,7 +112,7 @@ def leak_record(leak: Leak) -> dict[str, Any]:
     >>> solution = rc.press(surface, 1e9, pressure=2e6)
     >>> leak = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
     >>> leak.to_record()["constriction_cells"], leak.to_record()["units"]["leak_rate"]
-    (27, 'm3 s-1')
+    (28, 'm3 s-1')
     """
     return record_of(_of_leak(leak), _SURFACE, notes=list(leak.notes))
 

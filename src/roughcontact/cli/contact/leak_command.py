@@ -47,7 +47,7 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     sample of a seal, whose width and circumference must be given.
     """
     from roughcontact.contact.notes import notes_on
-    from roughcontact.fluid.leak import notes_on_leak
+    from roughcontact.fluid.flow_notes import notes_on_leak
     from roughcontact.theory import leakage
 
     hardness_of_job(job.pressed)

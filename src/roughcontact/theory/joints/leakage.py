@@ -1,7 +1,7 @@
 """Flow through a joint as through an effective medium: Bruggeman's theory in two dimensions.
 
 A cell of gap g has the conductance g^3 in its surroundings, the effective medium (Bruggeman, Ann. Phys. 416, 636
-(1935)). The theory knows the distribution of the gaps and not their places. Its open cells stop to percolate where half
+(1935)). The theory uses the distribution of the gaps and not their places. Its open cells stop to percolate where half
 of the area is closed; Dapp and others (Phys. Rev. Lett. 108, 244301 (2012)) moved this threshold.
 """
 
