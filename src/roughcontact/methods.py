@@ -47,12 +47,12 @@ if TYPE_CHECKING:
         surface_dataset as surface_dataset,
         surface_of as surface_of,
     )
+    from roughcontact.fluid.flow_notes import notes_on_flow as notes_on_flow, notes_on_leak as notes_on_leak
     from roughcontact.fluid.leak_dataset import (
         flow_dataset as flow_dataset,
         leak_dataset as leak_dataset,
         leak_record as leak_record,
     )
-    from roughcontact.fluid.flow_notes import notes_on_flow as notes_on_flow, notes_on_leak as notes_on_leak
     from roughcontact.friction.slip_dataset import (
         slip_curve_dataset as slip_curve_dataset,
         slip_curve_record as slip_curve_record,
