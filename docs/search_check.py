@@ -29,7 +29,7 @@ QUESTIONS = {
     "tip radius": "how-to/afm",
     "pint": "how-to/units",
     "why unresolved": "how-to/unresolved",
-    "leak": "reference/glossary",
+    "leak": "how-to/leaks",
     "viscoelastic": "concepts/mdr",
     "mated": "reference/glossary",
     "K from ultrasound": "how-to/ultrasound",

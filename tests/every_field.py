@@ -19,6 +19,12 @@ SPECTRUM = {"sigma": "1um", "slope": "1", "hurst": "0.8", "rolloff": "50um"}
 SMALLEST = {
     "surface": {},
     "press": {"load": {"depth": "1um"}, "bodies": BODIES},
+    "leak": {
+        "load": {"depth": "1um"},
+        "bodies": BODIES,
+        "fluid": {"viscosity": "1mPa*s"},
+        "seal": {"drop": "1bar"},
+    },
     "curve": {"bodies": BODIES},
     "adhesion press": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion curve": {"loads": {"depths": "0nm,5nm"}, "bodies": BODIES, "adhesion": ADHESION},
@@ -52,6 +58,7 @@ _OF_JOINT = {
     "short_cutoff": {"hurst": "0.8", "rolloff": "100um", "slope": None},
     "nayak": {"rolloff": None},
 }
+_GAS = {"viscosity": None, "gas": "air", "temperature": "293K"}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -78,6 +85,15 @@ BESIDE = {
         f"{part}.{name}": beside
         for part in ("Specified", "SpecifiedJoint")
         for name, beside in _OF_JOINT.items()
+    },
+    **{f"Fluid.{name}": _GAS for name in ("gas", "temperature")},
+    **{
+        f"Seal.{name}": {"drop": None, "upstream": "2bar", "downstream": "1bar"}
+        for name in ("upstream", "downstream")
+    },
+    **{
+        f"Seal.{name}": {"seal_width": "1mm", "circumference": "0.1m"}
+        for name in ("seal_width", "circumference")
     },
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,

@@ -14,6 +14,7 @@ PARAMETERS = {"roughcontact.self_affine": 13}
 # --quiet, --verbose and --help-all.
 OPTIONS = {
     "curve": 59,  # two of the noise of the heights
+    "leak": 58,
     "press": 51,
     "adhesion press": 46,
     "adhesion curve": 46,

@@ -54,6 +54,12 @@ if TYPE_CHECKING:
         surface_dataset as surface_dataset,
         surface_of as surface_of,
     )
+    from roughcontact.fluid.flow_notes import notes_on_flow as notes_on_flow, notes_on_leak as notes_on_leak
+    from roughcontact.fluid.leak_dataset import (
+        flow_dataset as flow_dataset,
+        leak_dataset as leak_dataset,
+        leak_record as leak_record,
+    )
     from roughcontact.friction.slip_dataset import (
         slip_curve_dataset as slip_curve_dataset,
         slip_curve_record as slip_curve_record,
@@ -70,6 +76,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
+        plot_flow as plot_flow,
         plot_flux as plot_flux,
         plot_loop as plot_loop,
         plot_solution as plot_solution,
@@ -124,8 +131,10 @@ else:
         "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
+        "fluid.leak_dataset": "flow_dataset leak_dataset leak_record",
+        "fluid.flow_notes": "notes_on_flow notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
-        "plot.answers": "plot_curve plot_flux plot_loop plot_solution plot_state plot_surface",
+        "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.detachment_plot": "detachment_force",
         "plot.jumps": "jump_loop",
         "plot.notebook": (

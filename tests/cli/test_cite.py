@@ -10,6 +10,7 @@ MODULUS = ("--modulus", "1GPa")
 LINES = {
     "press": ("--force", "1mN", *MODULUS),
     "curve": ("--forces", "0.1mN,1mN", *MODULUS, "--hardness", "1GPa", "--theory", "gw"),
+    "leak": ("--force", "0.1N", *MODULUS, "--viscosity", "1mPa*s", "--drop", "1kPa"),
     "adhesion press": ("--depth", "1nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion curve": ("--depths", "1nm,2nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion detach": ("--force", "1mN", *MODULUS, "--work", "1mJ/m^2"),
@@ -19,6 +20,7 @@ LINES = {
 PAPERS = {
     "press": "Love1929",
     "curve": "Greenwood1966",
+    "leak": "Love1929",
     "adhesion press": "Rey2017",
     "adhesion curve": "Rey2017",
     "adhesion detach": "Pohrt2015",

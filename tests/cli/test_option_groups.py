@@ -163,13 +163,14 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
     )
     if name != "surface":
         plain["bodies"] = {"modulus": "1GPa"}
-    if name in ("press", "adhesion detach"):
+    if name in ("press", "leak", "adhesion detach"):
         plain["load"] = {"depth": "10nm"}
     if name == "curve":
         plain["loads"] = {"depths": "10nm,20nm"}
     if name.startswith("adhesion"):
         plain["adhesion"] = {"work": "1mJ/m^2", **({} if name == "adhesion detach" else {"range": "100nm"})}
     plain |= {
+        "leak": {"fluid": {"viscosity": "1mPa*s"}, "seal": {"drop": "1Pa"}},
         "adhesion press": {"load": {"depth": "-2nm"}},
         "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},
         "adhesion loop": {"turn": {"depth": "1nm", "points": "2"}},

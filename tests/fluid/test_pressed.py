@@ -161,7 +161,7 @@ def test_gases_at_300_kelvin(name, path, jump):
     ("given", "words"),
     [
         ({"fluid": rc.Gas("air"), "drop": 1e5}, "give upstream= and downstream=, absolute"),
-        ({"fluid": WATER}, "or drop= alone"),
+        ({"fluid": WATER}, "or only drop="),
         ({"fluid": WATER, "drop": -1.0}, "must exceed the downstream pressure"),
         ({"fluid": WATER, "drop": 1e9}, "exceeds the nominal pressure"),
         ({"fluid": WATER, "drop": 1e5, "seal_width": 1e-3}, "give both"),

@@ -104,6 +104,7 @@ print(json.dumps(found))
 """
 COMMANDS = [
     "press",
+    "leak",
     "curve",
     "surface prepare",
     "adhesion press",

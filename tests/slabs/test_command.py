@@ -119,5 +119,5 @@ def test_a_process_that_ends_ends_all_and_leaves_no_file(made, tmp_path, fault):
     assert "{" not in done.stdout
     if fault == "failed":
         assert "the memory does not suffice" in said
-        assert "process 1 of 2 alone" in said
+        assert "process 1 of 2 only" in said
     assert not list(tmp_path.rglob("press*"))

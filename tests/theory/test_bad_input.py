@@ -14,7 +14,16 @@ from roughcontact.theory.asperity_models import (
     greenwood_williamson,
     interaction,
 )
-from roughcontact.theory.joints import cattaneo, conductance, holm, jaeger, mindlin, thermal, ultrasound
+from roughcontact.theory.joints import (
+    cattaneo,
+    conductance,
+    holm,
+    jaeger,
+    leakage,
+    mindlin,
+    thermal,
+    ultrasound,
+)
 from roughcontact.theory.persson_theory import persson, persson_plastic, persson_separation
 from roughcontact.theory.plastic_asperities import (
     chang_etsion_bogy,
@@ -129,6 +138,7 @@ OTHERS = {
     "punch.two_discs": {"spacing": 5e-3},
     "plasticity.summit_index": {"height": np.array([1e-6, 2e-6]), "curvature": np.array([1e4, 2e4])},
     "pullen_williamson.flattened": {"heights": np.array([1e-6, 2e-6])},
+    "leakage.bruggeman": {"conductances": np.array([1.0, 2.0]), "threshold": 0.5},
     "thermal.constriction": {"ratio": 0.3},
     "ultrasound.combined": {"stiffness": np.array([1e14, 1.01e14]), "error": np.array([1e12, 1e12])},
     "ultrasound.second_harmonic": {"stiffness": 1e14, "amplitude": 1e-9},
@@ -141,6 +151,7 @@ MODULES = {
     "beat_wave": beat_wave, "bush_gibson_thomas": bush_gibson_thomas, "conductance": conductance,
     "cosine": cosine, "finite_size": finite_size, "gaussian_heights": gaussian_heights, "hertz": hertz, "holm": holm,
     "greenwood_williamson": greenwood_williamson, "height_distribution": height_distribution, "jaeger": jaeger,
+    "leakage": leakage,
     "interaction": interaction, "mindlin": mindlin, "nayak": nayak, "partial_moments": partial_moments, "punch": punch,
     "persson": persson, "persson_separation": persson_separation, "plasticity": plasticity, "thermal": thermal,
     "pohrt_popov": pohrt_popov, "power_law_indenter": power_law_indenter, "rough_sphere": rough_sphere,

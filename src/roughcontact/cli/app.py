@@ -26,6 +26,7 @@ if TYPE_CHECKING:  # tools that bundle programs follow only imports that are wri
     from roughcontact.cli.contact import (
         conductance_command as conductance_command,
         curve_command as curve_command,
+        leak_command as leak_command,
         press_command as press_command,
         theory_command as theory_command,
     )

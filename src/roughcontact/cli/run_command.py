@@ -44,6 +44,7 @@ _RESULTS = (".json", ".nc")
 # The names of the files of the jobs.
 _STEMS = {
     "press": "press",
+    "leak": "leak",
     "curve": "curve",
     "theory": "theory",
     "adhesion press": "adhesive_state",

@@ -11,6 +11,7 @@ from roughcontact.errors import InputError
 __all__ = [
     "AREA",
     "CONDUCTIVITY",
+    "DENSITY",
     "ENERGY_PER_AREA",
     "FORCE",
     "FORCE_PER_LENGTH",
@@ -20,6 +21,8 @@ __all__ = [
     "PRESSURE",
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
+    "TEMPERATURE",
+    "VISCOSITY",
     "Kind",
     "has_unit",
     "parse",
@@ -62,6 +65,9 @@ STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
 ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
+VISCOSITY = Kind("a viscosity", "Pa*s", "1mPa*s")
+DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
+TEMPERATURE = Kind("a temperature", "K", "20degC")
 
 
 def parse(text: str, kind: Kind) -> float:

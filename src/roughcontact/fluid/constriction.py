@@ -62,12 +62,15 @@ def constriction_of(network: Network, drops: Array, gap: Array, grid: Grid) -> C
     cells = np.flatnonzero(network.cells >= 0)
     inner = (network.first < len(cells)) & (network.second < len(cells))
     worst = int(np.argmax(np.where(inner, dissipation, -1.0)))
-    ends = cells[[network.first[worst], network.second[worst]]]
-    cell = int(ends[np.argmin(gap.ravel()[ends])])
-    row, column = divmod(cell, grid.shape[1])
     axis = 1 - int(network.axis[worst])
-    across = np.take(gap, column if axis == 0 else row, 1 - axis)
-    channel = _channel(across, row if axis == 0 else column, grid.periodic[axis])
+    channels = []
+    for end in (network.first[worst], network.second[worst]):
+        row, column = divmod(int(cells[end]), grid.shape[1])
+        across = np.take(gap, column if axis == 0 else row, 1 - axis)
+        channel = _channel(across, row if axis == 0 else column, grid.periodic[axis])
+        channels.append((float(np.sum(channel**3)), row, column, channel))
+    # Of both ends of the face, the one whose channel conducts less.
+    _, row, column, channel = min(channels, key=lambda each: each[0])
     alike = float(np.sum((channel / channel.max()) ** 3))
     half = max(round(alike), 3) // 2
     near = np.ones(len(cells), bool)

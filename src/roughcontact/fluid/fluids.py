@@ -162,15 +162,59 @@ class Gas:
         ----------
         pressure : float
             Absolute pressure [Pa].
+
+        Returns
+        -------
+        float
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> f"{rc.Gas('helium').mean_free_path(101325) * 1e9:.1f} nm"
+        '195.3 nm'
         """
         return self.viscosity / pressure * math.sqrt(math.pi * self.gas_constant * self.temperature / 2)
 
     def rarefaction(self, gap: float, pressure: float) -> float:
-        """Return the rarefaction parameter ``p g/(eta sqrt(2 R T))`` of a gap [m] at a pressure [Pa]."""
+        """Return the rarefaction parameter ``p g/(eta sqrt(2 R T))`` of a gap.
+
+        Parameters
+        ----------
+        gap : float
+            Gap [m].
+        pressure : float
+            Absolute pressure [Pa].
+
+        Returns
+        -------
+        float
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> round(rc.Gas("air").rarefaction(1e-6, 101325), 2)
+        13.13
+        """
         return pressure * gap / (self.viscosity * math.sqrt(2 * self.gas_constant * self.temperature))
 
     def slip_length(self, pressure: float) -> float:
-        """Return the slip length at a wall [m] at a pressure [Pa]."""
+        """Return the slip length at a wall [m].
+
+        Parameters
+        ----------
+        pressure : float
+            Absolute pressure [Pa].
+
+        Returns
+        -------
+        float
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> f"{rc.Gas('air').slip_length(101325) * 1e9:.1f} nm"
+        '77.4 nm'
+        """
         a = self.momentum_accommodation
         coefficient = (2 - a) / a * (SLIP_DIFFUSE - SLIP_SLOPE * (1 - a))
         return 2 / math.sqrt(math.pi) * coefficient * self.mean_free_path(pressure)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
 from roughcontact.contact.solution import Solution
@@ -20,7 +20,7 @@ from roughcontact.fluid.solve import NetworkFlow, solve
 from roughcontact.grid import Grid
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.note import Note, Rank, in_order
+from roughcontact.labels.note import in_order
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, Mask, numeric
 
@@ -49,6 +49,15 @@ class GapFlow:
         Largest relative difference of the two bounds.
     between : tuple of two bool arrays, optional
         Regions at the higher and at the lower pressure.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+    >>> flow.percolates, [f"{value:.3g}" for value in flow.eigenvalues]
+    (True, ['2.19e-22', '1.48e-22'])
     """
 
     solution: Solution
@@ -102,6 +111,12 @@ class GapFlow:
         return lower * self._unit, upper * self._unit
 
     @property
+    def eigenvalues(self) -> Array:
+        """Eigenvalues of the transmissivity, the larger first [m^3]; one from side to side."""
+        found: Array = np.linalg.eigvalsh(self.transmissivity)[::-1].astype(np.float64)
+        return found
+
+    @property
     def hydraulic_gap(self) -> float:
         """Uniform gap with the same mean transmissivity [m]."""
         return float(np.cbrt(np.trace(self.transmissivity) / self._rank))
@@ -118,6 +133,15 @@ class GapFlow:
         -------
         array, shape of the grid
             From 1 to 0 along the flow.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> flow.pressure().shape
+        (64, 64)
         """
         if self._network is None or self._flow is None:
             return np.full(self._grid.shape, math.nan)
@@ -130,7 +154,27 @@ class GapFlow:
         return values
 
     def flux(self, direction: int = 0) -> tuple[Array, Array]:
-        """Return the flux along both axes for a unit drop and a viscosity of 1/12 [m^2], in the middle of the cells."""
+        """Return the flux along both axes for a unit drop and a viscosity of 1/12 [m^2], in the middle of the cells.
+
+        Parameters
+        ----------
+        direction : int
+            Axis of the mean drop on a periodic map, over one period; 0 otherwise.
+
+        Returns
+        -------
+        tuple of two arrays, shape of the grid
+            Along y and along x.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> [each.shape for each in flow.flux(1)]
+        [(64, 64), (64, 64)]
+        """
         shape = self._grid.shape
         if self._network is None or self._flow is None:
             return np.zeros(shape), np.zeros(shape)
@@ -151,58 +195,52 @@ class GapFlow:
     @cached_property
     def constriction(self) -> Constriction | None:
         """The critical constriction, of the better conducting principal direction; None without flow."""
-        if self._network is None or self._flow is None:
+        return None if self._flow is None else self._constriction(np.linalg.eigh(self._flow.upper)[1][:, -1])
+
+    def constriction_along(self, direction: int) -> Constriction | None:
+        """Return the critical constriction of the flow by a drop along one direction; None without flow.
+
+        Parameters
+        ----------
+        direction : int
+            Axis of the mean drop on a periodic map; 0 otherwise.
+
+        Returns
+        -------
+        Constriction or None
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> flow = rc.gap_flow(rc.press(surface, 1e9, pressure=2e6))
+        >>> flow.constriction_along(0).cells
+        28
+        """
+        return self._constriction(np.eye(self._rank)[direction])
+
+    def _constriction(self, weights: Array) -> Constriction | None:
+        if self._network is None or self._flow is None or not weights @ self._flow.upper @ weights > 0:
             return None
-        weights = np.linalg.eigh(self._flow.upper)[1][:, -1]
-        drops = weights @ self._network.drops(self._flow.potential)
-        return constriction_of(self._network, drops, self.gap, self._grid)
+        return constriction_of(
+            self._network, weights @ self._network.drops(self._flow.potential), self.gap, self._grid
+        )
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order(self.ranked_notes())
+        return in_order(methods.notes_on_flow(self))
+
+    plot = methods.plot_flow
+    to_dataset = methods.flow_dataset
 
     def __repr__(self) -> str:
         """Return the main numbers."""
         if not self.percolates:
             return "GapFlow(no open path)"
-        values = " and ".join(
-            f"{value:.4g}"
-            for value in np.linalg.eigvalsh(self.transmissivity)[::-1][: len(self.windings) or 1]
-        )
+        values = " and ".join(f"{value:.4g}" for value in self.eigenvalues[: len(self.windings) or 1])
         return f"GapFlow(transmissivity {values} m^3, bounds within {self.residual:.0e})"
-
-    def ranked_notes(self) -> Iterator[Note]:
-        """Yield the notes with their ranks."""
-        if self._flow is None:
-            yield Note(
-                Rank.LIMITED,
-                "No open path leads through the gap: nothing flows but what the cells do not resolve.",
-            )
-            return
-        if not self.residual <= self.tolerance:
-            yield Note(
-                Rank.WRONG,
-                f"The bounds of the flow differ by {self.residual:.1e}, where {self.tolerance:.0e} was asked for.",
-            )
-        place = self.constriction
-        if place is not None and not place.resolved:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The critical constriction is {place.cells} cells wide and takes {place.share:.0%} of the drop: there "
-                "the flow depends on the grid. Use smaller cells, or quote the order of magnitude only.",
-            )
-        if len(self.windings) == 1:
-            vector = tuple(int(each) for each in self.windings[0])
-            yield Note(
-                Rank.LIMITED,
-                f"The open cells percolate along {vector} periods only: across it nothing flows.",
-            )
-        if self.solution.missing:
-            yield Note(
-                Rank.LIMITED,
-                f"{self.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
-            )
 
     @property
     def _grid(self) -> Grid:
@@ -221,7 +259,7 @@ class GapFlow:
 
     @property
     def _conductance(self) -> Array:
-        """Of the cells, in units of `_scale`."""
+        """Conductances of the cells, in units of `_scale`."""
         return (self.gap**3 + 6 * self.slip_length * self.gap**2) / self._scale
 
     @property

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
+from roughcontact.fluid.constriction import Constriction
 from roughcontact.fluid.fluids import Gas, Liquid
 from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow
-from roughcontact.labels.note import Note, Rank, in_order
+from roughcontact.grid import AnyGrid
+from roughcontact.labels.note import in_order
 from roughcontact.validation import Mask, numeric
 
-__all__ = ["Leak", "leak"]
+__all__ = ["Leak", "leak", "shape_factor"]
 
 RAREFIED = 5.0  # rarefaction parameter from which a slip length describes the flow
-SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid hardly opens the joint
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +32,21 @@ class Leak:
         The flow that it follows from.
     fluid : Liquid or Gas
     upstream, downstream : float
-        Pressures on both sides [Pa]; of a liquid whose drop alone was given, the drop and zero.
+        Pressures on both sides [Pa]; the drop and zero where only the drop of a liquid was given.
     volume : float
         Volume flow [m^3/s]; of a gas, at the mean pressure.
+    direction : int
+        Axis of the mean drop on a periodic map; 0 otherwise.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> solution = rc.press(surface, 1e9, pressure=2e6)
+    >>> found = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
+    >>> found.drop, found.constriction.cells
+    (100000.0, 28)
     """
 
     flow: GapFlow
@@ -41,6 +54,12 @@ class Leak:
     upstream: float
     downstream: float
     volume: float
+    direction: int = 0
+
+    @property
+    def constriction(self) -> Constriction | None:
+        """The critical constriction of this flow; None without flow."""
+        return self.flow.constriction_along(self.direction)
 
     @property
     def drop(self) -> float:
@@ -60,18 +79,16 @@ class Leak:
     @property
     def reynolds(self) -> float:
         """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density."""
-        place = self.flow.constriction
+        place = self.constriction
         if place is None:
             return 0.0
-        flux = max(
-            float(np.hypot(*self.flow.flux(each)).max()) for each in range(len(self.flow.transmissivity))
-        )
+        flux = float(np.hypot(*self.flow.flux(self.direction)).max())
         return self._density * flux * self.drop / (12 * self.fluid.viscosity**2) * place.gap / place.width
 
     @property
     def rarefaction(self) -> float:
         """Rarefaction parameter in the critical constriction at the mean pressure [1]; infinite for a liquid."""
-        place = self.flow.constriction
+        place = self.constriction
         if place is None or not isinstance(self.fluid, Gas):
             return math.inf
         return self.fluid.rarefaction(place.gap, self._mean)
@@ -79,26 +96,10 @@ class Leak:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences; those of the flow among them."""
-        return in_order((*self._notes(), *self.flow.ranked_notes()))
+        return in_order(methods.notes_on_leak(self))
 
-    def _notes(self) -> Iterator[Note]:
-        nominal = self.flow.solution.nominal_pressure
-        if self.drop > SMALL_DROP * nominal:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The drop is {self.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
-                "leaks than computed.",
-            )
-        if isinstance(self.fluid, Liquid) and self.downstream < self.fluid.vapour_pressure:
-            yield Note(
-                Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
-            )
-        if self.reynolds > 1:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The reduced Reynolds number is {self.reynolds:.2g} in the critical constriction: inertia counts, and "
-                "less leaks than computed.",
-            )
+    to_dataset = methods.leak_dataset
+    to_record = methods.leak_record
 
     @property
     def _mean(self) -> float:
@@ -179,6 +180,7 @@ def leak(
             "drop",
         )
     is_periodic = all(solution.problem.grid.periodic) and between is None
+    shape = shape_factor(solution.problem.grid, axis, seal_width, circumference, between is not None)
     slip = fluid.slip_length(0.5 * (upstream + downstream)) if isinstance(fluid, Gas) else 0.0
     flow = gap_flow(
         solution,
@@ -187,11 +189,9 @@ def leak(
         missing=missing,
         slip_length=slip,
     )
-    shape = _shape_factor(flow, axis, seal_width, circumference)
-    along = flow.transmissivity[axis, axis] if is_periodic else flow.transmissivity[0, 0]
-    found = Leak(
-        flow, fluid, upstream, downstream, along * shape / (12 * fluid.viscosity) * (upstream - downstream)
-    )
+    direction = axis if is_periodic else 0
+    conductance = flow.transmissivity[direction, direction] * shape / (12 * fluid.viscosity)
+    found = Leak(flow, fluid, upstream, downstream, conductance * (upstream - downstream), direction)
     if not found.rarefaction >= RAREFIED:
         raise InputError(
             f"the gas is too rarefied in the critical constriction for a slip length: its rarefaction parameter is "
@@ -210,7 +210,7 @@ def _pressures(
         upstream, downstream = drop, 0.0
     elif drop is not None or upstream is None or downstream is None:
         remedy = "give upstream= and downstream=, absolute" + (
-            "" if isinstance(fluid, Gas) else ", or drop= alone"
+            "" if isinstance(fluid, Gas) else ", or only drop="
         )
         raise InputError("the pressures on both sides do not follow", remedy, "upstream, downstream")
     if not 0 <= downstream < upstream < math.inf:
@@ -220,23 +220,24 @@ def _pressures(
     return upstream, downstream
 
 
-def _shape_factor(flow: GapFlow, axis: int, seal_width: float | None, circumference: float | None) -> float:
+def shape_factor(
+    grid: AnyGrid, axis: int, seal_width: float | None, circumference: float | None, between: bool = False
+) -> float:
     """Return the length across the flow over that along it [1]; one for a flow between two regions."""
     if (seal_width is None) != (circumference is None):
         raise InputError("a seal has a width and a circumference", "give both", "seal_width, circumference")
     if seal_width is not None and circumference is not None:
-        if flow.between is not None:
+        if between:
             raise InputError(
                 "between two regions the flow has no seal width", "leave seal_width and circumference out"
             )
         return circumference / seal_width
-    if flow.between is not None:
+    if between:
         return 1.0
-    if flow.axis is None:
+    if all(grid.periodic):
         raise InputError(
             "a periodic map is a sample of a seal",
-            "give seal_width= and circumference=",
+            "give the width and the circumference of the seal",
             "seal_width, circumference",
         )
-    lengths = flow.solution.problem.grid.lengths
-    return lengths[1 - axis] / lengths[axis]
+    return grid.lengths[1 - axis] / grid.lengths[axis]

@@ -47,8 +47,8 @@ def solve(network: Network, tolerance: float) -> NetworkFlow:
 
     The bounds follow from Dirichlet's and Thomson's principles: any potential dissipates at least as much as the
     solution, any flow without sources at least as much per squared mean flow. The flow is that of the potential, made
-    free of sources along a spanning tree of the best conducting faces. Both errors are quadratic in the residual, which
-    alone says nothing: close to the percolation threshold conductances differ by 1e12.
+    free of sources along a spanning tree of the best conducting faces. Both errors are quadratic in the residual.
+    A residual proves nothing: close to the percolation threshold conductances differ by 1e12.
     """
     free = np.ones(network.count, bool)
     free[network.fixed] = False

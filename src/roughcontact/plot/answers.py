@@ -15,13 +15,15 @@ from roughcontact.contact.loop import Loop
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import about
 from roughcontact.evaluation.contact_flux import ContactFlux
+from roughcontact.fluid.gap_flow import GapFlow
 from roughcontact.plot import curves, flux_plot, loops, maps, profile_plot
+from roughcontact.plot.flow_map import flow_map
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.preparation.spikes import Spikes
 from roughcontact.surface.surface import Surface
 
-__all__ = ["plot_curve", "plot_flux", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
+__all__ = ["plot_curve", "plot_flow", "plot_flux", "plot_loop", "plot_solution", "plot_state", "plot_surface"]
 
 
 def plot_surface(surface: Surface, ax: Axes | None = None, *, spikes: Spikes | None = None) -> Axes:
@@ -85,6 +87,32 @@ def plot_solution(
         one = {"pressure": profile_plot.pressure_profile, "contact": profile_plot.contact_profile}
         return one[field](solution, ax)
     return maps.pressure_map(solution, ax) if field == "pressure" else maps.contact_map(solution, ax)
+
+
+def plot_flow(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Axes:
+    """Draw the gap with the contact, flow lines, and the critical constriction.
+
+    Parameters
+    ----------
+    flow : GapFlow
+    ax : Axes, optional
+        Axes to draw on; by default those of a new figure.
+    direction : int
+        Axis of the mean drop on a periodic map; 0 otherwise.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+    >>> rc.gap_flow(rc.press(surface, 1e9, pressure=2e6)).plot(direction=1).get_xlabel()
+    'x [µm]'
+    """
+    return flow_map(flow, ax, direction=direction)
 
 
 def plot_curve(

@@ -10,6 +10,7 @@ from roughcontact.errors import InputError, within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
+from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -19,7 +20,14 @@ __all__ = [
 ]
 
 JobOfHeights: TypeAlias = (
-    SurfaceJob | PressJob | CurveJob | AdhesivePressJob | AdhesiveCurveJob | AdhesiveLoopJob | DetachJob
+    SurfaceJob
+    | PressJob
+    | LeakJob
+    | CurveJob
+    | AdhesivePressJob
+    | AdhesiveCurveJob
+    | AdhesiveLoopJob
+    | DetachJob
 )
 Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
@@ -27,6 +35,7 @@ JOBS: Mapping[str, type[Any]] = {
     for job in (
         SurfaceJob,
         PressJob,
+        LeakJob,
         CurveJob,
         AdhesivePressJob,
         AdhesiveCurveJob,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
-from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, MODULUS, Kind
+from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, MODULUS, TEMPERATURE, Kind
 from roughcontact.recipe.job_calls import Call
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ __all__ = [
     "ranges",
     "rising_loads",
     "size",
+    "temperature",
     "whole",
 ]
 
@@ -44,6 +45,7 @@ METALS = (
 )  # those of `materials`, which imports NumPy: help and completion must be fast
 RIGID = "rigid"
 MOST_LOADS = 100_000
+ZERO_CELSIUS = 273.15  # K
 _FOAM = 1e6  # Pa: soft polyurethane foams have 0.1 MPa or less, rubber some MPa
 
 
@@ -250,6 +252,14 @@ def linear_loads(text: str, kind: Kind) -> list[float]:
             f"{text!r} holds no load", f"write 0{kind.unit},20n{kind.unit},-20n{kind.unit} or a range"
         )
     return [load for k, load in enumerate(loads) if k == 0 or load != loads[k - 1]]
+
+
+def temperature(text: str) -> float:
+    """Return a temperature [K] of "293K" or "20degC"."""
+    unit = quantity.unit_in(text)
+    if unit in ("degC", "°C"):
+        return quantity.parse_number(text.strip().removesuffix(unit), TEMPERATURE.example) + ZERO_CELSIUS
+    return Amount(TEMPERATURE)(text)
 
 
 def band(text: str) -> tuple[float, float]:

@@ -30,6 +30,7 @@ if TYPE_CHECKING or _LATE is None:
         holm as holm,
         jaeger as jaeger,
         joint as joint,
+        leakage as leakage,
         mindlin as mindlin,
         thermal as thermal,
         ultrasound as ultrasound,

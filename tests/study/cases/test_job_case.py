@@ -31,6 +31,14 @@ STICKY = {
 }
 JOBS = {  # with what its record is sure to hold, and along what it lies
     "press": ({"load": {"force": "10N"}, "source": MADE, "bodies": BODIES}, "depth", ()),
+    "leak": (
+        {
+            **{"load": {"force": "100N"}, "source": MADE, "bodies": BODIES},
+            **{"fluid": {"viscosity": "1mPa*s"}, "seal": {"drop": "1bar"}},
+        },
+        "leak_rate",
+        (),
+    ),
     "curve": ({"loads": {"depths": "0.1um,0.2um"}, "source": MADE, "bodies": BODIES}, "stiffness", ("load",)),
     "adhesion press": ({"load": {"depth": "1nm"}, **STICKY}, "force", ()),
     "adhesion curve": ({"loads": {"depths": "-10nm,10nm"}, **STICKY}, "force", ("load",)),

@@ -14,6 +14,7 @@ from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
+from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.source import File
 from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
@@ -73,9 +74,9 @@ class PageRequest:
             return files[file.file]
 
         job = from_plain(plain)
-        if isinstance(job, TheoryJob):
+        if isinstance(job, TheoryJob | LeakJob):
             raise InputError(
-                "the page shows surfaces, and a job of theories has none",
+                f"the page does not show the job {job.NAME!r}",
                 "use the command roughcontact run",
                 "job",
             )

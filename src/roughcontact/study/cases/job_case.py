@@ -29,7 +29,7 @@ from roughcontact.study.nested_names import at, flat
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
-_ANSWERS = ("loop", "curve", "state", "solution")  # the first that exists is the answer
+_ANSWERS = ("leak", "loop", "curve", "state", "solution")  # the first that exists is the answer
 _KEPT = {"load", "axis"}  # dimensions of a record, without those of maps and spots
 
 

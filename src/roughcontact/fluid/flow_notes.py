@@ -1,0 +1,79 @@
+"""Notes on the flow through a gap, and on a leak."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from roughcontact.fluid.constriction import Constriction
+from roughcontact.fluid.fluids import Liquid
+from roughcontact.fluid.gap_flow import GapFlow
+from roughcontact.fluid.leak import Leak
+from roughcontact.labels.note import Note, Rank
+
+__all__ = ["notes_on_flow", "notes_on_leak"]
+
+SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid barely opens the joint
+
+
+def notes_on_flow(flow: GapFlow) -> Iterator[Note]:
+    """Yield the notes on a flow."""
+    yield from _flow(flow)
+    yield from _constriction(flow.constriction)
+
+
+def _flow(flow: GapFlow) -> Iterator[Note]:
+    if not flow.percolates:
+        yield Note(
+            Rank.LIMITED,
+            "No open path leads through the gap: nothing flows but what the cells do not resolve.",
+        )
+        return
+    if not flow.residual <= flow.tolerance:
+        yield Note(
+            Rank.WRONG,
+            f"The bounds of the flow differ by {flow.residual:.1e}, where {flow.tolerance:.0e} was asked for.",
+        )
+    if len(flow.windings) == 1:
+        vector = tuple(int(each) for each in flow.windings[0])
+        yield Note(
+            Rank.LIMITED,
+            f"The open cells percolate along {vector} periods only: across it nothing flows.",
+        )
+    if flow.solution.missing:
+        yield Note(
+            Rank.LIMITED,
+            f"{flow.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
+        )
+
+
+def notes_on_leak(leak: Leak) -> Iterator[Note]:
+    """Yield the notes on a leak, with those on its flow."""
+    yield from _flow(leak.flow)
+    yield from _constriction(leak.constriction)
+    nominal = leak.flow.solution.nominal_pressure
+    if leak.drop > SMALL_DROP * nominal:
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The drop is {leak.drop / nominal:.0%} of the nominal pressure: the fluid opens the joint, and more "
+            "leaks than computed.",
+        )
+    if isinstance(leak.fluid, Liquid) and leak.downstream < leak.fluid.vapour_pressure:
+        yield Note(
+            Rank.DOUBTFUL, "The pressure falls below the vapour pressure: the liquid boils in the gap."
+        )
+    if leak.reynolds > 1:
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The reduced Reynolds number is {leak.reynolds:.2g} in the critical constriction: inertia counts, and "
+            "less leaks than computed.",
+        )
+
+
+def _constriction(place: Constriction | None) -> Iterator[Note]:
+    if place is not None and not place.resolved:
+        cells = f"{place.cells} cells" if place.cells > 1 else "one cell"
+        yield Note(
+            Rank.DOUBTFUL,
+            f"The critical constriction is {cells} wide and takes {place.share:.0%} of the drop: there "
+            "the flow depends on the grid. Use smaller cells, or quote the order of magnitude only.",
+        )
