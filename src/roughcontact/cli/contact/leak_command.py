@@ -46,7 +46,7 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     The fluid does not press on the bodies: its drop of pressure must be below the nominal pressure. A periodic map is a
     sample of a seal, whose width and circumference must be given.
     """
-    from roughcontact.contact.notes import notes_on
+    from roughcontact.contact.notes.solution_notes import notes_on
     from roughcontact.fluid.flow_notes import notes_on_leak
     from roughcontact.theory import leakage
 
