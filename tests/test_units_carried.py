@@ -158,6 +158,7 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
+UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K"}
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
@@ -227,6 +228,8 @@ def unit_of(call, name, good):
         return None  # of forces or of displacements
     if call is rc.press and good.get("operator") is LINE_OPERATOR and name == "force":
         return "N/m"
+    if call is rc.joint_conductance and name == "film" and "resistivities" in good:
+        return "ohm*m^2"
     return UNIT.get(name)
 
 
