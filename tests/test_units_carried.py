@@ -137,10 +137,22 @@ MORE = [
         {"joint": JOINT, "modulus": 5e10, "names": "mikic", "pressures": [1e6]}
         | {"resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)},
     ),
+    (rc.joint_conductance, {"solution": PRESSED, "conductivities": (30.0, 40.0), "emissivities": (0.5, 0.5),
+                            "temperature": 300.0, "film": 1e-7}),
+    (rc.joint_conductance, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "film": 1e-12}),
+    (rc.Gas("air", pressure=1e5, accommodation=(0.9, 0.9)).conductance, {"gap": np.array([1e-6, 2e-6])}),
     (rc.conductance, {"contact": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)}),
     (rc.interface_table, {"curve": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0), "area": 1e-6}),
     (rc.contact_flux, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "drop": 0.5}),
     (rc.contact_flux, {"solution": PRESSED, "conductivities": (30.0, 40.0)}),
+    (rc.Liquid, {"viscosity": 1e-3, "density": 1000.0, "vapour_pressure": 2e3}),
+    (rc.Gas, {"name": "air", "temperature": 300.0, "pressure": 1e5, "accommodation": (0.9, 0.9),
+              "momentum_accommodation": 0.9}),
+    *((getattr(rc.Gas("air"), name), {"pressure": 1e5}) for name in ("mean_free_path", "slip_length")),
+    (rc.Gas("air").rarefaction, {"gap": 1e-6, "pressure": 1e5}),
+    (rc.gap_flow, {"solution": PRESSED, "axis": 0, "slip_length": 1e-8}),
+    (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
+    (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "upstream": 2e3, "downstream": 1e3}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
@@ -151,8 +163,9 @@ MORE = [
 UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
-    " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid",
-    "Pa": "young_modulus modulus hardness pressure pressures initial",
+    " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
+    " slip_length seal_width circumference",
+    "Pa": "young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",
     "J/m^2": "work",
@@ -160,13 +173,8 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
-UNIT |= {
-    "resistivities": "ohm*m",
-    "resistivity": "ohm*m",
-    "conductivities": "W/m/K",
-    "conductivity": "W/m/K",
-    "drop": "V",
-}
+UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
+UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
 MDR = rc.mdr
@@ -231,10 +239,16 @@ def unit_of(call, name, good):
         return "m"
     if call is rc.Force:
         return "N"
+    if (call, name) == (rc.leak, "drop"):
+        return "Pa"
+    if (call, name) == (rc.Liquid, "density"):
+        return "kg/m^3"
     if call is rc.load_cycle:
         return None  # of forces or of displacements
     if call is rc.press and good.get("operator") is LINE_OPERATOR and name == "force":
         return "N/m"
+    if call is rc.joint_conductance and name == "film" and "resistivities" in good:
+        return "ohm*m^2"
     return UNIT.get(name)
 
 

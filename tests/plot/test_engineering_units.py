@@ -105,8 +105,9 @@ def test_every_unit_of_the_table_can_be_printed():
         {"", "N", "m", "N/m", "m²", "m³", "J", "Pa"},
         {"S", "ohm", "W/K", "K/W", "A", "V", "W", "K"},
     )
+    flows = {"m³/s", "kg/s", "Pa·m³/s"}
     per_area = {"J/m²", "Pa/m", "S/m²", "m²·ohm", "W/m²/K", "m²·K/W", "A/m²", "W/m²"}
-    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance | per_area
+    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance | flows | per_area
 
 
 def test_a_stiffness_per_area_is_in_the_unit_of_machine_design():

@@ -131,8 +131,8 @@ def conductance(
         [W/K] and ``thermal_resistance`` [K/W] for conductivities: along the curve, or one number. For the interface
         also over the nominal area: ``electrical_conductance_per_area`` [S/m^2], ``electrical_resistance_per_area`` [ohm
         m^2], ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``thermal_resistance_per_area`` [m^2 K/W]. Films,
-        gas and radiation are not included. For a dataset, the same dataset with these values as further columns, which
-        `roughcontact.plot.resistance_curve` draws.
+        gas and radiation are not included, see `roughcontact.joint_conductance`. For a dataset, the same dataset with
+        these values as further columns, which `roughcontact.plot.resistance_curve` draws.
 
     Raises
     ------

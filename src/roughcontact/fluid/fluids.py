@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from roughcontact.errors import InputError, about
-from roughcontact.validation import Array, require_numbers, scalar
+from roughcontact.validation import Array, numeric, require_numbers, scalar
 
 __all__ = ["Gas", "Liquid"]
 
@@ -238,18 +238,31 @@ class Gas:
         ratio = 2 * self.heat_ratio / (self.heat_ratio + 1)
         return walls * ratio * self.mean_free_path(self.pressure) / self.prandtl
 
+    @numeric(gap="m")
     def conductance(self, gap: float | Array) -> Array:
-        """Return the conductance ``k_g/(gap + jump distance)`` of gaps [m], per area [W/(m^2 K)].
+        """Return the conductance ``k_g/(gap + jump distance)`` of gaps per area [W/(m^2 K)].
 
         Parameters
         ----------
         gap : float or array
             Distance of both walls [m].
 
+        Returns
+        -------
+        array
+            Conductance per area [W/(m^2 K)].
+
         Raises
         ------
         ValueError
             Without pressure and accommodation coefficients.
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> air = rc.Gas("air", pressure=101325, accommodation=(1, 1))
+        >>> f"{air.conductance(2e-6):.3g} W/(m^2 K)"
+        '1.18e+04 W/(m^2 K)'
         """
         return np.asarray(self.conductivity / (gap + self.jump_distance))
 

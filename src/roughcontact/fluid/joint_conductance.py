@@ -7,8 +7,9 @@ open cells. The flux j of a unit drop fulfils ``(C + r) j = 1``, where C is the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.constants import Stefan_Boltzmann
@@ -71,24 +72,24 @@ class JointConductance:
 
     @cached_property
     def spots(self) -> float:
-        """Of the spots alone, with their film; without one, that of `roughcontact.conductance`."""
+        """Conductance of the spots with their film; without a film, that of `roughcontact.conductance`."""
         if self.film:
             return self._solve(np.zeros(self.gas_cells.shape))[0]
         return self._unit * self.solution.interfacial_stiffness_per_area
 
     @cached_property
     def gas(self) -> float:
-        """Of the gas over the open cells."""
+        """Conductance of the gas over the open cells."""
         return float(self.gas_cells.mean())
 
     @property
     def radiation(self) -> float:
-        """Of the radiation over the open cells."""
+        """Conductance of the radiation over the open cells."""
         return self.radiation_coefficient * float(np.mean(self._open))
 
     @property
     def parts_sum(self) -> float:
-        """Sum of the parts: heat spreads in the bodies as if each part were alone."""
+        """Sum of the parts, without their interaction in the bodies."""
         return self.spots + self.gas + self.radiation
 
     @property
@@ -227,7 +228,11 @@ def stiffness_on_springs(
     return area * float(pressure @ (1 + left)), displacement, float(np.sqrt(np.mean(left**2)))
 
 
-@numeric(film="m^2*K/W", temperature="K")
+def _film_unit(given: Mapping[str, Any]) -> str:
+    return "m^2*K/W" if given.get("resistivities") is None else "ohm*m^2"
+
+
+@numeric(conductivities="W/m/K", resistivities="ohm*m", film=_film_unit, temperature="K")
 def joint_conductance(
     solution: Solution,
     *,

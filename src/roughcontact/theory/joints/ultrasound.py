@@ -170,14 +170,14 @@ def amplification(reflected: float | Array, impedances: Pair) -> Array:
     Parameters
     ----------
     reflected : float or array
-        Size of the reflection |r|, below 1 and above that of a stiff joint, ``|z1 - z2|/(z1 + z2)``.
+        Size of the reflection, below 1 and above that of a stiff joint, ``|z1 - z2|/(z1 + z2)``.
     impedances : tuple of float
         Acoustic impedances of both bodies [Pa s/m].
 
     Returns
     -------
     array
-        Relative error of K/A0 over relative error of |r| [-].
+        Relative error of K/A0 over that of the reflection [-].
 
     Raises
     ------
@@ -198,7 +198,7 @@ def amplification(reflected: float | Array, impedances: Pair) -> Array:
 def best_frequency(stiffness: float | Array, impedances: Pair) -> Array:
     """Return the frequency at which an error of the reflection changes the stiffness least [Hz].
 
-    For like bodies it is ``sqrt(2) K/(2 pi z)``, where |r| is ``1/sqrt(3)``.
+    For like bodies it is ``sqrt(2) K/(2 pi z)``, where the reflection is ``1/sqrt(3)``.
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ def stiffness_from_reflection(
     Parameters
     ----------
     reflected, frequency : float or array
-        Size of the reflection |r| [-] and frequency [Hz].
+        Size of the reflection [-] and frequency [Hz].
     impedances : tuple of float
         Acoustic impedances of both bodies [Pa s/m].
     error : float or array
