@@ -155,6 +155,7 @@ class Gas:
         heat = self.heat_ratio / (self.heat_ratio - 1) * self.gas_constant
         return self.viscosity * heat / self.conductivity
 
+    @numeric(pressure="Pa")
     def mean_free_path(self, pressure: float) -> float:
         """Return the mean free path by the viscosity, ``eta/p sqrt(pi R T/2)`` [m].
 
@@ -175,6 +176,7 @@ class Gas:
         """
         return self.viscosity / pressure * math.sqrt(math.pi * self.gas_constant * self.temperature / 2)
 
+    @numeric(gap="m", pressure="Pa")
     def rarefaction(self, gap: float, pressure: float) -> float:
         """Return the rarefaction parameter ``p g/(eta sqrt(2 R T))`` of a gap.
 
@@ -197,6 +199,7 @@ class Gas:
         """
         return pressure * gap / (self.viscosity * math.sqrt(2 * self.gas_constant * self.temperature))
 
+    @numeric(pressure="Pa")
     def slip_length(self, pressure: float) -> float:
         """Return the slip length at a wall [m].
 

@@ -120,9 +120,9 @@ class JointConductance:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order(self.ranked_notes())
+        return in_order(self._ranked_notes())
 
-    def ranked_notes(self) -> Iterator[Note]:
+    def _ranked_notes(self) -> Iterator[Note]:
         """Yield the notes with their ranks."""
         if not self.additive:
             yield Note(
