@@ -475,7 +475,7 @@ def test_an_elastic_contact_of_named_metals_names_the_options_of_flow(invoke, ro
     words = ("press", rough, "--force", "1N", "--materials", "steel,aluminium")
     note = invoke(*words).stderr
     assert "of the contact area the pressure exceeds the hardness of aluminium, 1.049 GPa" in note
-    assert "First loading: give --hardness aluminium." in note
+    assert "If this is the first loading, give --hardness aluminium." in note
     assert "exceeds the hardness" in invoke("curve", *words[1:2], "--forces", "0.5N,1N", *words[4:]).stderr
     for given in (("--hardness", "aluminium"), ("--after", "2N")):
         assert "exceeds the hardness" not in invoke(*words, *given).stderr

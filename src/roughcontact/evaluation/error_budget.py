@@ -216,7 +216,7 @@ class ErrorBudget:
         return ""
 
     def __repr__(self) -> str:
-        """Return the table in SI units, and a description of each source."""
+        """Return the table in SI units, a description of each source, and the notes."""
         header, rows = self.table()
         lines = [header, *rows]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
@@ -224,7 +224,8 @@ class ErrorBudget:
             "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
             for line in lines
         ]
-        return "\n".join((*table, *(f"{name}: {words}" for name, words in self.facts())))
+        notes = (f"Note: {note}" for note in self.notes)
+        return "\n".join((*table, *(f"{name}: {words}" for name, words in self.facts()), *notes))
 
 
 def _decimals(error: float, value: float) -> int:

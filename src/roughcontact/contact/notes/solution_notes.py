@@ -85,8 +85,8 @@ def _of_hardness(solution: Solution) -> Iterator[Note]:
             Rank.WRONG,
             f"On {100 * above:.0f} % of the contact area the pressure exceeds the hardness of {softer.name}, "
             f"{written(softer.hardness, 'Pa', 4)} (the largest pressure is {most:.2g} times the hardness): "
-            f"{softer.name} flows there, and the elastic area and stiffness are wrong. First loading: give "
-            f"hardness={given}. A joint that was pressed harder before: compute unloading by loading_loop.",
+            f"{softer.name} flows there, and the elastic area and stiffness are wrong. If this is the first loading, "
+            f"give hardness={given}. If the joint was pressed harder before, compute its unloading by loading_loop.",
         )
 
 
