@@ -99,8 +99,14 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
-# Other parts of the job in which a field has a meaning: noise needs a force.
-ELSEWHERE = {field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")}
+# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures.
+ELSEWHERE = {
+    **{field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")},
+    **{
+        field: {"seal": {"upstream": "2bar", "downstream": "1bar"}}
+        for field in ("Fluid.gas", "Fluid.temperature")
+    },
+}
 
 
 def smallest(job, kind="file"):

@@ -77,7 +77,7 @@ class Seal:
         "Drop of the pressure of a liquid.", "1bar", read=Amount(PRESSURE), everyday=True
     )
     upstream: str | None = described(
-        "Absolute pressure before the seal; always needed for a gas.", "2bar", read=_ABSOLUTE
+        "Absolute pressure before the seal; always needed for a gas.", "2bar", read=Amount(PRESSURE)
     )
     downstream: str | None = described(
         "Absolute pressure behind it; 0 is vacuum.", "1bar", read=_ABSOLUTE, needs="upstream"

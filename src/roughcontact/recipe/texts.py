@@ -258,7 +258,10 @@ def temperature(text: str) -> float:
     """Return a temperature [K] of "293K" or "20degC"."""
     unit = quantity.unit_in(text)
     if unit in ("degC", "°C"):
-        return quantity.parse_number(text.strip().removesuffix(unit), TEMPERATURE.example) + ZERO_CELSIUS
+        kelvin = quantity.parse_number(text.strip().removesuffix(unit), TEMPERATURE.example) + ZERO_CELSIUS
+        if not 0 < kelvin < math.inf:
+            raise InputError(f"{text!r} is not a temperature above absolute zero", "give one such as 20degC")
+        return kelvin
     return Amount(TEMPERATURE)(text)
 
 
