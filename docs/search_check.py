@@ -16,7 +16,7 @@ from urllib.parse import urlencode
 QUESTIONS = {
     "stiffness per area": "concepts/joints",
     "thermal contact": "tutorials/thermal",
-    "current of each spot": "how-to/conductance",
+    "current of each spot": "gallery/bodies/spot_currents",
     "read a .sur file": "how-to/files",
     "my curve is unresolved": "how-to/unresolved",
     "which cut-off": "gallery/questions/short_cutoff",

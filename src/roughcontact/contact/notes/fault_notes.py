@@ -29,7 +29,7 @@ def fault_notes(solution: Solution) -> Iterator[Note]:
     if not is_map or not solution.resolved_from_below:
         return
     heights, total = surface.heights, pressure.sum()  # type: ignore[union-attr]
-    streaks = streaks_in(heights)
+    streaks, pieces = solution.problem.once("faults", lambda: _faults_of(heights))
     if (share := pressure[streaks].sum() / total) >= BORNE:
         yield Note(
             Rank.DOUBTFUL,
@@ -37,7 +37,6 @@ def fault_notes(solution: Solution) -> Iterator[Note]:
             "they are faults of the measurement. Remove them by despiked().",
         )
         return
-    pieces = {"rows": pieces_along_rows(heights), "columns": pieces_along_rows(heights.T).T}
     borne = {axis: pressure[cells].sum() / total for axis, cells in pieces.items()}
     for axis, other in (("rows", "columns"), ("columns", "rows")):
         if borne[axis] >= max(BORNE, ALONG * borne[other]):
@@ -57,6 +56,14 @@ def fault_notes(solution: Solution) -> Iterator[Note]:
             "the picture of the pressure. If these cells are faults or particles, mask the most loaded ones by "
             f"{_mask_of(pressure >= ordered[few - 1], pressure)}, and press again.",
         )
+
+
+def _faults_of(heights: Array) -> tuple[Mask, dict[str, Mask]]:
+    """Return the streaks, and the pieces along both axes: the same for all loads."""
+    return streaks_in(heights), {
+        "rows": pieces_along_rows(heights),
+        "columns": pieces_along_rows(heights.T).T,
+    }
 
 
 def _mask_of(cells: Mask, pressure: Array) -> str:
