@@ -35,10 +35,10 @@ def run(sessions, act):
     async def acted():
         async with asyncio.timeout(PATIENCE), sessions.running():
             found = await act(sessions.known[await sessions.begin()])
-            started.update(psutil.Process().children())
+            started.update(set(psutil.Process().children()) - before)
             return found
 
-    started = set(psutil.Process().children())
+    before, started = set(psutil.Process().children()), set()  # other tests may have left a process
     found = asyncio.run(acted())
     assert [each for each in started if each.is_running() and each.status() != psutil.STATUS_ZOMBIE] == []
     return found
