@@ -1,11 +1,14 @@
 """A curve says first what makes it doubtful: a contact that does not change, loads that follow no power law."""
 
+import gc
+import weakref
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.curve import collect
 from roughcontact.contact.join_curves import joined, part_of
 from roughcontact.solver.control import Status
 
@@ -129,3 +132,24 @@ def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tm
     assert not any(each.startswith("At ") for each in part_of(both, both.force > 0.05).notes)
     missed = replace(curve, status=(curve.status[0], Status.MAX_STEPS, curve.status[2]))
     assert missed.notes[0] == "1 of 3 loads missed the tolerance: see their status"
+
+
+def test_a_curve_holds_no_state_of_a_load_while_the_next_is_solved():
+    """Neither the notes nor a state's reference to itself keep the maps of a load: without the collector of cycles."""
+    states, path = (
+        [],
+        rc.loading_path(rc.self_affine(GRID, 0.8, 1e-7, 1), 1e9, pressures=[1e5, 1e6, 1e7, 1e8]),
+    )
+
+    def watched():
+        for solution in path:
+            assert [state() for state in states] == [None] * len(states)
+            states.append(weakref.ref(solution))
+            yield solution
+            del solution
+
+    gc.disable()
+    try:
+        assert len(collect(watched())) == 4
+    finally:
+        gc.enable()

@@ -319,8 +319,8 @@ def collect(path: Iterable[Solution]) -> Curve:
     flows: list[tuple[float, ...]] = []
     problem: ContactProblem | None = None
     hardness = 0.0
-    heaviest: Solution | None = None
-    of_few_cells: list[tuple[float, Note]] | None = None
+    on_largest: tuple[float, tuple[Note, ...]] = (-math.inf, ())
+    few: tuple[tuple[float, Note], ...] | None = None
     names = (*CURVE_POINTS, *names_of(CERTIFICATES))
     for solution in path:
         problem = problem or solution.problem
@@ -329,14 +329,13 @@ def collect(path: Iterable[Solution]) -> Curve:
         flows.append(flow_point(solution))
         points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)
-        if of_few_cells is None and solution.status.converged and solution.resolved_from_below:
-            of_few_cells = [(solution.force, note) for note in notes_on_few_cells(solution)]
-        if heaviest is None or solution.force >= heaviest.force:
-            heaviest = solution
+        if few is None and solution.status.converged and solution.resolved_from_below:
+            few = tuple((solution.force, note) for note in notes_on_few_cells(solution))
+        if solution.force >= on_largest[0]:
+            on_largest = solution.force, tuple(notes_on_load(solution))
         del solution  # with its maps, before the next load is solved
-    if problem is None or heaviest is None:
+    if problem is None:
         raise InputError("a curve needs at least one load")
-    few = of_few_cells or [(heaviest.force, note) for note in notes_on_few_cells(heaviest)]
     *columns, spots = np.array(points).T
     surface = problem.surface
     return Curve(
@@ -355,5 +354,5 @@ def collect(path: Iterable[Solution]) -> Curve:
         geometry=problem.geometry,
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
-        state_notes=(*((heaviest.force, note) for note in notes_on_load(heaviest)), *few),
+        state_notes=(*((on_largest[0], note) for note in on_largest[1]), *(few or ())),
     )

@@ -288,7 +288,7 @@ class ContactProblem:
         if is_numpy(separation):
             separation.flags.writeable = False
         other = replace(self, separation=separation, **changes)
-        of_surface = ("mean_separation", "first_touch", "separation_at_touch", "faults")
+        of_surface = ("mean_separation", "first_touch", "separation_at_touch", "border_step")
         other._memo.update({name: each for name, each in self._memo.items() if name not in of_surface})
         return other
 

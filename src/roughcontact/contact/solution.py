@@ -179,7 +179,7 @@ class Solution:
         gap = self.displacement + problem.separation - self.depth
         return flow_of(gap, self.plastic, problem.hardness, self._measure, problem.rise, problem.lifting)
 
-    @cached_property
+    @property
     def flattened(self) -> Solution:
         """The same state as an elastic contact of the flattened surface; the same object if nothing has flowed.
 
@@ -187,7 +187,14 @@ class Solution:
         surface, ``flattened.problem.surface``, is the flattened surface.
         """
         if self.flow is None or self.problem.flow is not None:
-            return self
+            return (
+                self  # not kept: a reference to itself would hold the maps until the collector of cycles runs
+            )
+        return self._flattened
+
+    @cached_property
+    def _flattened(self) -> Solution:
+        assert self.flow is not None
         whole = replace(self, problem=self.problem.after(self.flow))
         # Without a plastic cell, all cells in contact contribute to the stiffness already.
         return replace(whole, _frozen=None) if bool(self._measure.xp.any(self.plastic)) else whole

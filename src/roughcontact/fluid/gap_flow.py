@@ -317,7 +317,7 @@ def gap_flow(
 
     The gap is that of the solution; cells in contact are closed. The fluid does not press on the bodies: its pressure
     must be small beside the nominal pressure. What flows, and how much of it, follows for any viscosity and drop from
-    the transmissivity; see `leak_rate`.
+    the transmissivity; see `leak`.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["OPEN", "BorderStep", "border_steps", "open_border"]
 
 OPEN = 3.0  # times the steps inside: random periodic maps reach 1.8, waves 1.4; 1 in 370 profiles is above
-PAIRS = 1024  # of rows: on larger maps all of them would take the memory of several maps
+PAIRS = 128  # of rows: on larger maps all of them would take the memory of several maps
 ROUNDING = 1e-9  # of the rms height: rows that are equal differ by less
 
 
@@ -52,8 +52,9 @@ def border_steps(surface: Surface) -> tuple[BorderStep, ...]:
 
 def open_border(surface: Surface) -> BorderStep | None:
     """Return the largest step by ratio of a periodic map that does not close; None if it closes along all axes."""
-    floor = ROUNDING * surface.rms
-    steps = [step for step in border_steps(surface) if step.ratio > OPEN and step.height > floor]
+    steps = [step for step in border_steps(surface) if step.ratio > OPEN]
+    # The rms height takes the memory of several maps, too.
+    steps = [step for step in steps if step.height > ROUNDING * surface.rms]
     return max(steps, key=lambda step: step.ratio, default=None)
 
 

@@ -85,7 +85,7 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     if answer.json:
         emit(record)
     else:
-        _tell(job, found, record["bruggeman"], interval, other, half)
+        _print(job, found, record["bruggeman"], interval, other, half)
     note_all([*notes_on(solution), *notes_on_leak(found), *_notes(found, half)])
     answer.finish(folder, ("leak.json", "leak.nc", f"leak.{answer.ending}"), job, solution)
     if not converged:
@@ -163,7 +163,7 @@ def _notes(leak: Leak, half: Leak | None) -> list[Note]:
     return [Note(Rank.DOUBTFUL, f"{words}the grid does not resolve the gap. Use smaller cells.")]
 
 
-def _tell(
+def _print(
     job: LeakJob, found: Leak, bruggeman: float, interval: Any, other: Leak | None, half: Leak | None
 ) -> None:
     from roughcontact.plot.leak_facts import leak_facts, rate_words

@@ -17,7 +17,7 @@ from roughcontact.labels.variables import unit_of
 from roughcontact.materials import MATERIALS
 from roughcontact.solver.complementarity import SLIGHT, added_stiffness
 from roughcontact.statistics.fit_window import CELLS
-from roughcontact.surface.border_step import open_border
+from roughcontact.surface.border_step import BorderStep, open_border
 from roughcontact.surface.preparation.outliers import OUTLYING, height_limits
 from roughcontact.surface.surface import Surface
 
@@ -144,13 +144,18 @@ def _of_input(solution: Solution) -> Iterator[Note]:
             f"The depth, {written(solution.depth, 'm')}, is larger than the side of the map, "
             f"{written(max(problem.grid.lengths), 'm')}: check the units of depth, load and modulus.",
         )
-    if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := open_border(surface)):
+    if isinstance(surface, Surface) and is_numpy(surface.heights) and (step := _border_of(solution, surface)):
         yield Note(
             Rank.DOUBTFUL,
             f"The periodic map does not close: heights step by {written(step.height, 'm')} from one edge to the "
             f"opposite one, {step.ratio:.2g} times as much as between neighbouring cells. If the surface does "
             "not repeat itself, press it as free too and compare.",
         )
+
+
+def _border_of(solution: Solution, surface: Surface) -> BorderStep | None:
+    """Return the open border of a surface: the same for all loads on it."""
+    return solution.problem.once("border_step", lambda: open_border(surface))
 
 
 def notes_on_few_cells(solution: Solution) -> Iterator[Note]:

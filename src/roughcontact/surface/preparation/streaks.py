@@ -6,10 +6,11 @@ import math
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from roughcontact.validation import Array, Mask
 
-__all__ = ["LONG", "pieces_along_rows", "streaks_in", "tail_of"]
+__all__ = ["LONG", "pieces_along_rows", "stands_out", "streaks_and_pieces", "streaks_in", "tail_of"]
 
 LONG = 16  # cells along the line: runs of neighbours with equal sign on a rough surface are rarely this long
 _SHORT = 3  # cells along the line of a piece of a streak
@@ -24,6 +25,7 @@ _HALF, _MOST = 0.5, 0.9  # quantiles between which the tail of sizes is measured
 _EXPECTED = 1e-3  # expected number of sizes beyond the limit in a map with an exponential tail
 _CHOSEN = 100_000  # steps from which the quantiles are computed
 _FEWEST = 100
+_SAFE = 0.8  # of the limit from some pairs of lines, because the limit from all pairs may be smaller
 _ROUNDING = 16 * float(np.finfo(np.float64).eps)  # of the largest height: differences below it are rounding
 
 
@@ -46,16 +48,50 @@ def streaks_in(heights: Array) -> Mask:
     the same axis count as well, see `pieces_along_rows`; without a streak, if they have at least 32 cells and the
     pieces along the other axis less than a tenth of that.
     """
+    if heights.ndim != 2:
+        return np.zeros(heights.shape, dtype=np.bool_)
+    return streaks_and_pieces(heights)[0]
+
+
+def streaks_and_pieces(heights: Array) -> tuple[Mask, Mask, Mask]:
+    """Return the cells of streaks of a map, and those of all pieces along rows and along columns."""
     found = np.zeros(heights.shape, dtype=np.bool_)
-    if heights.ndim == 2:
-        long = [_streaks_along_rows(each) for each in (heights, heights.T)]
-        pieces = [pieces_along_rows(each) for each in (heights, heights.T)]
-        cells = [int(np.count_nonzero(each)) for each in pieces]
-        for axis in (0, 1):
-            many = cells[axis] >= max(_MANY, _ALONG * cells[1 - axis])
-            part = long[axis] | pieces[axis] if many or long[axis].any() else long[axis]
-            found |= part.T if axis else part
+    long = [_streaks_along_rows(each) for each in (heights, heights.T)]
+    pieces = [pieces_along_rows(each) for each in (heights, heights.T)]
+    cells = [int(np.count_nonzero(each)) for each in pieces]
+    for axis in (0, 1):
+        many = cells[axis] >= max(_MANY, _ALONG * cells[1 - axis])
+        part = long[axis] | pieces[axis] if many or long[axis].any() else long[axis]
+        found |= part.T if axis else part
+    return found, pieces[0], pieces[1].T
+
+
+def stands_out(heights: Array, cells: npt.NDArray[np.intp]) -> Mask:
+    """Return which of some cells, by flat indices, may belong to a raised streak or piece.
+
+    They stand out from the lines on both sides of one to four lines. For few cells this takes little time and memory:
+    the search of the whole map can be left to maps in which it may find some.
+    """
+    rows, columns = np.unravel_index(cells, heights.shape)
+    found = np.zeros(len(cells), dtype=np.bool_)
+    for along, line, across in ((heights, rows, columns), (heights.T, columns, rows)):
+        level = _SAFE * _EXTENT * _sampled_limit(along)
+        for width in range(1, _WIDE + 1):
+            for above in range(width):
+                first, last = line - above, line - above + width - 1
+                inside = np.flatnonzero((first > 0) & (last < len(along) - 1))
+                a, b, at = first[inside], last[inside], across[inside]
+                rises, falls = along[a, at] - along[a - 1, at], along[b, at] - along[b + 1, at]
+                found[inside] |= np.minimum(rises, falls) > level
     return found
+
+
+def _sampled_limit(heights: Array) -> float:
+    """Return about the limit of the steps between rows [m], from some pairs of rows."""
+    every = -(-heights.size // _CHOSEN)
+    steps: Array = heights[1::every] - heights[:-1:every]
+    sizes = np.abs(steps[~np.isnan(steps)])
+    return tail_of(sizes, heights.size)[1] if sizes.size >= _FEWEST else math.inf
 
 
 def pieces_along_rows(heights: Array) -> Mask:
