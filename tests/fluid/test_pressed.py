@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.fluid import fluids
+from roughcontact.recipe.leak_job import GASES
 
 GRID = 64
 
@@ -223,3 +225,18 @@ def test_flows_that_make_no_sense(solution, given, words):
 def test_fluids_that_make_no_sense(make, words):
     with pytest.raises(ValueError, match=words):
         make()
+
+
+def test_commands_offer_every_gas():
+    assert tuple(fluids._GASES) == GASES
+
+
+def test_a_film_has_the_unit_of_its_kind():
+    pytest.importorskip("pint")
+    import pint
+
+    unit, solution = pint.UnitRegistry(), steel()
+    found = rc.joint_conductance(solution, resistivities=(1e-8, 1e-8), film=1e-3 * unit.ohm * unit.mm**2)
+    assert found.film == pytest.approx(1e-9)
+    with pytest.raises(ValueError, match="film must be in"):
+        rc.joint_conductance(solution, conductivities=(50.0, 50.0), film=1e-3 * unit.ohm * unit.mm**2)

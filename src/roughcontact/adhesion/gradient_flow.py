@@ -2,7 +2,7 @@
 
 Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998)): damped Newton steps, which are
 those of a linearly implicit Euler method. The damping of a cell is a multiple of the curvature of its attraction, or,
-for all cells alike, of the largest curvature. From a multiple of one on, the damped Hessian is positive definite. The
+for all cells alike, of the largest curvature. From a certain multiple on, the damped Hessian is positive definite. The
 damping decreases as long as no step meets an indefinite Hessian or goes too far. The flow ends in an equilibrium if the
 energy is convex between it and the last step. If no damping by cell makes the Hessian definite, because a body under
 tension is held only by cells of constant attraction, all cells get the same damping.

@@ -80,15 +80,15 @@ class Gas:
     Parameters
     ----------
     name : {"air", "nitrogen", "helium", "argon"}
-        Properties at 300 K from the CRC Handbook; viscosity and conductivity depend on the temperature by Sutherland's
-        law.
+        Properties at 300 K as in the CRC Handbook; viscosity and conductivity depend on the temperature by Sutherland's
+        law, with commonly tabulated constants.
     temperature : float
         Temperature [K], between 200 and 600.
     pressure : float, optional
         Absolute pressure [Pa], for the conduction of heat.
     accommodation : tuple of float, optional
-        Thermal accommodation coefficients of both walls [1], for the conduction of heat: 0.85 to 0.95 for air, nitrogen
-        and argon on engineering metals, 0.3 to 0.6 for helium.
+        Thermal accommodation coefficients of both walls [1], for the conduction of heat. Often quoted are 0.85 to 0.95
+        for air, nitrogen and argon on engineering metals, 0.3 to 0.6 for helium.
     momentum_accommodation : float
         Part of the molecules that both walls reflect diffusely [1], for slip.
 
