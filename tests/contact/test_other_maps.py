@@ -161,7 +161,9 @@ def test_the_budget_adds_it_to_the_error_and_keeps_the_bias_apart():
     record = json.loads(json.dumps(budget.to_record(), allow_nan=False))
     assert record["contact_fraction"]["sampling"] == number.parts[-1]
     assert record["bias_of_size"] == found.bias_of_size
-    printed = repr(budget).splitlines()
+    lines = repr(budget).splitlines()
+    printed = [line for line in lines if not line.startswith("Note: ")]
+    assert lines == [*printed, *(f"Note: {note}" for note in budget.notes)] != printed
     assert printed[0].endswith("sampling")
     assert printed[-2] == f"sampling: order of magnitude: {found.source.how}"
     assert printed[-1].startswith(

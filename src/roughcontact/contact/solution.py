@@ -187,15 +187,12 @@ class Solution:
         surface, ``flattened.problem.surface``, is the flattened surface.
         """
         if self.flow is None or self.problem.flow is not None:
-            return (
-                self  # not kept: a reference to itself would hold the maps until the collector of cycles runs
-            )
+            return self  # not kept: a reference to itself would hold the maps until cycles are collected
         return self._flattened
 
     @cached_property
     def _flattened(self) -> Solution:
-        assert self.flow is not None
-        whole = replace(self, problem=self.problem.after(self.flow))
+        whole = replace(self, problem=self.problem.after(self.flow))  # type: ignore[arg-type]
         # Without a plastic cell, all cells in contact contribute to the stiffness already.
         return replace(whole, _frozen=None) if bool(self._measure.xp.any(self.plastic)) else whole
 
@@ -280,14 +277,11 @@ class Solution:
         """
         if self._measure.on_host:
             return self
-        problem = self.problem
-        surface = problem.surface
+        problem, surface, hardness = self.problem, self.problem.surface, self.problem.hardness
         if isinstance(surface, Surface):
             surface = replace(surface, heights=on_host(surface.heights))
         frozen = self._frozen and replace(self._frozen, tangent=on_host(self._frozen.tangent))
-        hardness = (
-            problem.hardness if isinstance(problem.hardness, int | float) else on_host(problem.hardness)
-        )
+        hardness = hardness if isinstance(hardness, int | float) else on_host(hardness)
         flow = problem.flow and problem.flow.on_host()
         separation = on_host(problem.separation)
         bodies = replace(problem, separation=separation, surface=surface, hardness=hardness, flow=flow)
