@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from operator import index
 
 import numpy as np
@@ -14,6 +14,7 @@ from roughcontact import methods
 from roughcontact.arrays import on_host
 from roughcontact.contact.curve_record import CurvePoint
 from roughcontact.contact.flow_curve import FlowCurve, flow_curve, flow_point
+from roughcontact.contact.measures import StateMeasure, measured_at, measured_columns
 from roughcontact.contact.notes.solution_notes import notes_on_few_cells, notes_on_load
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution, mean_pressure
@@ -22,7 +23,7 @@ from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 from roughcontact.labels.column import names_of, stored_in
-from roughcontact.labels.contact_columns import CERTIFICATES, POINTS
+from roughcontact.labels.contact_columns import CERTIFICATES, CURVE, FLOW, HARDNESS, POINTS
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.records import records
 from roughcontact.labels.variables import force_unit, unit_of
@@ -78,6 +79,8 @@ class Curve:
     state_notes : tuple of (float, Note)
         Notes on the states, each with its force [N]: those on the largest load, and those on single cells on the
         first resolved load, where such cells carry the largest share of the force.
+    measured : dict of str to array, shape (n,)
+        Numbers of each state by the `measures` that were given to `loading_curve`.
 
     Examples
     --------
@@ -117,6 +120,7 @@ class Curve:
     hardness: float = math.inf
     flow: FlowCurve | None = None
     state_notes: tuple[tuple[float, Note], ...] = ()
+    measured: Mapping[str, Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.force)
@@ -309,14 +313,16 @@ class Curve:
 
 CURVE_POINTS = stored_in(Curve, POINTS)
 """The columns that a curve takes from each state; the other columns follow from them."""
+_TAKEN = tuple(name for table in (*CURVE.values(), FLOW, (HARDNESS,)) for name in names_of(table))
 
 
 @one_blas_thread()
-def collect(path: Iterable[Solution]) -> Curve:
+def collect(path: Iterable[Solution], measures: Sequence[StateMeasure] = ()) -> Curve:
     """Drain a loading path into a curve; fields are not kept."""
     points: list[tuple[float, ...]] = []
     status: list[Status] = []
     flows: list[tuple[float, ...]] = []
+    measured: list[dict[str, float]] = []
     problem: ContactProblem | None = None
     hardness = 0.0
     on_largest: tuple[float, tuple[Note, ...]] = (-math.inf, ())
@@ -329,6 +335,7 @@ def collect(path: Iterable[Solution]) -> Curve:
         flows.append(flow_point(solution))
         points.append((*(getattr(solution, name) for name in names), solution.spot_count))
         status.append(solution.status)
+        measured.append(measured_at(solution, measures, _TAKEN))
         if few is None and solution.status.converged and solution.resolved_from_below:
             few = tuple((solution.force, note) for note in notes_on_few_cells(solution))
         if solution.force >= on_largest[0]:
@@ -355,4 +362,5 @@ def collect(path: Iterable[Solution]) -> Curve:
         hardness=hardness or math.inf,
         flow=flow_curve(flows),
         state_notes=(*((on_largest[0], note) for note in on_largest[1]), *(few or ())),
+        measured=measured_columns(measured),
     )

@@ -11,6 +11,7 @@ import numpy as np
 
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.flow_curve import FlowCurve, flow_point
+from roughcontact.contact.measures import measured_variables
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.spots import are_labelled
 from roughcontact.labels.column import names_of
@@ -72,6 +73,8 @@ def curve_dataset(curve: Curve) -> xarray.Dataset:
     """
     title = "normal contact stiffness of a rough surface against load"
     dataset = dataset_of(_of_curve(curve), {}, title, curve.geometry)
+    if curve.measured:
+        dataset.attrs["measured"] = list(curve.measured)
     notes = [f"{note.rank.name.lower()} at {force!r}: {note.text}" for force, note in curve.state_notes]
     return dataset.assign_attrs({"state_notes": "\n".join(notes)} if notes else {})
 
@@ -102,7 +105,7 @@ def curve_record(curve: Curve) -> dict[str, Any]:
 
 def _of_curve(curve: Curve) -> Variables:
     kind = curve.geometry
-    data = variables_of(curve, CURVE, kind)
+    data = variables_of(curve, CURVE, kind) | measured_variables(curve.measured)
     if math.isfinite(curve.hardness):
         data |= variables_of(curve, {(): (HARDNESS,)}, kind)
     return data if curve.flow is None else data | variables_of(curve.flow, {("load",): FLOW}, kind)

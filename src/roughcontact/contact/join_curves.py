@@ -24,7 +24,8 @@ def part_of(curve: Curve, chosen: Mask) -> Curve:
     columns: dict[str, Any] = {name: getattr(curve, name)[chosen] for name in _COLUMNS}
     kept = set(columns["force"].tolist())
     notes = tuple((force, note) for force, note in curve.state_notes if force in kept)
-    return replace(curve, **columns, status=status, state_notes=notes)
+    measured = {name: values[chosen] for name, values in curve.measured.items()}
+    return replace(curve, **columns, status=status, state_notes=notes, measured=measured)
 
 
 def joined(first: Curve, second: Curve) -> Curve:
@@ -60,18 +61,26 @@ def joined(first: Curve, second: Curve) -> Curve:
         raise InputError("what flows depends on the loads before", "compute all loads in one curve")
     for each in fields(Curve):
         ours, theirs = getattr(first, each.name), getattr(second, each.name)
-        if each.name not in (*_COLUMNS, "status", "state_notes") and ours != theirs:
+        if each.name not in (*_COLUMNS, "status", "state_notes", "measured") and ours != theirs:
             raise InputError(
                 f"the curves are of different contacts: {each.name} is {ours} and {theirs}",
                 "join curves of one surface and one modulus",
                 each.name,
             )
+    if first.measured.keys() != second.measured.keys():
+        raise InputError("the curves were measured in different ways", "give both the same measures")
     order = np.argsort(np.concatenate([first.depth, second.depth]), kind="stable")
     columns: dict[str, Any] = {
         name: np.concatenate([getattr(first, name), getattr(second, name)])[order] for name in _COLUMNS
+    }
+    measured = {
+        name: np.concatenate([values, second.measured[name]])[order]
+        for name, values in first.measured.items()
     }
     status = (*first.status, *second.status)
     light, heavy = sorted((first, second), key=lambda curve: curve.force.max(initial=0.0))
     lightest = [(force, note) for force, note in light.state_notes if force < light.force.max()]
     notes = (*heavy.state_notes, *lightest)
-    return replace(first, **columns, status=tuple(status[k] for k in order), state_notes=notes)
+    return replace(
+        first, **columns, status=tuple(status[k] for k in order), state_notes=notes, measured=measured
+    )

@@ -9,6 +9,7 @@ from roughcontact.contact.curve import Curve, collect
 from roughcontact.contact.flow import FlowModel, flow_reading
 from roughcontact.contact.load_history import follow_history
 from roughcontact.contact.loads.load_range import load_range
+from roughcontact.contact.measures import StateMeasure
 from roughcontact.contact.press import grid_of, make_problem
 from roughcontact.contact.problem import Body
 from roughcontact.contact.size_law import Hardness
@@ -103,6 +104,7 @@ def loading_curve(
     tolerance: float = 1e-8,
     hardness: Hardness | None = None,
     flow: FlowModel = "removed",
+    measures: Sequence[StateMeasure] = (),
 ) -> Curve:
     """Return stiffness, contact area, depth and more as functions of load.
 
@@ -129,6 +131,9 @@ def loading_curve(
     flow : {"removed", "raised"}
         What happens to material that flows: it vanishes, or raises the whole surface evenly over all measured cells,
         its volume conserved (Pullen and Williamson 1972), which changes only the depth.
+    measures : sequence of functions
+        Each returns numbers of a `Solution` by name, which become columns of the curve (`Curve.measured`): such as
+        ``lambda solution: {"largest_spot": solution.spots.areas.max()}``, or `Transmissivity`.
 
     Returns
     -------
@@ -149,7 +154,8 @@ def loading_curve(
     '2.5'
     """
     loads = Loads.given(forces=forces, depths=depths, pressures=pressures)
-    return collect(solutions_along(surface, modulus, loads, operator, solver, tolerance, hardness, flow))
+    path = solutions_along(surface, modulus, loads, operator, solver, tolerance, hardness, flow)
+    return collect(path, measures)
 
 
 def solutions_along(

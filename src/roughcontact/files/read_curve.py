@@ -83,8 +83,14 @@ def _curve(variables: Mapping[str, StoredVariable], attributes: Mapping[str, Any
         geometry=geometry,
         hardness=hardness,
         flow=flow,
+        measured={name: numbers_of(variables, name, shape) for name in _measured(attributes)},
         state_notes=tuple(map(_note, word_of(attributes.get("state_notes", "")).splitlines())),
     )
+
+
+def _measured(attributes: Mapping[str, Any]) -> list[str]:
+    """Return the names of the columns that measures have added."""
+    return [word_of(name) for name in np.atleast_1d(attributes.get("measured", ())).tolist()]
 
 
 def _note(line: str) -> tuple[float, Note]:
