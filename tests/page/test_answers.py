@@ -130,6 +130,24 @@ def test_conductances_of_points_are_those_of_the_python_that_is_stated(ask):
         assert [point[name] for point in points] == space["conductance"][name].tolist()
 
 
+def test_the_flow_at_each_point_is_that_of_the_python_that_is_stated(ask):
+    """Computed once for a point and the curve; its columns stand beside the others, and in the files."""
+    parts = {"loads": LOADS, "leak": {"leak": "1"}}
+    said = ask(curve, **parts)
+    [loads], points = of(said, "loads"), of(said, "point")
+    assert {"hydraulic_gap", "transmissivity", "percolates"} <= {each["name"] for each in loads["columns"]}
+    [stated], space = of(said, "stated"), {}
+    assert "--leak 1" in stated["command"]
+    exec(stated["python"], space)
+    for name in ("hydraulic_gap", "flow_factor", "percolates"):
+        assert [point[name] for point in points] == space["curve"].measured[name].tolist()
+    assert any(name == "open path" for name, _ in of(said, "curve")[0]["facts"])
+    [(_, table)] = [each for each in ask(export, {"kind": "csv"}, **parts) if each[1]]
+    assert b"hydraulic_gap [m]" in table
+    without = of(ask(curve, loads=LOADS), "loads")[0]["columns"]
+    assert not any(each["name"] == "hydraulic_gap" for each in without)
+
+
 def test_one_rigid_body_conducts_nothing(ask):
     [loads] = of(ask(curve, loads=LOADS, bodies={"materials": "steel,rigid"}), "loads")
     assert not any("conductance" in column["name"] for column in loads["columns"])

@@ -35,8 +35,7 @@ class InterfaceTable:
     conductances : dict of array
         ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], if known.
     flow : dict of array
-        ``hydraulic_gap`` [m] and ``flow_factor`` (transmissivity over the cubed mean gap), if the curve has the measure
-        `Transmissivity`.
+        ``hydraulic_gap`` [m] and ``flow_factor``, if the curve has the measure `Transmissivity`.
     area : float
         Nominal area of a table of forces [m^2].
     periodic : bool

@@ -26,8 +26,8 @@ class Transmissivity:
     The columns are ``transmissivity`` [m^3], ``hydraulic_gap`` [m], ``flow_factor`` (transmissivity over the cubed mean
     gap, Patir and Cheng), ``percolates`` (1 or 0), ``constriction_cells``, ``constriction_share``,
     ``transmissivity_bruggeman`` [m^3] (theory) and ``flow_residual``. Where no open path leads along the axis, the
-    share is NaN and all other columns except the theory are 0. The flow factor is infinite where the mean gap is not
-    positive, which only plastic flow causes.
+    share is NaN and all other columns except the theory are 0. Cells in contact count as 0 in the mean gap of the flow
+    factor, also plastic ones, whose gap is negative in the column ``mean_gap``.
 
     Parameters
     ----------
@@ -76,12 +76,11 @@ class Transmissivity:
         percolates = bool(flow.windings[:, along].any()) if tensor else flow.percolates
         place = flow.constriction_along(along) if percolates else None
         kappa = float(flow.transmissivity[along, along]) if percolates else 0.0
-        cubed = max(float(solution.mean_gap), 0.0) ** 3
-        factor = kappa and (kappa / cubed if cubed > 0 else math.inf)
+        mean = float(flow.gap[solution.problem.measured].mean())
         return {
             "transmissivity": kappa,
             "hydraulic_gap": math.nan if between else math.cbrt(kappa),
-            "flow_factor": math.nan if between else factor,
+            "flow_factor": math.nan if between else kappa and kappa / mean**3,
             "percolates": float(percolates),
             "constriction_cells": 0.0 if place is None else float(place.cells),
             "constriction_share": math.nan if place is None else place.share,
@@ -109,7 +108,7 @@ def leak_rates(curve: Curve, fluid: Liquid, *, drop: float, seal_width: float, c
     Returns
     -------
     array, shape (n,)
-        Volume flow [m^3/s]; NaN at loads whose nominal pressure is below the drop, where the fluid separates the bodies.
+        Volume flow [m^3/s]; NaN where the drop exceeds the nominal pressure, so that the fluid separates the bodies.
 
     Raises
     ------

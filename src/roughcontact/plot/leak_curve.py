@@ -21,7 +21,7 @@ __all__ = ["leak_curve"]
 
 _COLOUR, _THEORY = "#0072b2", "#009e73"
 _POWERS = {"hydraulic_gap": 1 / 3, "transmissivity": 1.0}  # of the transmissivity
-_LOW = 0.03  # height of the marks of closed gaps, as a part of the axes
+_BAND = 0.08  # height of the band of closed gaps, as a part of the axes
 
 
 @numeric
@@ -34,7 +34,7 @@ def leak_curve(
 ) -> Axes:
     """Draw the hydraulic gap or the transmissivity against nominal pressure, and Bruggeman's theory of it.
 
-    Both axes are logarithmic. Loads at which no open path leads through the gap have crosses at the lower edge.
+    Both axes are logarithmic. Loads at which no open path leads through the gap have crosses in a band below.
 
     Parameters
     ----------
@@ -86,10 +86,17 @@ def leak_curve(
     order = np.argsort(pressure, kind="stable")
     shown = order[theory[order] > 0]
     style: Any = {"color": _THEORY, "linewidth": 1.4, "zorder": 2.5, "label": "Bruggeman's theory"}
-    axes.plot(pressure[shown] * x.factor, theory[shown] * y.factor, **style)
+    if shown.size:
+        axes.plot(pressure[shown] * x.factor, theory[shown] * y.factor, **style)
     closed = curve.measured["percolates"] == 0
-    if closed.any():
-        low: Any = {"transform": axes.get_xaxis_transform(), "color": _COLOUR, "label": "no open path"}
-        axes.plot(pressure[closed] * x.factor, np.full(int(closed.sum()), _LOW), "x", markersize=5, **low)
+    if closed.any():  # below the computed points
+        low, high = axes.get_ylim()
+        bottom = low * (low / high) ** (_BAND / (1 - _BAND))
+        axes.set_ylim(bottom, high)
+        axes.axhspan(bottom, low, facecolor="0.92", zorder=0)
+        style = {"transform": axes.get_xaxis_transform(), "color": _COLOUR, "label": "no open path"}
+        axes.plot(
+            pressure[closed] * x.factor, np.full(int(closed.sum()), _BAND / 2), "x", markersize=5, **style
+        )
     axes.legend(fontsize=TICK, frameon=False)
     return axes
