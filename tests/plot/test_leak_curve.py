@@ -50,6 +50,7 @@ def test_curves_without_a_path_and_without_a_closed_gap(curve):
         {line.get_label() for line in rc.plot.leak_curve(each, Figure().subplots()).lines}
         for each in (curve_of(3e7), curve_of(1e6))
     ]
+    assert curve.plot(Figure().subplots(), quantity="hydraulic_gap").get_ylabel() == "hydraulic gap [nm]"
     assert labels == [{"no open path"}, {"resolved", "Bruggeman's theory"}]
 
 

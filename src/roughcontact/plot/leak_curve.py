@@ -17,10 +17,10 @@ from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.ticks import TICK
 from roughcontact.validation import numeric, require
 
-__all__ = ["leak_curve"]
+__all__ = ["LEAKS", "leak_curve"]
 
 _COLOUR, _THEORY = "#0072b2", "#009e73"
-_POWERS = {"hydraulic_gap": 1 / 3, "transmissivity": 1.0}  # of the transmissivity
+LEAKS = {"hydraulic_gap": 1 / 3, "transmissivity": 1.0}  # of the transmissivity
 _BAND = 0.08  # height of the band of closed gaps, as a part of the axes
 
 
@@ -66,8 +66,8 @@ def leak_curve(
     ('nominal pressure [bar]', 'hydraulic gap [nm]')
     """
     require(
-        quantity in _POWERS,
-        f"quantity must be one of {', '.join(_POWERS)}, not {quantity!r}",
+        quantity in LEAKS,
+        f"quantity must be one of {', '.join(LEAKS)}, not {quantity!r}",
         place="quantity",
     )
     if quantity not in curve.measured:
@@ -82,7 +82,7 @@ def leak_curve(
     values = curve.measured[quantity]
     x, y = draw_points(axes, (pressure, values), words, np.asarray(curve.resolved), _COLOUR, given)
     axes.set_ylim(axes.get_ylim())  # of the computed points
-    theory = curve.measured["transmissivity_bruggeman"] ** _POWERS[quantity]
+    theory = curve.measured["transmissivity_bruggeman"] ** LEAKS[quantity]
     order = np.argsort(pressure, kind="stable")
     shown = order[theory[order] > 0]
     style: Any = {"color": _THEORY, "linewidth": 1.4, "zorder": 2.5, "label": "Bruggeman's theory"}
