@@ -26,8 +26,8 @@ class Transmissivity:
     The columns are ``transmissivity`` [m^3], ``hydraulic_gap`` [m], ``flow_factor`` (transmissivity over the cubed mean
     gap, Patir and Cheng), ``percolates`` (1 or 0), ``constriction_cells``, ``constriction_share``,
     ``transmissivity_bruggeman`` [m^3] (theory) and ``flow_residual``. Where no open path leads along the axis, the
-    share is NaN and all other columns except the theory are 0. Cells in contact count as 0 in the mean gap of the flow
-    factor, also plastic ones, whose gap is negative in the column ``mean_gap``.
+    share is NaN and all other columns except the theory are 0. Under a hardness the mean gap counts cells that have
+    flowed as negative: where it is not positive, the flow factor is infinite.
 
     Parameters
     ----------
@@ -76,11 +76,12 @@ class Transmissivity:
         percolates = bool(flow.windings[:, along].any()) if tensor else flow.percolates
         place = flow.constriction_along(along) if percolates else None
         kappa = float(flow.transmissivity[along, along]) if percolates else 0.0
-        mean = float(flow.gap[solution.problem.measured].mean())
+        cubed = max(float(solution.mean_gap), 0.0) ** 3
+        factor = kappa and (kappa / cubed if cubed > 0 else math.inf)
         return {
             "transmissivity": kappa,
             "hydraulic_gap": math.nan if between else math.cbrt(kappa),
-            "flow_factor": math.nan if between else kappa and kappa / mean**3,
+            "flow_factor": math.nan if between else factor,
             "percolates": float(percolates),
             "constriction_cells": 0.0 if place is None else float(place.cells),
             "constriction_share": math.nan if place is None else place.share,

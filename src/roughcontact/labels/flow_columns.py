@@ -42,7 +42,7 @@ CONSTRICTION: Table = {
     ("axis",): columns("constriction_place | m | place of the critical constriction, along y and x"),
 }
 OF_CURVE = columns("""
-    flow_factor | 1 | transmissivity over the cubed mean gap, cells in contact count as 0
+    flow_factor | 1 | transmissivity over the cubed mean gap
     transmissivity_bruggeman | m3 | transmissivity of an effective medium of the same gaps (Bruggeman)
 """)
 """Further columns of a curve."""
