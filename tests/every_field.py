@@ -77,6 +77,7 @@ BESIDE = {
     "Errors.shortest_wave": {"errors": True},
     "Errors.noise": {"errors": True},
     "Errors.noise_length": {"errors": True, "noise": "3nm"},
+    "LeakAlong.missing": {"leak": "0"},
     "Theories.hurst": {"theory": "finite-size"},
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},

@@ -40,6 +40,7 @@ DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
 JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
+FLOWN = rc.loading_curve(BALL, 1e9, forces=[1e-3], measures=[rc.Transmissivity()])
 LINE_OPERATOR = rc.line(SCAN.grid, 1e9)
 SHAPES = {
     rc.shapes.cone: {"slope": 0.1},
@@ -153,6 +154,7 @@ MORE = [
     (rc.gap_flow, {"solution": PRESSED, "axis": 0, "slip_length": 1e-8}),
     (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
     (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "upstream": 2e3, "downstream": 1e3}),
+    (rc.leak_rates, {"curve": FLOWN, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
@@ -239,7 +241,7 @@ def unit_of(call, name, good):
         return "m"
     if call is rc.Force:
         return "N"
-    if (call, name) == (rc.leak, "drop"):
+    if call in (rc.leak, rc.leak_rates) and name == "drop":
         return "Pa"
     if (call, name) == (rc.Liquid, "density"):
         return "kg/m^3"

@@ -54,7 +54,11 @@ if TYPE_CHECKING:
         surface_dataset as surface_dataset,
         surface_of as surface_of,
     )
-    from roughcontact.fluid.flow_notes import notes_on_flow as notes_on_flow, notes_on_leak as notes_on_leak
+    from roughcontact.fluid.flow_notes import (
+        notes_on_flow as notes_on_flow,
+        notes_on_flow_curve as notes_on_flow_curve,
+        notes_on_leak as notes_on_leak,
+    )
     from roughcontact.fluid.leak_dataset import (
         flow_dataset as flow_dataset,
         leak_dataset as leak_dataset,
@@ -132,7 +136,7 @@ else:
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "fluid.leak_dataset": "flow_dataset leak_dataset leak_record",
-        "fluid.flow_notes": "notes_on_flow notes_on_leak",
+        "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.detachment_plot": "detachment_force",

@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
+from roughcontact.labels.flow_columns import SHOWN
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
@@ -83,7 +84,7 @@ def test_the_points_of_a_curve_are_those_of_its_command(ask):
         assert [point[name] for point in points] == record[name]
     table = (files("roughcontact.page") / "static" / "curve_table.js").read_text(encoding="utf-8")
     in_table = re.findall(r'"(\w+)"', table.partition("const COLUMNS = [")[2].partition("]")[0])
-    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*shown}
+    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*shown, *SHOWN}
     assert [point["resolved"] for point in points] == record["resolved"]
     space = {}
     exec(of(said, "stated")[0]["python"], space)
@@ -128,6 +129,24 @@ def test_conductances_of_points_are_those_of_the_python_that_is_stated(ask):
     exec(of(ask(theories, THEORIES, loads=LOADS, conduction=CONDUCTION), "stated")[0]["python"], space)
     for name in ("thermal_conductance_per_area", "electrical_conductance_per_area"):
         assert [point[name] for point in points] == space["conductance"][name].tolist()
+
+
+def test_the_flow_at_each_point_is_that_of_the_python_that_is_stated(ask):
+    """Computed once for a point and the curve; its columns stand beside the others, and in the files."""
+    parts = {"loads": LOADS, "leak": {"leak": "1"}}
+    said = ask(curve, **parts)
+    [loads], points = of(said, "loads"), of(said, "point")
+    assert {"hydraulic_gap", "transmissivity", "percolates"} <= {each["name"] for each in loads["columns"]}
+    [stated], space = of(said, "stated"), {}
+    assert "--leak 1" in stated["command"]
+    exec(stated["python"], space)
+    for name in ("hydraulic_gap", "flow_factor", "percolates"):
+        assert [point[name] for point in points] == space["curve"].measured[name].tolist()
+    assert any(name == "open path" for name, _ in of(said, "curve")[0]["facts"])
+    [(_, table)] = [each for each in ask(export, {"kind": "csv"}, **parts) if each[1]]
+    assert b"hydraulic_gap [m]" in table
+    without = of(ask(curve, loads=LOADS), "loads")[0]["columns"]
+    assert not any(each["name"] == "hydraulic_gap" for each in without)
 
 
 def test_one_rigid_body_conducts_nothing(ask):

@@ -230,6 +230,23 @@ def test_points_of_a_curve_arrive_and_stop(tab):
     tab.settled()
 
 
+def test_the_flow_through_the_gap_stands_beside_the_curve(tab, part):
+    """Chosen in the form of the curve; its columns in chart and table, and the load that closes the gap."""
+    assert tab.drop("part.npz", part)
+    tab.settled()
+    tab.page.evaluate(
+        "document.querySelectorAll('#curve_forms details').forEach((each) => (each.open = true))"
+    )
+    tab.page.select_option("[id='leak.leak']", "1")
+    tab.page.locator("#start").click()
+    tab.wait("() => document.getElementById('curve_facts').textContent.includes('open path')")
+    assert "--leak 1" in tab.text("curve_command")
+    header = tab.page.locator("#points thead").inner_text()
+    assert all(name in header for name in ("hydraulic gap [", "transmissivity [", "flow factor", "open path"))
+    tab.page.select_option("#quantity", "hydraulic_gap")
+    assert tab.page.evaluate(POINTS) > 0
+
+
 def test_a_solve_gives_way_to_what_is_asked_next(tab):
     """The map of what was asked last is shown, and no answer to what was asked before comes after it."""
     tab.example("Large map")

@@ -94,6 +94,8 @@ OUT_OF_RANGE = {
     "Seal.seal_width": ("0mm", "5um"),
     "Seal.circumference": ("-1m", "5um"),
     "Seal.missing": ("shut", "closed", "open"),
+    "LeakAlong.leak": ("y", "0", "1"),
+    "LeakAlong.missing": ("shut", "closed", "open"),
     "File.file": ("", "part.x3p"),
     "File.channel": ("", None, "height"),
     "File.unit": ("parsnip", "um", "1e-6"),
@@ -180,7 +182,7 @@ FROM_ZERO = {
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
     *("Bodies.poisson", "Bodies.poisson2", "Theories.hurst", "SelfAffine.hurst", "SelfAffine.seed"),
     *("Specified.hurst", "SpecifiedJoint.hurst", "Specified.seed"),
-    *("Fluid.vapour_pressure", "Seal.downstream", "Seal.axis"),
+    *("Fluid.vapour_pressure", "Seal.downstream", "Seal.axis", "LeakAlong.leak"),
     *("Preparation.form", "Preparation.share"),
 }
 

@@ -16,6 +16,7 @@ FINE = heights(rc.Grid((64, 64), 1e-6))
 FAR = rc.Adhesion(1e-3, 1e-7)
 WAVE = 1e-7 * np.cos(2 * np.pi * np.arange(84) / 84)
 EGGS = rc.Surface(WAVE[:, None] + WAVE, rc.Grid((84, 84), 1e-6, periodic=True))
+WATER = rc.Liquid(1e-3)
 FULL = PERIODIC.heights.max() - PERIODIC.heights.mean()
 RISING, HIGH = np.geomspace(1e-5, 1e-3, 6), np.geomspace(1, 10, 5)
 
@@ -50,6 +51,10 @@ def line(**named):
 
 def curve(surface=FINE, **named):
     return rc.loading_curve(surface, MODULUS, **named)
+
+
+def leaking(flown, fluid=WATER):
+    return rc.leak_rates(flown, fluid, drop=1.0, seal_width=1e-3, circumference=0.1)
 
 
 def springs():
@@ -356,6 +361,22 @@ ANSWERS = [
         lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)).plot(field="current"),
         "field must be 'share', 'density' or 'resistance', not 'current'",
         lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)).plot(field="density"),
+    ),
+    row(
+        lambda: leaking(curve(forces=RISING)),
+        "give measures=[rc.Transmissivity()] to loading_curve",
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()])),
+    ),
+    row(
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()]), rc.Gas("air")),
+        "take rc.Liquid, or rc.leak at each load for a gas",
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()])),
+        lambda: rc.leak(pressed(), rc.Gas("air"), upstream=2e5, downstream=1e5),
+    ),
+    row(
+        lambda: curve(forces=RISING).plot(quantity="hydraulic_gap"),
+        "give measures=[rc.Transmissivity()] to loading_curve",
+        lambda: curve(forces=RISING, measures=[rc.Transmissivity()]).plot(quantity="hydraulic_gap"),
     ),
     row(
         lambda: rc.interface_table(curve(ROUGH)),

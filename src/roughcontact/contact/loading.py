@@ -132,7 +132,7 @@ def loading_curve(
         What happens to material that flows: it vanishes, or raises the whole surface evenly over all measured cells,
         its volume conserved (Pullen and Williamson 1972), which changes only the depth.
     measures : sequence of functions
-        Each returns numbers of a `Solution` by name, which become columns of the curve (`Curve.measured`): such as
+        Each returns numbers of a `Solution` by name, which become columns of the curve (``Curve.measured``): such as
         ``lambda solution: {"largest_spot": solution.spots.areas.max()}``, or `Transmissivity`.
 
     Returns

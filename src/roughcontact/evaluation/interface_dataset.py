@@ -43,7 +43,8 @@ def interface_dataset(table: InterfaceTable) -> xarray.Dataset:
         "interfacial_stiffness_per_area": "stiffness",
     }
     data = variables_of(table, INTERFACE, Geometry.SURFACE, names)
-    data |= {name: variable(name, ("load",), values) for name, values in table.conductances.items()}
+    more = table.flow | table.conductances
+    data |= {name: variable(name, ("load",), values) for name, values in more.items()}
     low, high = table.validity
     words = {
         "title": "law of a rough interface, per nominal area",

@@ -17,6 +17,7 @@ from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["InterfaceTable", "interface_table"]
 
+_FLOW = ("hydraulic_gap", "flow_factor")
 _CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_area")
 
 
@@ -33,6 +34,8 @@ class InterfaceTable:
         Nominal pressure p [Pa], mean gap g [m], K/A0 [Pa/m], relative real contact area A/A0.
     conductances : dict of array
         ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], if known.
+    flow : dict of array
+        ``hydraulic_gap`` [m] and ``flow_factor``, if the curve has the measure `Transmissivity`.
     area : float
         Nominal area of a table of forces [m^2].
     periodic : bool
@@ -58,6 +61,7 @@ class InterfaceTable:
     stiffness: Array
     contact_fraction: Array
     conductances: dict[str, Array]
+    flow: dict[str, Array]
     area: float
     periodic: bool
     hardness: float = math.inf
@@ -165,6 +169,7 @@ def interface_table(
         stiffness=curve.interfacial_stiffness_per_area[kept],
         contact_fraction=curve.contact_fraction[kept],
         conductances={name: found[name][kept] for name in _CONDUCTANCES if name in found},
+        flow={name: curve.measured[name][kept] for name in _FLOW if name in curve.measured},
         area=curve.nominal_area if area is None else float(positive(area, "area [m^2]")),
         periodic=all(curve.periodic),
         hardness=curve.hardness,

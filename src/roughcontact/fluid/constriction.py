@@ -10,7 +10,7 @@ from roughcontact.fluid.network import Network
 from roughcontact.grid import Grid
 from roughcontact.validation import Array
 
-__all__ = ["Constriction", "constriction_of"]
+__all__ = ["Constriction", "constriction_of", "is_resolved"]
 
 FEWEST = 4  # cells across a constriction that is resolved
 
@@ -43,7 +43,12 @@ class Constriction:
     @property
     def resolved(self) -> bool:
         """Whether it is at least four cells wide and takes less than half of the drop."""
-        return self.cells >= FEWEST and self.share < 0.5
+        return is_resolved(self.cells, self.share)
+
+
+def is_resolved(cells: int, share: float) -> bool:
+    """Return whether a constriction is at least four cells wide and takes less than half of the drop."""
+    return cells >= FEWEST and share < 0.5
 
 
 def constriction_of(network: Network, drops: Array, gap: Array, grid: Grid) -> Constriction:

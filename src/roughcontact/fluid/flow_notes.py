@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from roughcontact.fluid.constriction import Constriction
+import numpy as np
+
+from roughcontact.contact.curve import Curve
+from roughcontact.fluid.constriction import Constriction, is_resolved
 from roughcontact.fluid.fluids import Liquid
-from roughcontact.fluid.gap_flow import GapFlow
+from roughcontact.fluid.gap_flow import TOLERANCE, GapFlow
 from roughcontact.fluid.leak import Leak
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
 
-__all__ = ["notes_on_flow", "notes_on_leak"]
+__all__ = ["notes_on_flow", "notes_on_flow_curve", "notes_on_leak"]
 
 SMALL_DROP = 0.1  # of the nominal pressure, up to which the fluid barely opens the joint
 
@@ -69,11 +73,34 @@ def notes_on_leak(leak: Leak) -> Iterator[Note]:
         )
 
 
+def notes_on_flow_curve(curve: Curve) -> Iterator[Note]:
+    """Yield the notes on the flow along a curve; none if it was not measured."""
+    if "transmissivity" not in curve.measured:
+        return
+    residual, percolates = curve.measured["flow_residual"], curve.measured["percolates"] > 0
+    if missed := int(np.sum(~(residual <= TOLERANCE))):
+        yield Note(
+            Rank.WRONG,
+            f"At {missed} of {len(curve)} loads the bounds of the flow differ by more than {TOLERANCE:.0e}, by up to "
+            f"{np.max(residual):.1e}.",
+        )
+    if percolates.any():
+        last = int(np.flatnonzero(percolates)[np.argmax(curve.force[percolates])])
+        cells, share = (curve.measured[f"constriction_{name}"][last] for name in ("cells", "share"))
+        load = written(float(curve.nominal_pressure[last]), "Pa")
+        yield from _unresolved(int(cells), float(share), f"At {load}, the last load with an open path, the")
+
+
 def _constriction(place: Constriction | None) -> Iterator[Note]:
-    if place is not None and not place.resolved:
-        cells = f"{place.cells} cells" if place.cells > 1 else "one cell"
+    if place is not None:
+        yield from _unresolved(place.cells, place.share)
+
+
+def _unresolved(count: int, share: float, begin: str = "The") -> Iterator[Note]:
+    if not is_resolved(count, share):
+        cells = f"{count} cells" if count > 1 else "one cell"
         yield Note(
             Rank.DOUBTFUL,
-            f"The critical constriction is {cells} wide and takes {place.share:.0%} of the drop: there "
+            f"{begin} critical constriction is {cells} wide and takes {share:.0%} of the drop: there "
             "the flow depends on the grid. Use smaller cells, or quote the order of magnitude only.",
         )

@@ -27,6 +27,7 @@ from roughcontact.validation import Array, Mask, numeric
 __all__ = ["GapFlow", "gap_flow"]
 
 Missing: TypeAlias = Literal["closed", "open"]
+TOLERANCE = 1e-6  # largest relative difference of the two bounds
 OPEN = 1e4  # a missing cell that is open conducts this many times as well as the widest gap
 
 
@@ -311,7 +312,7 @@ def gap_flow(
     between: tuple[Mask, Mask] | None = None,
     missing: Missing = "closed",
     slip_length: float = 0.0,
-    tolerance: float = 1e-6,
+    tolerance: float = TOLERANCE,
 ) -> GapFlow:
     """Return the flow of a fluid through the gap of a contact, by Reynolds' equation.
 

@@ -13,7 +13,9 @@ __all__ = [
     "GAP_FLOW",
     "LEAK",
     "LEAK_NAMES",
+    "OF_CURVE",
     "PRESSED",
+    "SHOWN",
     "UNITS",
 ]
 
@@ -21,12 +23,12 @@ PRESSED = tuple(each for each in POINTS if each.name in ("nominal_pressure", "co
 """Columns of the contact."""
 GAP_FLOW: Table = {
     (): columns("""
-        percolates | | whether an open path leads through the gap
-        hydraulic_gap | m | uniform gap with the same mean transmissivity
+        percolates | | whether an open path leads through the gap | | open path | .0f
+        hydraulic_gap | m | uniform gap with the same transmissivity
         flow_residual | 1 | difference of both bounds of the transmissivity, relative
     """),
     ("row", "column"): columns("""
-        transmissivity | m3 | tensor of the cubed hydraulic gap, its upper bound
+        transmissivity | m3 | cubed hydraulic gap of the flow, its upper bound
         lower_transmissivity | m3 | lower bound of the transmissivity
     """),
 }
@@ -39,6 +41,13 @@ CONSTRICTION: Table = {
     """),
     ("axis",): columns("constriction_place | m | place of the critical constriction, along y and x"),
 }
+OF_CURVE = columns("""
+    flow_factor | 1 | transmissivity over the cubed mean gap
+    transmissivity_bruggeman | m3 | transmissivity of an effective medium of the same gaps (Bruggeman)
+""")
+"""Further columns of a curve."""
+SHOWN = ("hydraulic_gap", "transmissivity", "flow_factor", "percolates")
+"""Columns of a curve in tables on a screen."""
 FLOW_MAPS = columns("""
     fluid_pressure | 1 | pressure of the fluid for a unit drop
     flux_y | m2 | flux down the map for a unit drop and a viscosity of 1/12

@@ -41,6 +41,7 @@ if TYPE_CHECKING or _LATE is None:
         jump_figure as jump_figure,
         jump_loop as jump_loop,
     )
+    from roughcontact.plot.leak_curve import leak_curve as leak_curve
     from roughcontact.plot.loops import (
         bearing_curves as bearing_curves,
         depth_loop as depth_loop,

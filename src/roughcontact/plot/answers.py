@@ -18,6 +18,7 @@ from roughcontact.evaluation.contact_flux import ContactFlux
 from roughcontact.fluid.gap_flow import GapFlow
 from roughcontact.plot import curves, flux_plot, loops, maps, profile_plot
 from roughcontact.plot.flow_map import flow_map
+from roughcontact.plot.leak_curve import LEAKS, leak_curve
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.preparation.spikes import Spikes
@@ -132,7 +133,8 @@ def plot_curve(
         Axes to draw on; by default those of a new figure.
     quantity : str
         ``"stiffness"``, ``"contact_area"`` or ``"depth"`` against force; ``"interfacial_stiffness_per_area"``,
-        ``"contact_fraction"`` or ``"mean_gap"`` against nominal pressure.
+        ``"contact_fraction"``, ``"mean_gap"``, and with the measure `roughcontact.Transmissivity` ``"hydraulic_gap"``
+        or ``"transmissivity"``, against nominal pressure.
     law : PowerLaw, optional
         A law to draw with a stiffness, such as ``curve.fit()``.
     theories : sequence of Law, optional
@@ -159,8 +161,10 @@ def plot_curve(
     """
     if law is not None and "stiffness" not in quantity:
         raise about("law", "applies only to the stiffness", f"leave it out with {quantity!r}")
-    if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA)):
+    if quantity not in (every := (*curves.OF_FORCE, *curves.PER_AREA, *LEAKS)):
         raise about("quantity", f"must be one of {', '.join(every)}, not {quantity!r}")
+    if quantity in LEAKS:
+        return leak_curve(curve, ax, quantity=quantity)
     draw = curves.force_curve if quantity in curves.OF_FORCE else curves.areal_curve
     return draw(curve, ax, quantity=quantity, law=law, theories=theories)
 

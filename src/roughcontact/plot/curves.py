@@ -31,7 +31,7 @@ from roughcontact.validation import Array, numeric, require
 __all__ = [
     "OF_FORCE",
     "PER_AREA",
-    *("areal_curve", "force_curve", "resistance_curve"),
+    *("areal_curve", "draw_points", "force_curve", "resistance_curve"),
 ]
 
 _POINTS, _LAW = "#0072b2", "#d55e00"  # blue and vermilion: distinct also for colour-blind readers
@@ -208,7 +208,7 @@ def areal_curve(
     ]
     numbers = (curve.nominal_pressure, np.asarray(getattr(curve, quantity)))
     given = tuple((units or {}).get(each) for each in ("nominal_pressure", quantity))
-    x, y = _draw_points(axes, numbers, words, np.asarray(curve.resolved), _POINTS, given)
+    x, y = draw_points(axes, numbers, words, np.asarray(curve.resolved), _POINTS, given)
     # From values of the patch to those of the picture: per nominal area, except for the gap.
     of_force = Scale(x.factor / curve.nominal_area, x.unit)
     of_patch = y if of_theory == quantity else Scale(y.factor / curve.nominal_area, y.unit)
@@ -266,7 +266,7 @@ def resistance_curve(dataset: xarray.Dataset, name: str, ax: Axes | None = None)
         for each, (_, unit) in zip(labels, words, strict=True)
     )
     colour = _RESISTANCES[name.removesuffix("_per_area")]
-    _draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), colour, given)
+    draw_points(axes, numbers, words, dataset["resolved"].to_numpy().astype(bool), colour, given)
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)
     return axes
@@ -291,10 +291,10 @@ def _draw(axes: Axes, curve: Curve, name: str) -> tuple[Scale, Scale]:
     """Draw one quantity of the curve against force; return the scales of both axes."""
     force, values = (np.asarray(getattr(curve, n)) for n in ("force", name))
     words = [(VARIABLES[n].label, unit_of(n, curve.geometry)) for n in ("force", name)]
-    return _draw_points(axes, (force, values), words, np.asarray(curve.resolved), _POINTS)
+    return draw_points(axes, (force, values), words, np.asarray(curve.resolved), _POINTS)
 
 
-def _draw_points(
+def draw_points(
     axes: Axes,
     numbers: tuple[Array, Array],
     words: Sequence[tuple[str, str]],

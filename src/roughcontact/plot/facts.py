@@ -156,12 +156,33 @@ def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
     facts = [
         ("full-contact stiffness", f"{full}, every measured cell in contact"),
         ("largest certificate", f"{curve.residual.max():.1e}"),
+        *_open_paths(curve),
     ]
     if law is None:
         return facts
     stiff, light = ("k/E*", "(F/(E* h))") if kind is Geometry.LINE else ("k/(E* L)", "(F/(E* L h))")
     text = f"{stiff} = {law.prefactor:.4g} {light}^{law.exponent:.4f}"
     return [("power law", text), ("fitted to", f"{law.rule}; scatter {law.scatter:.2g}"), *facts]
+
+
+def _open_paths(curve: Curve) -> list[tuple[str, str]]:
+    """Return between which loads the open cells stop to percolate, if their flow was measured."""
+    if "percolates" not in curve.measured:
+        return []
+    order = np.argsort(curve.nominal_pressure, kind="stable")
+    opened = curve.measured["percolates"][order] > 0
+    loads = [
+        f"{quantity('nominal_pressure', float(curve.nominal_pressure[k]))} (A/A0 {curve.contact_fraction[k]:.3g})"
+        for k in order
+    ]
+    last = int(np.flatnonzero(opened).max(initial=-1))
+    if last < 0:
+        words = f"at no load, not even at {loads[0]}"
+    elif last == len(loads) - 1:
+        words = f"up to the largest load, {loads[last]}"
+    else:
+        words = f"closes between {loads[last]} and {loads[last + 1]}: the open cells stop to percolate"
+    return [("open path", words)]
 
 
 def bend_words(law: PowerLaw) -> str:

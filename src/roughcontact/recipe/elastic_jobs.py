@@ -10,6 +10,7 @@ from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
 from roughcontact.recipe.job_calls import Call, Name
+from roughcontact.recipe.leak_along import LeakAlong
 from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
@@ -110,6 +111,7 @@ class CurveJob:
     conduction: Conduction = field(default_factory=Conduction)
     theories: Theories = field(default_factory=Theories)
     errors: Errors = field(default_factory=Errors)
+    leak: LeakAlong = field(default_factory=LeakAlong)
     tables: InterfaceTables = field(default_factory=InterfaceTables)
     units: Units = field(default_factory=Units)
 
@@ -132,6 +134,14 @@ class CurveJob:
                 "give `forces`",
                 "loads.depths",
             )
+        if self.leak.leak is not None and (self.plastic.loop or self.contact.profile is not None):
+            other = "loop" if self.plastic.loop else "profile"
+            why = (
+                "it is computed for increasing loads only" if other == "loop" else "it needs a map of heights"
+            )
+            raise InputError(
+                f"`leak` does not go with `{other}`: {why}", "leave out one of them", "leak.leak"
+            )
         profile, conducts = self.contact.profile, bool(self.conduction.named())
         if conducts and profile == "line":
             raise InputError(
@@ -149,7 +159,7 @@ class CurveJob:
         """Yield the calls that follow the loads, and those that evaluate the curve."""
         loads = self.loads.named(self.contact.profile)
         flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
-        named = {**loads, **_hardness(self), **flow, **self.contact.named()}
+        named = {**loads, **_hardness(self), **flow, **self.contact.named(), **self.leak.named()}
         function, result = ("rc.loading_loop", "loop") if self.plastic.loop else ("rc.loading_curve", "curve")
         yield pressed(function, named, result, "loads")
         curve = "loop.loading" if self.plastic.loop else "curve"

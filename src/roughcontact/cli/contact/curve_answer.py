@@ -228,10 +228,18 @@ class CurveAnswer:
             recipe=self.recipe,
         )
 
-    def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:
-        """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
+    def write(self, folder: Path, source: dict[str, Any], ending: str) -> tuple[str, ...]:
+        """Write NetCDF, CSV, pictures (by their `ending`) and summary into a folder: all of them or none.
+
+        Return the names of further pictures.
+        """
+        import matplotlib.figure
+
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
+        from roughcontact.plot.leak_curve import leak_curve
+
+        more = [] if self.job.leak.leak is None else [f"leak.{ending}"]
 
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
@@ -240,10 +248,16 @@ class CurveAnswer:
             if self.loop is not None:
                 figure.suptitle("first loading")
             save(figure, aside / f"{self.picture}.{ending}")
+            for name in more:
+                figure = matplotlib.figure.Figure(figsize=(5.6, 4.2), layout="constrained")
+                leak_curve(self.curve, figure.subplots(), units=self.units)
+                save(figure, aside / name)
             write_json(self.record, aside / "curve.json", source)
+        return tuple(more)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and its notes on standard error."""
+        from roughcontact.labels.flow_columns import SHOWN
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
@@ -257,7 +271,9 @@ class CurveAnswer:
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
-            report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
+            report.print_table(
+                *report.load_table(self.dataset, (*columns, *SHOWN, *shown_columns(self.dataset)))
+            )
             conducting = (
                 []
                 if self.conductors is None

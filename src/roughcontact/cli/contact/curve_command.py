@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -26,6 +26,7 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.jobs import known_names
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from roughcontact.cli.contact.stored_loads import StoredLoads
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
+    from roughcontact.contact.measures import StateMeasure
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.labels.note import Note
@@ -57,6 +59,7 @@ roughcontact curve part.x3p --modulus 110GPa --errors --shortest-wave 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
+roughcontact curve part.x3p --modulus 110GPa --pressures 1MPa:300MPa:12 --leak 0 --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
@@ -111,8 +114,9 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             "operator": operator,
             "flow": plastic.flow or "removed",
         }
+        measures = [each.value(known_names()) for each in job.leak.named().get("measures", ())]
         stored = None if in_slabs else stored_loads(job, loads, answer.out)
-        computed, done, outer, loop = _computed(surface, modulus, loads, limits, stored, job)
+        computed, done, outer, loop = _computed(surface, modulus, loads, limits, measures, stored, job)
         notes: tuple[Note, ...] = ()
         left = np.setdiff1d(loads.values, done)
         if left.size:
@@ -134,8 +138,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             )
         if folder is not None:
             with task("Writing files"), writing():
-                found.write(folder, source, answer.ending)
-                more = write_tables(job.tables, folder, computed, surface, conductors)
+                more = found.write(folder, source, answer.ending)
+                more += write_tables(job.tables, folder, computed, surface, conductors)
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json)
@@ -160,6 +164,7 @@ def _computed(
     modulus: Modulus,
     loads: Loads,
     limits: dict[str, Any],
+    measures: Sequence[StateMeasure],
     stored: StoredLoads | None,
     job: CurveJob,
 ) -> tuple[Curve, Array, list[Solution], Loop | None]:
@@ -170,12 +175,12 @@ def _computed(
     from roughcontact.solver.loads import Loads
 
     if stored is None:
-        curve, outer, loop = _load(surface, modulus, loads, limits, loop=job.plastic.loop)
+        curve, outer, loop = _load(surface, modulus, loads, limits, measures, loop=job.plastic.loop)
         return curve, loads.values[: len(curve)], outer, loop
     new = np.setdiff1d(loads.values, stored.values)
     if not new.size:
         return stored.curve, stored.values, [], None
-    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, loop=False)
+    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, measures, loop=False)
     done = np.union1d(stored.values, new[: len(curve)])
     return joined(stored.curve, curve), done, outer, None
 
@@ -250,7 +255,13 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 
 
 def _load(
-    surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
+    surface: Surface,
+    modulus: Modulus,
+    loads: Loads,
+    limits: dict[str, Any],
+    measures: Sequence[StateMeasure],
+    *,
+    loop: bool,
 ) -> tuple[Curve, list[Solution], Loop | None]:
     """Return the curve, the first and last load that are resolved, and the whole loop.
 
@@ -277,7 +288,7 @@ def _load(
             if not last:  # nothing to keep
                 raise
 
-    curve = collect(watched(path))
+    curve = collect(watched(path), measures)
     closed = None
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):

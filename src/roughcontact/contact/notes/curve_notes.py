@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.errors import InputError
 from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
@@ -36,6 +37,7 @@ def curve_notes(curve: Curve) -> Iterator[Note]:
         yield (
             note if force >= curve.force.max() else note._replace(text=f"At {load} ({pressure}): {note.text}")
         )
+    yield from methods.notes_on_flow_curve(curve)
 
 
 def curve_doubts(curve: Curve) -> tuple[str, ...]:

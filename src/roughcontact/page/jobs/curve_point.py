@@ -14,7 +14,9 @@ from roughcontact.labels.contact_columns import (
     POINTS,
     STATE_NAMES,
 )
+from roughcontact.labels.flow_columns import SHOWN
 from roughcontact.labels.labelled import plain_values, values_of
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.jobs import Job, known_names
@@ -30,9 +32,14 @@ def columns_of(job: Any) -> list[dict[str, str]]:
     """Return the quantities of a point of the curve of a job, with the words and units of pictures."""
     from roughcontact.labels.engineering_units import pretty
 
-    shown = (*_SHOWN, *_conducted(job)) if isinstance(job, CurveJob) else _STICKING
+    shown = (*_SHOWN, *_conducted(job), *_measured(job)) if isinstance(job, CurveJob) else _STICKING
     units = {each.name: pretty(each.unit_on(_GEOMETRIES[job.contact.profile])) for each in shown}
     return [{"name": each.name, "label": each.label, "unit": units[each.name]} for each in shown]
+
+
+def _measured(job: CurveJob) -> list[Column]:
+    """Return the columns of the flow, if the job asks for it."""
+    return [] if job.leak.leak is None else [VARIABLES[name] for name in SHOWN]
 
 
 def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:

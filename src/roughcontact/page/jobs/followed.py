@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import within
@@ -37,6 +37,8 @@ class Followed:
         Notes on the loads.
     parts : bool
         Whether the first states without the rest are an answer.
+    measured : function
+        Returns further numbers of a state by name.
     """
 
     states: Iterator[Any]
@@ -46,6 +48,7 @@ class Followed:
     count: int | None = None
     notes: tuple[str, ...] = ()
     parts: bool = True
+    measured: Callable[[Any], Mapping[str, float]] = lambda _: {}
 
 
 def collected(followed: Followed) -> Any:
@@ -74,10 +77,22 @@ def up_to_path(calls: Iterable[Call]) -> Iterator[Call]:
 def _curve(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.curve import collect
+    from roughcontact.contact.measures import measured_at
 
+    measures = named.pop("measures", ())
     loads, notes = _rising(surface, modulus, named)
     states = rc.loading_path(surface, modulus, **named)
-    return Followed(states, loads, collect, count=len(loads.values), notes=notes)
+    measured = lru_cache(maxsize=1)(
+        lambda state: measured_at(state, measures, ())
+    )  # of each point, and its curve
+    return Followed(
+        states,
+        loads,
+        lambda path: collect(path, [measured]),
+        count=len(loads.values),
+        notes=notes,
+        measured=measured,
+    )
 
 
 def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:

@@ -1,0 +1,44 @@
+"""The flow through the gap at each load of a curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from roughcontact.recipe.job_calls import Call
+from roughcontact.recipe.recipe_fields import check, described
+from roughcontact.recipe.texts import Choice
+
+__all__ = ["LeakAlong"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeakAlong:
+    """Whether the flow is computed at each load, along which axis, and the cells without a height."""
+
+    TITLE: ClassVar = "Leak"
+    leak: str | None = described(
+        "Compute the flow through the gap at each load, for any liquid, drop and seal: hydraulic gap, transmissivity, "
+        "flow factor, and the load at which the gap closes. Direction of the flow: 0 down the picture, along y; 1 "
+        "along x.",
+        read=Choice(("0", "1")),
+        needs_whole=True,
+    )
+    missing: str = described(
+        "Whether cells without a height are closed or wide open.",
+        read=Choice(("closed", "open")),
+        default="closed",
+        needs="leak",
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def named(self) -> dict[str, list[Call]]:
+        """Return the argument `measures` of `roughcontact.loading_curve` by name; empty if no flow is asked for."""
+        if self.leak is None:
+            return {}
+        given: dict[str, Any] = {"axis": int(self.leak)}
+        if self.missing != "closed":
+            given["missing"] = self.missing
+        return {"measures": [Call("rc.Transmissivity", (), given)]}
