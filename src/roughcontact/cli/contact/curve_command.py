@@ -58,6 +58,7 @@ roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 1
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
+roughcontact curve joint.npz --materials steel,aluminium --frequency 5MHz
 """,
 }
 

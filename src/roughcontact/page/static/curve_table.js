@@ -4,7 +4,8 @@ import { element } from "./numbers.js";
 import { digits, scaleFor } from "./words.js";
 
 const COLUMNS = [
-  "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "residual",
+  "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "reflection", "error_amplification",
+  "best_frequency", "residual",
 ];
 
 // Without `chosen` the rows are not clickable.
