@@ -87,6 +87,7 @@ BESIDE = {
         for part in ("Specified", "SpecifiedJoint")
         for name, beside in _OF_JOINT.items()
     },
+    "Ultrasound.density": {"frequency": "5MHz"},
     **{f"Fluid.{name}": _GAS for name in ("gas", "temperature")},
     **{
         f"Seal.{name}": {"drop": None, "upstream": "2bar", "downstream": "1bar"}
@@ -100,8 +101,12 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
-# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures.
+# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures, sound two bodies.
 ELSEWHERE = {
+    **{
+        field: {"bodies": {"materials": "steel,aluminium"}}
+        for field in ("Ultrasound.frequency", "Ultrasound.density")
+    },
     **{field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")},
     **{
         field: {"seal": {"upstream": "2bar", "downstream": "1bar"}}

@@ -68,7 +68,7 @@ MORE = [
     (CUT.with_heights, {"heights": CUT.heights, "line": "again"}),
     (CUT.masked, {"below": -1e-7, "above": 1e-7}),
     (rc.Material, {"name": "m", "grade": "g", "solid": STEEL, "hardness": 1e9, "conductivity": 30.0,
-                   "resistivity": 1e-8, "sources": {}}),
+                   "resistivity": 1e-8, "density": 8e3, "sources": {}}),
     (rc.NixGao, {"hardness": 1e9, "radius": 1e-6}),
     (rc.Adhesion, {"work": 50e-3, "range": 2e-9}),
     (STICKY.process_zone, {"modulus": 1e8}),
@@ -143,6 +143,7 @@ MORE = [
     (rc.joint_conductance, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "film": 1e-12}),
     (rc.Gas("air", pressure=1e5, accommodation=(0.9, 0.9)).conductance, {"gap": np.array([1e-6, 2e-6])}),
     (rc.conductance, {"contact": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)}),
+    (rc.reflection, {"contact": CURVE, "bodies": ("steel", "steel"), "frequency": 5e6, "densities": (8e3, 7e3)}),
     (rc.interface_table, {"curve": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0), "area": 1e-6}),
     (rc.contact_flux, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "drop": 0.5}),
     (rc.contact_flux, {"solution": PRESSED, "conductivities": (30.0, 40.0)}),
@@ -175,6 +176,7 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
+UNIT |= {"frequency": "Hz", "densities": "kg/m^3"}
 UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
@@ -243,7 +245,7 @@ def unit_of(call, name, good):
         return "N"
     if call in (rc.leak, rc.leak_rates) and name == "drop":
         return "Pa"
-    if (call, name) == (rc.Liquid, "density"):
+    if name == "density" and call in (rc.Liquid, rc.Material):
         return "kg/m^3"
     if call is rc.load_cycle:
         return None  # of forces or of displacements

@@ -91,6 +91,7 @@ if TYPE_CHECKING or _LATE is None:
         interface_table as interface_table,
     )
     from roughcontact.evaluation.noise import Noise as Noise
+    from roughcontact.evaluation.reflection import reflection as reflection
     from roughcontact.evaluation.theories import loading_laws as loading_laws
     from roughcontact.evaluation.theory_table import theory_table as theory_table
     from roughcontact.files.aside import WriteError as WriteError

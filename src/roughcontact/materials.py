@@ -16,7 +16,7 @@ from roughcontact.validation import moderate, require, require_numbers, scalar
 
 __all__ = [
     *("MATERIALS", "Elastic", "Material", "Modulus", "as_modulus", "handbook", "hardness_of"),
-    *("reduced_modulus", "reduced_shear_modulus", "softer_of"),
+    *("reduced_modulus", "reduced_shear_modulus", "softer_of", "solids_of"),
 ]
 
 _VICKERS = 9.80665e6  # Pa: a Vickers number is a force over the faces of the indentation, in kgf/mm^2
@@ -46,6 +46,8 @@ class Material:
         Thermal conductivity [W/(m K)].
     resistivity : float
         Electrical resistivity [ohm m].
+    density : float
+        Density [kg/m^3].
     sources : mapping of str to str
         Where each value comes from, by the name of its field.
 
@@ -62,10 +64,11 @@ class Material:
     hardness: float
     conductivity: float
     resistivity: float
+    density: float
     sources: Mapping[str, str] = field(hash=False, repr=False)
 
     def __post_init__(self) -> None:
-        require_numbers(self, hardness="Pa", conductivity="W/m/K", resistivity="ohm*m")
+        require_numbers(self, hardness="Pa", conductivity="W/m/K", resistivity="ohm*m", density="kg/m^3")
         object.__setattr__(self, "sources", MappingProxyType(dict(self.sources)))
 
     def __reduce__(self) -> tuple[type[Material], tuple[Any, ...]]:
@@ -81,36 +84,46 @@ Modulus: TypeAlias = float | Elastic | tuple[Elastic, ...]
 
 
 def _alloy(
-    name: str, grade: str, solid: Solid, vickers: float, conductivity: float, resistivity: float
+    name: str,
+    grade: str,
+    solid: Solid,
+    vickers: float,
+    conductivity: float,
+    resistivity: float,
+    density: float,
 ) -> Material:
     """Return an alloy, all from one data sheet."""
-    sources = dict.fromkeys(("solid", "hardness", "conductivity", "resistivity"), f"{_ASM}: {grade}")
-    return Material(name, grade, solid, vickers * _VICKERS, conductivity, resistivity, sources)
+    names = ("solid", "hardness", "conductivity", "resistivity", "density")
+    sources = dict.fromkeys(names, f"{_ASM}: {grade}")
+    return Material(name, grade, solid, vickers * _VICKERS, conductivity, resistivity, density, sources)
 
 
-def _element(name: str, solid: Solid, hardness: float, conductivity: float, resistivity: float) -> Material:
+def _element(
+    name: str, solid: Solid, hardness: float, conductivity: float, resistivity: float, density: float
+) -> Material:
     """Return a pure metal."""
     sources = {
         "solid": _MODULI,
         "hardness": _SAMSONOV,
         "conductivity": f"{_CRC}: thermal conductivity of metals, 300 K",
         "resistivity": f"{_CRC}: electrical resistivity of pure metals, 293 K",
+        "density": f"{_CRC}: thermal and physical properties of pure metals, 298 K",
     }
     grade = "pure, polycrystalline"
-    return Material(name, grade, solid, hardness, conductivity, resistivity, sources)
+    return Material(name, grade, solid, hardness, conductivity, resistivity, density, sources)
 
 
-# Young's modulus, Poisson's ratio; Vickers number (of an element: hardness in Pa); W/(m K); ohm m.
+# Young's modulus, Poisson's ratio; Vickers number (of an element: hardness in Pa); W/(m K); ohm m; kg/m^3.
 _ALL = (
-    _alloy("steel", "AISI 1045, cold drawn", Solid(205e9, 0.29), 188, 49.8, 162e-9),
-    _alloy("stainless-steel", "AISI 304, annealed", Solid(193e9, 0.29), 129, 16.2, 720e-9),
-    _alloy("aluminium", "6061-T6", Solid(68.9e9, 0.33), 107, 167.0, 39.9e-9),
-    _alloy("titanium", "Ti-6Al-4V, annealed", Solid(113.8e9, 0.342), 349, 6.7, 1780e-9),
-    _element("copper", Solid(129.8e9, 0.343), 369e6, 401.0, 16.78e-9),
-    _element("silver", Solid(82.7e9, 0.367), 251e6, 429.0, 15.87e-9),
-    _element("gold", Solid(78.0e9, 0.44), 216e6, 317.0, 22.14e-9),
-    _element("nickel", Solid(199.5e9, 0.312), 638e6, 90.7, 69.3e-9),
-    _element("tungsten", Solid(411.0e9, 0.280), 3430e6, 174.0, 52.8e-9),
+    _alloy("steel", "AISI 1045, cold drawn", Solid(205e9, 0.29), 188, 49.8, 162e-9, 7870.0),
+    _alloy("stainless-steel", "AISI 304, annealed", Solid(193e9, 0.29), 129, 16.2, 720e-9, 8000.0),
+    _alloy("aluminium", "6061-T6", Solid(68.9e9, 0.33), 107, 167.0, 39.9e-9, 2700.0),
+    _alloy("titanium", "Ti-6Al-4V, annealed", Solid(113.8e9, 0.342), 349, 6.7, 1780e-9, 4430.0),
+    _element("copper", Solid(129.8e9, 0.343), 369e6, 401.0, 16.78e-9, 8960.0),
+    _element("silver", Solid(82.7e9, 0.367), 251e6, 429.0, 15.87e-9, 10500.0),
+    _element("gold", Solid(78.0e9, 0.44), 216e6, 317.0, 22.14e-9, 19300.0),
+    _element("nickel", Solid(199.5e9, 0.312), 638e6, 90.7, 69.3e-9, 8900.0),
+    _element("tungsten", Solid(411.0e9, 0.280), 3430e6, 174.0, 52.8e-9, 19300.0),
 )
 MATERIALS: Mapping[str, Material] = MappingProxyType({each.name: each for each in _ALL})
 
@@ -127,7 +140,7 @@ def handbook(name: str) -> Material:
     Returns
     -------
     Material
-        Its `solid`, `hardness`, `conductivity`, `resistivity`, and their `sources`.
+        Its `solid`, `hardness`, `conductivity`, `resistivity`, `density`, and their `sources`.
 
     Raises
     ------
@@ -189,7 +202,7 @@ def reduced_modulus(first: Elastic, second: Elastic | None = None) -> float:
     >>> f"{rc.reduced_modulus('steel', 'aluminium') / 1e9:.2f} GPa"
     '57.47 GPa'
     """
-    return as_modulus(_solids(first, second))
+    return as_modulus(solids_of(first, second))
 
 
 def as_modulus(modulus: Modulus) -> float:
@@ -203,7 +216,7 @@ def as_modulus(modulus: Modulus) -> float:
     if (bodies := _bodies(modulus)) is None:
         value = scalar(modulus, "reduced modulus")
     elif len(bodies) in (1, 2):
-        value = inverse_sum((1 - s.poisson_ratio**2) / s.young_modulus for s in _solids(*bodies))
+        value = inverse_sum((1 - s.poisson_ratio**2) / s.young_modulus for s in solids_of(*bodies))
     else:
         raise InputError(
             f"two solids have a reduced modulus, not {len(bodies)}",
@@ -251,7 +264,7 @@ def reduced_shear_modulus(first: Elastic, second: Elastic | None = None) -> floa
     >>> f"k/k_t = {rc.reduced_modulus(steel) / rc.reduced_shear_modulus(steel):.4f} = (1 - nu/2)/(1 - nu)"
     'k/k_t = 1.2143 = (1 - nu/2)/(1 - nu)'
     """
-    return inverse_sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in _solids(first, second))
+    return inverse_sum((2 - s.poisson_ratio) / (4 * s.shear_modulus) for s in solids_of(first, second))
 
 
 def hardness_of(value: Any) -> Any:
@@ -279,8 +292,14 @@ def _key(name: str) -> str:
     return _ALIASES.get(key, key)
 
 
-def _solids(first: Elastic, second: Elastic | None = None) -> tuple[Solid, ...]:
-    """Return the solids of one body, or of two."""
+def solids_of(first: Elastic, second: Elastic | None = None) -> tuple[Solid, ...]:
+    """Return the solids of one body, or of two.
+
+    Raises
+    ------
+    ValueError
+        If a body is neither a solid nor a material.
+    """
     bodies = (first,) if second is None else (first, second)
     materials = (handbook(body) if isinstance(body, str) else body for body in bodies)
     return tuple(require_solid(each.solid if isinstance(each, Material) else each) for each in materials)

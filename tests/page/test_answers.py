@@ -75,7 +75,7 @@ def run(command):
 
 
 def test_the_points_of_a_curve_are_those_of_its_command(ask):
-    said = ask(curve, loads=LOADS)
+    said = ask(curve, loads=LOADS, ultrasound={"frequency": "5MHz"})
     record = json.loads(run(of(said, "stated")[0]["command"] + " --json"))
     points = of(said, "point")
     shown = [column["name"] for column in of(said, "loads")[0]["columns"]]
@@ -147,6 +147,25 @@ def test_the_flow_at_each_point_is_that_of_the_python_that_is_stated(ask):
     assert b"hydraulic_gap [m]" in table
     without = of(ask(curve, loads=LOADS), "loads")[0]["columns"]
     assert not any(each["name"] == "hydraulic_gap" for each in without)
+
+
+def test_the_reflection_at_points_is_that_of_the_python_that_is_stated(ask):
+    heard = {"frequency": "5MHz"}
+    said, space = ask(curve, loads=LOADS, ultrasound=heard), {}
+    points, [end] = of(said, "point"), of(said, "curve")
+    exec(of(said, "stated")[0]["python"], space)
+    for name in ("reflection", "error_amplification", "best_frequency"):
+        assert [point[name] for point in points] == pytest.approx(
+            space["reflection"][name].tolist(), rel=1e-14
+        )
+    assert any("K/A0 cannot be inferred from the reflection at 5 MHz" in note for note in end["notes"])
+    [header] = of(said, "loads")
+    assert {"name": "best_frequency", "label": "best frequency", "unit": "Hz"} in header["columns"]
+    silent = ask(curve, loads=LOADS)
+    assert not any("reflection" in point for point in of(silent, "point"))
+    assert not any("K/A0" in note for note in of(silent, "curve")[0]["notes"])
+    [(_, table)] = ask(export, {"kind": "csv"}, loads=LOADS, ultrasound=heard)[-1:]
+    assert b"error_amplification" in table
 
 
 def test_one_rigid_body_conducts_nothing(ask):

@@ -56,6 +56,8 @@ OUT_OF_RANGE = {
     "Conduction.resistivity": ("0,0", "17nohm*m"),
     "Conduction.conductivity": ("-1W/m/K", "400W/m/K"),
     "Conduction.of": ("patch", "interface", "total"),
+    "Ultrasound.frequency": ("5", "5MHz", "5Hz"),
+    "Ultrasound.density": ("7.85", "7.85g/cm^3", "7.85kg/m^3"),
     "Theories.theory": ("person", "persson"),
     "Theories.hurst": ("4", "0.8"),
     "Theories.rolloff": ("0", "5um"),

@@ -36,6 +36,9 @@ def without(job, part, name):
 
 PROFILE = {"profile": "line"}
 SPRINGS = {"profile": "winkler"}
+YOUNG = {"modulus": None, "young": "210GPa", "poisson": "0.3", "young2": "70GPa", "poisson2": "0.33"}
+NAMED = {"modulus": None, "materials": "steel,aluminium"}
+HEARD = {"frequency": "5MHz", "density": "7850kg/m^3,2700kg/m^3"}
 # A recipe that no field alone makes wrong, where the error is, words of it, and recipes that its remedy says.
 RULES = [
     (smallest("press") | {"format": 2}, "format", "the recipe has the format 2", [smallest("press")]),
@@ -256,6 +259,37 @@ RULES = [
         "conduction.of",
         "give `of` total",
         [with_parts("curve", contact=SPRINGS, conduction={"resistivity": "copper", "of": "total"})],
+    ),
+    (
+        with_parts("curve", contact=PROFILE, ultrasound={"frequency": "5MHz"}),
+        "ultrasound.frequency",
+        "leave it out",
+        [with_parts("curve", contact=PROFILE)],
+    ),
+    *(
+        (
+            with_parts("curve", bodies={"modulus": None} | bodies, ultrasound={"frequency": "5MHz"}),
+            "ultrasound.frequency",
+            "name both by `materials`, such as steel,aluminium",
+            [with_parts("curve", bodies=NAMED, ultrasound={"frequency": "5MHz"})],
+        )
+        for bodies in (
+            {"modulus": "110GPa"},
+            {"materials": "steel,rigid"},
+            {"young": "210GPa", "poisson": "0.3"},
+        )
+    ),
+    (
+        with_parts("curve", bodies=YOUNG, ultrasound={"frequency": "5MHz"}),
+        "ultrasound.density",
+        "give `density`, such as 7850kg/m^3,2700kg/m^3",
+        [with_parts("curve", bodies=YOUNG, ultrasound=HEARD)],
+    ),
+    (
+        with_parts("curve", bodies=YOUNG | {"poisson2": "0.5"}, ultrasound=HEARD),
+        "bodies.poisson2",
+        "give a smaller one, such as 0.49",
+        [with_parts("curve", bodies=YOUNG | {"poisson2": "0.49"}, ultrasound=HEARD)],
     ),
     (
         with_parts("press", contact=SPRINGS, units={"unit_stiffness": "N/um/mm^2"}),

@@ -317,6 +317,37 @@ ANSWERS = [
         lambda: rc.conductance(springs(), resistivities=(1e-8, 1e-8), of="total"),
     ),
     row(
+        lambda: rc.reflection(ROUGH, ("steel", "aluminium"), 5e6),
+        "reflection takes a Curve, a Solution or the dataset of a curve, not Surface: press the surface first",
+        lambda: rc.reflection(rc.press(ROUGH, MODULUS, force=1e-4), ("steel", "aluminium"), 5e6),
+    ),
+    *(
+        row(
+            lambda profile=profile: rc.reflection(profile(), ("steel", "aluminium"), 5e6),
+            "a profile has no reflection of ultrasound: press a map of heights",
+            lambda: rc.reflection(rc.press(ROUGH, MODULUS, force=1e-4), ("steel", "aluminium"), 5e6),
+        )
+        for profile in (line, springs)
+    ),
+    row(
+        lambda: rc.reflection(pressed(), "steel", 5e6),
+        "a reflection needs two elastic bodies: give a pair, such as ('steel', 'aluminium')",
+        lambda: rc.reflection(pressed(), ("steel", "aluminium"), 5e6),
+    ),
+    row(
+        lambda: rc.reflection(pressed(), ("steel", rc.Solid(70e9, 0.33)), 5e6),
+        "give the densities of both bodies, such as (7850.0, 2700.0)",
+        lambda: rc.reflection(pressed(), ("steel", rc.Solid(70e9, 0.33)), 5e6, densities=(7850.0, 2700.0)),
+    ),
+    row(
+        lambda: rc.reflection(
+            curve(forces=RISING, hardness=1e9).to_dataset().drop_vars("unloading_interfacial_stiffness"),
+            *(("steel", "steel"), 5e6),
+        ),
+        "compute the curve again, with the stiffness of unloading",
+        lambda: rc.reflection(curve(forces=RISING, hardness=1e9).to_dataset(), ("steel", "steel"), 5e6),
+    ),
+    row(
         lambda: rc.contact_flux(pressed()),
         "give exactly one of resistivities and conductivities: none is given",
         lambda: rc.contact_flux(pressed(), resistivities=(1e-8, 1e-8)),

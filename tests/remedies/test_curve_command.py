@@ -6,6 +6,8 @@ from followed import commands, follow_command
 
 CURVE = "curve rough.npz --modulus 1GPa"
 TWO = f"{CURVE} --forces 1mN,2mN"
+NAMED = "curve rough.npz --materials steel,aluminium --forces 1mN,2mN"
+YOUNG = "curve rough.npz --young 210GPa --poisson 0.3 --young2 70GPa --forces 1mN,2mN"
 STICKS = "rough.npz --modulus 1GPa --work 1mJ/m^2 --range 100nm"
 FAR = f"adhesion curve {STICKS}"
 LOOP = f"adhesion loop {STICKS}"
@@ -168,6 +170,35 @@ $ {TWO} --resistivity 1nohm*m,2nohm*m,3nohm*m
 $ {TWO} --resistivity -1nohm*m
 ! the resistivity must not be negative, not '-1nohm*m'; give 0 or more
 > {TWO} --resistivity 1nohm*m
+
+$ {TWO} --frequency 5MHz
+! --frequency needs two elastic bodies; E* does not determine the speed of sound: name both by --materials
+> {NAMED} --frequency 5MHz
+
+$ {NAMED} --frequency 5
+! 5 without a unit is 5 Hz, no ultrasound; write 5MHz or, for a value in Hz, 5Hz
+> {NAMED} --frequency 5MHz
+> {NAMED} --frequency 5Hz
+
+$ {NAMED} --frequency 5MHz --density 7.85
+! write 7.85g/cm^3 or, for a value in kg/m^3, 7.85kg/m^3
+> {NAMED} --frequency 5MHz --density 7.85g/cm^3
+
+$ {NAMED} --density 7850kg/m^3
+! --density belongs to --frequency, which is not given: give --frequency too
+> {NAMED} --density 7850kg/m^3 --frequency 5MHz
+
+$ {YOUNG} --poisson2 0.33 --frequency 5MHz
+! --frequency and --young are given without --density; give --density, such as 7850kg/m^3,2700kg/m^3
+> {YOUNG} --poisson2 0.33 --frequency 5MHz --density 7850kg/m^3,2700kg/m^3
+
+$ {YOUNG} --poisson2 0.5 --frequency 5MHz --density steel,aluminium
+! --poisson2 0.5 has an infinite speed of sound: give a smaller one, such as 0.49
+> {YOUNG} --poisson2 0.49 --frequency 5MHz --density steel,aluminium
+
+$ {LINE} --frequency 5MHz
+! --frequency needs a map of heights, not a profile: leave it out
+> {LINE}
 
 $ {TWO} --unit-stiffness lbf --out new
 ! 'lbf' is not a unit of a stiffness per area; give one such as N/um/mm^2

@@ -67,6 +67,21 @@ def test_the_worked_joint_is_measured_at_another_frequency_than_5_mhz():
     assert ultrasound.stiffness_from_reflection(followed, asked * 1e6, LIKE)[0] == pytest.approx(WORKED[0])
 
 
+@pytest.mark.parametrize("impedances", [LIKE, UNLIKE, UNLIKE[::-1]])
+def test_the_amplification_is_known_before_the_measurement(impedances):
+    """1 - |r|^2 is at least 1e-3 here, and loses at most three of sixteen digits."""
+    size = np.abs(ultrasound.reflection(WORKED, 5e6, impedances))
+    wanted = ultrasound.amplification(size, impedances)
+    assert ultrasound.expected_amplification(WORKED, 5e6, impedances) == pytest.approx(wanted, rel=1e-12)
+
+
+def test_the_amplification_of_a_soft_joint_does_not_round():
+    """|r| rounds to 1, which no stiffness reflects; for like bodies the factor is 1 + (w z/2K)^2."""
+    ratio = 2 * math.pi * 5e6 * STEEL / 2 / 1e4
+    assert np.abs(ultrasound.reflection(1e4, 5e6, LIKE)) == 1
+    assert ultrasound.expected_amplification(1e4, 5e6, LIKE) == pytest.approx(1 + ratio**2, rel=1e-14)
+
+
 @pytest.mark.parametrize("impedances", [LIKE, UNLIKE])
 def test_no_other_frequency_makes_the_stiffness_less_uncertain(impedances):
     best = ultrasound.best_frequency(WORKED, impedances)

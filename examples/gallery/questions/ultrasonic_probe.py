@@ -17,20 +17,16 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.theory import ultrasound
 
-steel = rc.handbook("steel")
 grid = rc.Grid((128, 128), 4e-6, periodic=True)
 rng = np.random.default_rng(1)
 surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rolloff=128e-6, short_cutoff=32e-6, rng=rng)
-curve = rc.loading_curve(surface, rc.reduced_modulus(steel, steel), pressures=np.geomspace(3e6, 3e8, 9))
-stiffness = curve.interfacial_stiffness_per_area
-z = ultrasound.impedance(steel.solid.young_modulus, steel.solid.poisson_ratio, density=7850)
+curve = rc.loading_curve(surface, ("steel", "steel"), pressures=np.geomspace(3e6, 3e8, 9))
 
 figure, (left, right, choice) = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
 for number, frequency in enumerate((0.2e6, 1e6, 5e6)):
-    reflected = abs(ultrasound.reflection(stiffness, frequency, (z, z)))
-    factor = ultrasound.amplification(reflected, (z, z))
-    certain = factor <= ultrasound.LARGEST_AMPLIFICATION
-    for axes, values in ((left, reflected), (right, factor)):
+    seen = rc.reflection(curve, ("steel", "steel"), frequency)
+    certain = seen["measurable"]
+    for axes, values in ((left, seen["reflection"]), (right, seen["error_amplification"])):
         axes.plot(curve.nominal_pressure / 1e6, values, color=f"C{number}", label=f"{frequency / 1e6:g} MHz")
         for chosen, fill in ((certain, f"C{number}"), (~certain, "none")):
             axes.plot(curve.nominal_pressure[chosen] / 1e6, values[chosen], "o", color=f"C{number}", mfc=fill)
@@ -38,7 +34,7 @@ left.set(xscale="log", xlabel="pressure [MPa]", ylabel="reflection |r|")
 left.legend()
 right.set(xscale="log", yscale="log", xlabel="pressure [MPa]", ylabel="error of K over error of |r|")
 right.axhline(ultrasound.LARGEST_AMPLIFICATION, color="0.5", linestyle="--")
-best = ultrasound.best_frequency(stiffness, (z, z))
+best = seen["best_frequency"]
 choice.loglog(curve.nominal_pressure / 1e6, best / 1e6, "ko-")
 choice.set(xlabel="pressure [MPa]", ylabel="frequency to choose [MHz]")
 

@@ -1,1 +1,1 @@
-"""Evaluation of a pressed contact: stress below it, conductance, errors, laws of interfaces, theories."""
+"""Evaluation of a pressed contact: stress below it, conductance, reflection, errors, laws of interfaces, theories."""

@@ -15,6 +15,7 @@ __all__ = [
     "ENERGY_PER_AREA",
     "FORCE",
     "FORCE_PER_LENGTH",
+    "FREQUENCY",
     "HARDNESS",
     "LENGTH",
     "MODULUS",
@@ -67,6 +68,7 @@ ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
 VISCOSITY = Kind("a viscosity", "Pa*s", "1mPa*s")
 DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
+FREQUENCY = Kind("a frequency", "Hz", "5MHz")
 TEMPERATURE = Kind("a temperature", "K", "20degC")
 
 

@@ -21,7 +21,8 @@ __all__ = [
         "FLOW_DEPTH",
         "FLOW_RISE",
     ),
-    *("HARDNESS", "HEIGHTS", "INTERFACE", "LOOP", "MAPS", "POINTS", "RMS", "SCALES", "SIZES", "SPOTS"),
+    *("HARDNESS", "HEIGHTS", "INTERFACE", "LOOP", "MAPS", "POINTS", "REFLECTION", "RMS", "SCALES", "SIZES"),
+    "SPOTS",
     *("SPOT_LABEL", "STATE", "STATE_NAMES", "STATUS", "UNLOADED"),
 ]
 
@@ -202,6 +203,15 @@ CONDUCTION_PER_AREA = columns("""
     thermal_conductance_per_area | W m-2 K-1 | thermal conductance over the nominal area | page | \
         thermal conductance per area h_c
     thermal_resistance_per_area | m2 K W-1 | thermal resistance times the nominal area
+""")
+REFLECTION = columns("""
+    reflection | 1 | size of the reflection of a normal longitudinal wave | joint patch page
+    transmission | 1 | displacement of the transmitted wave over that of the incident wave | page
+    error_amplification | 1 | relative error of an inferred K/A0 over that of the reflection | joint patch page
+    best_frequency | Hz | frequency at which an error of the reflection changes K/A0 least | joint patch page
+    wavelength_over_spot_distance | 1 | shorter wavelength of both bodies over the mean distance of the spots
+    measurable | | whether the relative error of an inferred K/A0 is at most 20 times that of the reflection | \
+        joint patch | K/A0 measurable
 """)
 ERRORS = columns("""
     corrected_contact_area | m2 | real contact area, corrected for the perimeter of its cells | | \

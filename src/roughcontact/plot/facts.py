@@ -202,9 +202,9 @@ def load_table(dataset: xarray.Dataset, names: Sequence[str]) -> tuple[list[str]
         values, known = dataset[name].to_numpy(), unit_of(name, geometry)
         if name == "mean_gap":
             values = closed_gap(values, dataset["depth"].to_numpy())
-        if values.dtype.kind in "OUT":
+        if values.dtype.kind in "OUTb":
             header.append(VARIABLES[name].label)
-            columns.append([str(value) for value in values])
+            columns.append([{True: "yes", False: "no"}.get(value, str(value)) for value in values])
             continue
         plain = known in ("", "1")
         chosen = _scale(values, dataset[name].attrs.get("units", ""), known)

@@ -21,7 +21,7 @@ from roughcontact.recipe.texts import (
     modulus,
 )
 
-__all__ = ["Bodies", "Conduction", "hardness_of"]
+__all__ = ["Bodies", "Conduction", "hardness_of", "of_both"]
 
 _YOUNG = modulus("Young's modulus")
 _POISSON = PureNumber(-0.99, 0.5, "Poisson's ratio", "0.3")
@@ -86,16 +86,22 @@ class Bodies:
 
     def calls(self) -> Iterator[Call]:
         """Yield the call that returns the reduced modulus, or the materials with their hardness."""
-        function = ""
-        if self.modulus is not None:
-            given: list[Any] = [value_of(self, "modulus")]
-        elif self.materials is not None:
-            given = [tuple(name for name in value_of(self, "materials") if name != RIGID)]
-        else:
-            pairs = [("young", "poisson"), *([("young2", "poisson2")] if self.young2 is not None else [])]
-            given = [Call("rc.Solid", tuple(value_of(self, name) for name in pair)) for pair in pairs]
-            function = "rc.reduced_modulus"
-        yield Call(function, tuple(given), result="modulus", place="bodies")
+        function = "" if self.young is None else "rc.reduced_modulus"
+        given = self.elastic()
+        if self.young is None:
+            given = (given or value_of(self, "modulus"),)
+        yield Call(function, given, result="modulus", place="bodies")
+
+    def elastic(self) -> tuple[Any, ...]:
+        """Return the materials or solids that are not rigid; none for a reduced modulus."""
+        if self.materials is not None:
+            return tuple(name for name in value_of(self, "materials") if name != RIGID)
+        pairs = (("young", "poisson"), ("young2", "poisson2"))
+        return tuple(
+            Call("rc.Solid", tuple(value_of(self, name) for name in pair))
+            for pair in pairs
+            if getattr(self, pair[0]) is not None
+        )
 
     @property
     def softer(self) -> str | None:
@@ -104,8 +110,7 @@ class Bodies:
             return None
         from roughcontact.materials import handbook
 
-        names = [name for name in value_of(self, "materials") if name != RIGID]
-        return str(min(names, key=lambda name: handbook(name).hardness))
+        return str(min(self.elastic(), key=lambda name: handbook(name).hardness))
 
 
 # Carbon has 0.1 mohm*m at most, and metals 2 uohm*m.
@@ -115,7 +120,7 @@ _RESISTIVITY = Likely(
 _CONDUCTIVITY = Amount(CONDUCTIVITY, positive=False, zero=True)
 
 
-def _of_both(amount: Amount | Likely, name: str) -> Callable[[str], tuple[Call | float, Call | float]]:
+def of_both(amount: Amount | Likely, name: str) -> Callable[[str], tuple[Call | float, Call | float]]:
     """Return a reader of a property of both bodies: numbers with units or names of materials, or one for both."""
     kind = amount.kind
 
@@ -148,13 +153,13 @@ class Conduction:
         "Electrical resistivity of both bodies, or two values for the two bodies: numbers or names of "
         "materials such as copper,gold. The resistance of the contact is computed.",
         "17nohm*m[,...]",
-        read=_of_both(_RESISTIVITY, "resistivity"),
+        read=of_both(_RESISTIVITY, "resistivity"),
         names=METALS,
     )
     conductivity: str | None = described(
         "Thermal conductivity of both bodies, in the same form.",
         "400W/m/K[,...]",
-        read=_of_both(_CONDUCTIVITY, "conductivity"),
+        read=of_both(_CONDUCTIVITY, "conductivity"),
         names=METALS,
     )
     of: str = described(

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
+from roughcontact.recipe.incident_wave import Ultrasound
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.leak_along import LeakAlong
 from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
@@ -109,6 +110,7 @@ class CurveJob:
     contact: Contact = field(default_factory=Contact)
     plastic: LoopOfLoads = field(default_factory=LoopOfLoads)
     conduction: Conduction = field(default_factory=Conduction)
+    ultrasound: Ultrasound = field(default_factory=Ultrasound)
     theories: Theories = field(default_factory=Theories)
     errors: Errors = field(default_factory=Errors)
     leak: LeakAlong = field(default_factory=LeakAlong)
@@ -153,6 +155,7 @@ class CurveJob:
             raise InputError(
                 "a Winkler foundation only has a total conductance", "give `of` total", "conduction.of"
             )
+        self.ultrasound.require(self.bodies, profile)
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
     def calls(self) -> Iterator[Call]:
@@ -171,6 +174,7 @@ class CurveJob:
         if conducting:
             of = {} if self.conduction.of == "interface" else {"of": self.conduction.of}
             yield _call("rc.conductance", curve, conducting | of, "conductance")
+        yield from self.ultrasound.calls(curve, self.bodies)
         if self.tables.names():
             yield _call(
                 "rc.interface_table",

@@ -20,6 +20,7 @@ from roughcontact.files.fingerprint import fingerprint
 from roughcontact.files.standard_streams import standard
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
+from roughcontact.recipe.incident_wave import Ultrasound
 from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.prescribed_loads import RisingLoads
@@ -268,9 +269,8 @@ def carried(job: Job, folder: Path | None) -> dict[str, Any]:
 
 def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
     """Return the part of a recipe that the states of a curve depend on, without its loads."""
-    beside = {
-        name for name, kind in hints_of(CurveJob).items() if kind in (*OUTPUTS, Conduction, RisingLoads)
-    }
+    aside = (*OUTPUTS, Conduction, Ultrasound, RisingLoads)
+    beside = {name for name, kind in hints_of(CurveJob).items() if kind in aside}
     return {name: value for name, value in recipe.items() if name not in beside}
 
 

@@ -119,6 +119,15 @@ def test_a_loop_under_a_hardness_and_what_conducts_are_in_the_record(tmp_path):
     )
 
 
+def test_the_reflection_of_ultrasound_is_in_the_record(tmp_path):
+    asked = {"bodies": {"materials": "steel,steel"}, "ultrasound": {"frequency": "5MHz"}}
+    found = exported(study(CURVE | asked), tmp_path / "sound")
+    curve = rc.loading_curve(drawn().levelled("auto"), ("steel", "steel"), forces=[1, 2, 4, 8])
+    seen = rc.reflection(curve, ("steel", "steel"), 5e6)
+    for name in ("reflection", "error_amplification", "measurable"):
+        np.testing.assert_array_equal(found[name].values.ravel(), seen[name])
+
+
 def test_averages_of_samples_at_forces_of_their_own_have_laws(tmp_path):
     # Levelled heights have an rms height of their own, by which forces are divided.
     found = exported(study(CURVE | {"preparation": {"level": "plane"}}, samples=3), tmp_path)

@@ -18,6 +18,7 @@ from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.messages import note_all, worded
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
+from roughcontact.recipe.jobs import known_names
 from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.written import carried
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from roughcontact.labels.engineering_units import Scale
     from roughcontact.labels.note import Note
     from roughcontact.recipe.elastic_jobs import CurveJob
+    from roughcontact.recipe.job_calls import Call
     from roughcontact.solver.loads import Loads
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
@@ -161,7 +163,7 @@ class CurveAnswer:
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """The curve with the columns of theories and conductance, in the units that the job names."""
+        """The curve with the columns of theories, conductance and ultrasound, in the units that the job names."""
         from roughcontact.contact.compare import with_theories
         from roughcontact.contact.dataset import curve_dataset
         from roughcontact.contact.loop_dataset import unloaded
@@ -170,24 +172,31 @@ class CurveAnswer:
         dataset = with_theories(curve_dataset(self.curve), self.comparisons)
         if self.conductors is not None:
             dataset = with_conductance(dataset, self.conductors, self.job.conduction.of)
+        for call in self._reflection:
+            dataset = call.value(known_names() | {"dataset": dataset})
         if self.loop is not None:
             dataset = dataset.assign(unloaded(self.loop))
         return dataset.assign(
             {name: _in_unit(dataset[name], unit) for name, unit in self.units.items() if name in dataset}
         )
 
+    @property
+    def _reflection(self) -> list[Call]:
+        """The call that adds the reflection of ultrasound to the dataset, if the job names a frequency."""
+        return list(self.job.ultrasound.calls("dataset", self.job.bodies))
+
     @cached_property
     def record(self) -> dict[str, Any]:
         """The answer as plain values."""
         from roughcontact.contact.dataset import curve_record
         from roughcontact.labels.column import names_of
-        from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA
+        from roughcontact.labels.contact_columns import CONDUCTION, CONDUCTION_PER_AREA, REFLECTION
         from roughcontact.labels.labelled import plain_values
         from roughcontact.labels.note import in_order
 
         conducted = {
             name: self.dataset[name]
-            for name in names_of(CONDUCTION + CONDUCTION_PER_AREA)
+            for name in names_of(CONDUCTION + CONDUCTION_PER_AREA + REFLECTION)
             if name in self.dataset
         }
         record = {
@@ -212,7 +221,9 @@ class CurveAnswer:
         }
         if self.loop is not None:
             record["loop"] = self.loop.to_record()
-        record["units"] |= {name: values.attrs["units"] for name, values in conducted.items()}
+        record["units"] |= {
+            name: values.attrs["units"] for name, values in conducted.items() if "units" in values.attrs
+        }
         return record
 
     def source(self, control: str) -> dict[str, Any]:
@@ -257,6 +268,8 @@ class CurveAnswer:
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and its notes on standard error."""
+        from roughcontact.labels.column import names_of, shown_in
+        from roughcontact.labels.contact_columns import REFLECTION
         from roughcontact.labels.flow_columns import SHOWN
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
@@ -271,16 +284,16 @@ class CurveAnswer:
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
-            report.print_table(
-                *report.load_table(self.dataset, (*columns, *SHOWN, *shown_columns(self.dataset)))
-            )
+            shown = (*columns, *SHOWN, *shown_columns(self.dataset), *names_of(shown_in("joint", REFLECTION)))
+            report.print_table(*report.load_table(self.dataset, shown))
             conducting = (
                 []
                 if self.conductors is None
                 else conduction_facts(self.dataset, self.conductors, self.job.conduction.of)
             )
             local = exponents(curve, self.comparisons)
-            report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
+            facts = [*report.curve_facts(curve, self.fit), *local, *conducting, *self._waves()]
+            report.print_facts(facts)
             if self.comparisons:
                 report.print_facts([*deviations(self.comparisons), *parameters(self.theories.taken)])
             if self.loop is not None:
@@ -293,8 +306,25 @@ class CurveAnswer:
     def _of_states(self) -> tuple[Note, ...]:
         """The notes on the states, and on loads that are not computed."""
         from roughcontact.contact.notes.curve_notes import curve_notes
+        from roughcontact.evaluation.reflection import reflection_notes
 
-        return (*curve_notes(self.curve), *self.notes)
+        seen = [note for call in self._reflection for note in reflection_notes(self.dataset, call.given[-1])]
+        return (*curve_notes(self.curve), *seen, *self.notes)
+
+    def _waves(self) -> Iterator[tuple[str, str]]:
+        """Yield the lines on the waves in both bodies."""
+        from roughcontact.evaluation.reflection import waves_of
+
+        for call in self._reflection:
+            (_, bodies, frequency), named = call.arguments(known_names() | {"dataset": None})
+            impedances, speeds = waves_of(bodies, **named)
+            lengths = (report.quantity("lengths", speed / frequency) for speed in speeds)
+            if self.curve.hardness < math.inf:
+                yield "reflection", "by the stiffness on unloading, because a small oscillation is elastic"
+            yield "impedances", f"{impedances[0] / 1e6:.3g} and {impedances[1] / 1e6:.3g} MPa s/m"
+            yield "wavelengths", " and ".join(lengths)
+            widest = report.quantity("lengths", 10 * max(self.curve.lengths))
+            yield "beam", f"{widest} or wider if the longest waves of the roughness are as long as the map"
 
     def _notes(self) -> Iterator[Note]:
         """Yield the notes on the curve as a whole."""

@@ -61,6 +61,7 @@ roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --har
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
 roughcontact curve part.x3p --modulus 110GPa --pressures 1MPa:300MPa:12 --leak 0 --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
+roughcontact curve joint.npz --materials steel,aluminium --frequency 5MHz
 """,
 }
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import InputError
 from roughcontact.labels.labelled import plain_values
+from roughcontact.labels.note import in_order
 from roughcontact.page.jobs.curve_point import columns_of, point_of
 from roughcontact.page.jobs.followed import Followed, collected
 from roughcontact.page.jobs.session_cache import SessionCache
@@ -54,6 +55,7 @@ def curve(request: PageRequest, cache: SessionCache, send: Send) -> None:
     if reached is not None:
         cache.keep_curve(reached, found)
     answer = shown_curve(found)
+    answer = replace(answer, notes=(*answer.notes, *_on_waves(job, found)))
     send(
         {
             **{
@@ -113,6 +115,16 @@ def _with_theories(job: Job, names: Sequence[str]) -> CurveJob:
     assert isinstance(job, CurveJob)
     theory = {"theory": ",".join(names)} if names else {}
     return replace(job, theories=type(job.theories)(**(given(job.theories) | theory)))
+
+
+def _on_waves(job: Job, found: Any) -> Iterator[str]:
+    """Yield the notes on the reflection of ultrasound by a curve, or by the first loading of a loop."""
+    from roughcontact.evaluation.reflection import reflection_notes
+
+    known = known_names() | {"curve": getattr(found, "loading", found)}
+    calls = job.ultrasound.calls("curve", job.bodies) if isinstance(job, CurveJob) else ()
+    for call in calls:
+        yield from in_order(reflection_notes(call.value(known), call.given[-1]))
 
 
 def _as_far(job: Job, path: Followed, done: int) -> tuple[Job | None, dict[str, Any]]:

@@ -12,6 +12,7 @@ from roughcontact.labels.contact_columns import (
     CONDUCTION,
     CONDUCTION_PER_AREA,
     POINTS,
+    REFLECTION,
     STATE_NAMES,
 )
 from roughcontact.labels.flow_columns import SHOWN
@@ -32,7 +33,8 @@ def columns_of(job: Any) -> list[dict[str, str]]:
     """Return the quantities of a point of the curve of a job, with the words and units of pictures."""
     from roughcontact.labels.engineering_units import pretty
 
-    shown = (*_SHOWN, *_conducted(job), *_measured(job)) if isinstance(job, CurveJob) else _STICKING
+    curve = isinstance(job, CurveJob)
+    shown = (*_SHOWN, *_conducted(job), *_reflected(job), *_measured(job)) if curve else _STICKING
     units = {each.name: pretty(each.unit_on(_GEOMETRIES[job.contact.profile])) for each in shown}
     return [{"name": each.name, "label": each.label, "unit": units[each.name]} for each in shown]
 
@@ -50,6 +52,10 @@ def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
         named = job.conduction.named() | {"of": job.conduction.of}
         found = Call("rc.conductance", (Name("state"),), named).value(known_names() | {"state": state})
         point |= {each.name: float(found[each.name]) for each in conducted}
+    if isinstance(job, CurveJob):
+        for call in job.ultrasound.calls("state", job.bodies):
+            found = call.value(known_names() | {"state": state})
+            point |= {each.name: float(found[each.name]) for each in _reflected(job)}
     return {name: plain_values(value) for name, value in point.items()}
 
 
@@ -58,3 +64,8 @@ def _conducted(job: CurveJob) -> list[Column]:
     electrical, _, thermal, _ = CONDUCTION_PER_AREA if job.conduction.of == "interface" else CONDUCTION
     columns = {"resistivities": electrical, "conductivities": thermal}
     return [columns[name] for name in job.conduction.named()]
+
+
+def _reflected(job: CurveJob) -> tuple[Column, ...]:
+    """Return the columns of ultrasound, if a job names a frequency."""
+    return () if job.ultrasound.frequency is None else shown_in("page", REFLECTION)

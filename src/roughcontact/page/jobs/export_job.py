@@ -136,7 +136,7 @@ def _curve_files(request: PageRequest, cache: SessionCache) -> Writers:
 
 
 def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, Any], Callable[[], Figure]]:
-    """Return a curve of increasing loads with theories and conductance: as data, as a record and as a picture."""
+    """Return data, record and picture of a curve of increasing loads, with theories, conductance and ultrasound."""
     from roughcontact.contact.compare import with_theories
     from roughcontact.contact.dataset import curve_dataset, curve_record
     from roughcontact.evaluation.conduction import Conductors, with_conductance
@@ -151,6 +151,8 @@ def _beside(request: PageRequest, cache: SessionCache) -> tuple[Any, dict[str, A
     if named := job.conduction.named():
         conductors = Call("made", (), named).value(known_names() | {"made": Conductors})
         dataset = with_conductance(dataset, conductors, job.conduction.of)
+    for call in job.ultrasound.calls("dataset", job.bodies):
+        dataset = call.value(known_names() | {"dataset": dataset})
     record = curve_record(curve) | {
         "theories": {name: each.to_record() for name, each in comparisons.items()}
     }

@@ -5,7 +5,7 @@ import { digits, scaleFor } from "./words.js";
 
 const COLUMNS = [
   "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "hydraulic_gap", "transmissivity", "flow_factor",
-  "percolates", "spots", "residual",
+  "percolates", "spots", "reflection", "error_amplification", "best_frequency", "residual",
 ];
 
 // Without `chosen` the rows are not clickable.

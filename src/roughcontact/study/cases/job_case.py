@@ -103,19 +103,21 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     -------
     xarray.Dataset
         The variables of ``to_dataset()`` of the answer without a dimension and along ``load``; for a job with
-        conductors also the conductance of the interface.
+        conductors also the conductance of the interface, with a frequency the reflection of ultrasound.
     """
     job = located(parameters.recipe, Path(parameters.folder))
     require_same_files(job)
     known = known_names() | {"rng": rng}
-    conducting = None
+    columns = []
     for call in calls_of(job):
-        if call.result == "conductance":
-            conducting = replace(call, given=(Name("dataset"),))
+        if call.result in ("conductance", "reflection"):
+            columns.append(replace(call, given=(Name("dataset"), *call.given[1:]), result="dataset"))
         else:
             perform(_drawing(call), known)
     known["dataset"] = next(known[name] for name in _ANSWERS if name in known).to_dataset()
-    dataset = known["dataset"] if conducting is None else conducting.value(known)
+    for call in columns:
+        perform(call, known)
+    dataset = known["dataset"]
     record: Record = dataset.drop_dims([each for each in dataset.dims if each not in _KEPT])
     return record
 

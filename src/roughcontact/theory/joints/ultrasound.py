@@ -22,13 +22,14 @@ The model has these limits:
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import chdtrc
 
 from roughcontact.errors import InputError
 from roughcontact.theory.joints.conductance import Pair
+from roughcontact.theory.joints.plane_waves import impedance, reflection, speed, transmission
 from roughcontact.validation import Array, numeric, pair, positive, require
 
 __all__ = [
@@ -37,9 +38,11 @@ __all__ = [
     "amplification",
     "best_frequency",
     "combined",
+    "expected_amplification",
     "impedance",
     "reflection",
     "second_harmonic",
+    "speed",
     "stiffness_from_reflection",
     "transmission",
 ]
@@ -67,100 +70,6 @@ class SecondHarmonic(NamedTuple):
     reflected: Array
     transmitted: Array
     opening: Array
-
-
-@numeric
-def impedance(modulus: float, poisson_ratio: float, density: float) -> float:
-    """Return the acoustic impedance of longitudinal waves [Pa s/m].
-
-    Parameters
-    ----------
-    modulus, poisson_ratio : float
-        Young's modulus [Pa] and Poisson's ratio, below 1/2 [-].
-    density : float
-        Density [kg/m^3].
-
-    Returns
-    -------
-    float
-        Density times speed of sound [Pa s/m].
-
-    Examples
-    --------
-    >>> from roughcontact.theory import ultrasound
-    >>> f"{ultrasound.impedance(206e9, 0.3, 7850):.3g}"
-    '4.67e+07'
-    """
-    message = f"poisson_ratio must be above -1 and below 0.5, not {poisson_ratio}"
-    require(-1 < poisson_ratio < 0.5, message, place="poisson_ratio")
-    stretch = (1 - poisson_ratio) / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))
-    return math.sqrt(float(positive(density, "density") * positive(modulus, "modulus")) * stretch)
-
-
-@numeric
-def reflection(
-    stiffness: float | Array, frequency: float | Array, impedances: Pair, mass: float = 0.0
-) -> Array:
-    """Return the reflection r of a joint, a complex amplitude of displacement.
-
-    Parameters
-    ----------
-    stiffness, frequency : float or array
-        K/A0 [Pa/m] and frequency [Hz].
-    impedances : tuple of float
-        Acoustic impedances of the body of the incident wave and of the other [Pa s/m], see `impedance`.
-    mass : float
-        Mass per area that moves with the mean of both surfaces [kg/m^2]; 0 for a dry joint.
-
-    Returns
-    -------
-    complex array
-        r [-]; its size is the measured reflection, and -r that of stress.
-
-    Examples
-    --------
-    >>> from roughcontact.theory import ultrasound
-    >>> r = ultrasound.reflection([2.51e13, 2.255e14], 5e6, (46.2e6, 46.2e6))  # a steel joint at 10 and 100 MPa
-    >>> abs(r).round(5).tolist()
-    [0.9994, 0.95496]
-    """
-    spring, inertia, first, second = _terms(stiffness, frequency, impedances, mass)
-    difference = (first - second) * (1 + spring * inertia)
-    return np.asarray(
-        (difference + 2 * spring * first * second - 2 * inertia)
-        / _denominator(spring, inertia, first, second)
-    )
-
-
-@numeric
-def transmission(
-    stiffness: float | Array, frequency: float | Array, impedances: Pair, mass: float = 0.0
-) -> Array:
-    """Return the transmission t of a joint, a complex amplitude of displacement.
-
-    Parameters
-    ----------
-    stiffness, frequency : float or array
-        K/A0 [Pa/m] and frequency [Hz].
-    impedances : tuple of float
-        Acoustic impedances of the body of the incident wave and of the other [Pa s/m].
-    mass : float
-        Mass per area between the surfaces [kg/m^2].
-
-    Returns
-    -------
-    complex array
-        t [-]; the transmitted part of the power is ``z2/z1 |t|^2``, the rest of ``|r|^2``.
-
-    Examples
-    --------
-    >>> from roughcontact.theory import ultrasound
-    >>> t = ultrasound.transmission(2.51e13, 1.2e5, (46.2e6, 46.2e6))
-    >>> f"{abs(t):.3f}"
-    '0.822'
-    """
-    spring, inertia, first, second = _terms(stiffness, frequency, impedances, mass)
-    return np.asarray(2 * first * (1 - spring * inertia) / _denominator(spring, inertia, first, second))
 
 
 @numeric
@@ -192,6 +101,36 @@ def amplification(reflected: float | Array, impedances: Pair) -> Array:
     """
     square, least = _squares(reflected, impedances)
     return np.asarray(square * (1 - least) / ((1 - square) * (square - least)))
+
+
+@numeric
+def expected_amplification(stiffness: float | Array, frequency: float | Array, impedances: Pair) -> Array:
+    """Return by which factor an inferred stiffness will be less certain than the reflection, before it is measured.
+
+    Parameters
+    ----------
+    stiffness, frequency : float or array
+        Expected K/A0 [Pa/m] and frequency [Hz].
+    impedances : tuple of float
+        Acoustic impedances of both bodies [Pa s/m].
+
+    Returns
+    -------
+    array
+        `amplification` of the size of the reflection that is expected [-].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import ultrasound
+    >>> ultrasound.expected_amplification([2.51e13, 2.255e14], 5e6, (46.2e6, 46.2e6)).round(1).tolist()
+    [836.9, 11.4]
+    """
+    first, second = pair(impedances, "impedances")
+    least = ((first - second) / (first + second)) ** 2
+    # The square of the reflection is (least + ratio)/(1 + ratio): a small 1 - |r|^2 must not be a difference.
+    angular = 2 * math.pi * positive(frequency, "frequency")
+    ratio = (angular / positive(stiffness, "stiffness") / (1 / first + 1 / second)) ** 2
+    return np.asarray((1 + ratio) * (least / ratio + 1) / (1 - least))
 
 
 @numeric
@@ -371,19 +310,6 @@ def second_harmonic(
     damped = np.abs(1 + k * (1 / first + 1 / second) / (2j * angular))
     in_first, in_second = (np.asarray(force / (2 * angular * z * damped)) for z in (first, second))
     return SecondHarmonic(in_first, in_second, np.asarray(rate * closing**2 / 4))
-
-
-def _terms(
-    stiffness: float | Array, frequency: float | Array, impedances: Pair, mass: float
-) -> tuple[Any, Any, Array, Array]:
-    """Return ``i w/(2 K)``, ``i w m/2``, and both impedances."""
-    half = 0.5j * (2 * math.pi) * positive(frequency, "frequency")
-    spring = half / positive(stiffness, "stiffness")
-    return spring, half * positive(mass, "mass", zero=True), *pair(impedances, "impedances")
-
-
-def _denominator(spring: Any, inertia: Any, first: Array, second: Array) -> Any:
-    return (first + second) * (1 + spring * inertia) + 2 * spring * first * second + 2 * inertia
 
 
 def _squares(reflected: float | Array, impedances: Pair) -> tuple[Array, Array]:
