@@ -1,0 +1,67 @@
+"""Flow through one gap on ever smaller cells, from light contact to the threshold: docs/evidence/gap-flow-evidence.md.
+
+python benchmarks/gap_refinement.py                      64 to 512 cells a side
+python benchmarks/gap_refinement.py --finest 1024 --seed 4
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+import numpy as np
+
+import roughcontact as rc
+from gap_flow import rough
+from roughcontact.validation import Array
+
+AREAS, COARSEST = (0.10, 0.25, 0.35, 0.40), 64
+
+
+def pressure_for(surface: rc.Surface, area: float, within: float = 1e-4) -> float:
+    """Return the pressure over E* at which the relative contact area has a value, by bisection."""
+    low, high = 0.001, 0.2
+    while True:
+        middle = math.sqrt(low * high)
+        found = rc.press(surface, 1.0, pressure=middle).contact_fraction
+        if abs(found - area) <= within or high < 1.0001 * low:
+            return middle
+        low, high = (middle, high) if found < area else (low, middle)
+
+
+def half_trace(tensor: Array) -> float:
+    """Return the mean of both principal values."""
+    return float(np.trace(tensor)) / 2
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--finest", type=int, default=512)
+    parser.add_argument("--seed", type=int, default=3)
+    given = parser.parse_args()
+    sides = [COARSEST * 2**k for k in range(round(math.log2(given.finest / COARSEST)) + 1)]
+    surfaces = {cells: rough(cells, given.seed) for cells in sides}
+    print("| p/E* | cells | A/A0 | transmissivity [L^3] | change | interval | across | width/L | share |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for area in AREAS:
+        pressure = pressure_for(surfaces[sides[-1]], area)
+        before = math.nan
+        for cells, surface in surfaces.items():
+            solution = rc.press(surface, 1.0, pressure=pressure)
+            flow = rc.gap_flow(solution)
+            value, place = half_trace(flow.transmissivity), flow.constriction
+            low, high = (half_trace(each) / value - 1 for each in flow.interval) if value else (0.0, 0.0)
+            cells_across = f"{place.cells} | {place.width:.3f} | {place.share:.0%}" if place else "- | - | -"
+            print(
+                f"| {pressure:.4f} | {cells} | {solution.contact_fraction:.4f} | {value:.4g} | {value / before - 1:+.1%} "
+                f"| {low:+.1%} to {high:+.1%} | {cells_across} |".replace("+nan%", ""),
+                flush=True,
+            )
+            before = value
+
+
+if __name__ == "__main__":
+    main()
