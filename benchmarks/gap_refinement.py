@@ -10,23 +10,12 @@ import argparse
 import math
 
 import numpy as np
+from gap_flow import pressure_for, rough
 
 import roughcontact as rc
-from gap_flow import rough
 from roughcontact.validation import Array
 
 AREAS, COARSEST = (0.10, 0.25, 0.35, 0.40), 64
-
-
-def pressure_for(surface: rc.Surface, area: float, within: float = 1e-4) -> float:
-    """Return the pressure over E* at which the relative contact area has a value, by bisection."""
-    low, high = 0.001, 0.2
-    while True:
-        middle = math.sqrt(low * high)
-        found = rc.press(surface, 1.0, pressure=middle).contact_fraction
-        if abs(found - area) <= within or high < 1.0001 * low:
-            return middle
-        low, high = (middle, high) if found < area else (low, middle)
 
 
 def half_trace(tensor: Array) -> float:
@@ -55,9 +44,10 @@ def main() -> None:
             value, place = half_trace(flow.transmissivity), flow.constriction
             low, high = (half_trace(each) / value - 1 for each in flow.interval) if value else (0.0, 0.0)
             cells_across = f"{place.cells} | {place.width:.3f} | {place.share:.0%}" if place else "- | - | -"
+            change = "" if math.isnan(before) else f"{value / before - 1:+.1%}"
             print(
-                f"| {pressure:.4f} | {cells} | {solution.contact_fraction:.4f} | {value:.4g} | {value / before - 1:+.1%} "
-                f"| {low:+.1%} to {high:+.1%} | {cells_across} |".replace("+nan%", ""),
+                f"| {pressure:.4f} | {cells} | {solution.contact_fraction:.4f} | {value:.4g} | {change} "
+                f"| {low:+.1%} to {high:+.1%} | {cells_across} |",
                 flush=True,
             )
             before = value

@@ -358,9 +358,8 @@ def gap_flow(
     >>> flow.percolates, flow.transmissivity.shape, flow.residual < 1e-6
     (True, (2, 2), True)
     """
-    problem = solution.problem
-    require_flow(problem, axis, between)
-    grid = problem.grid
+    problem, grid = solution.problem, solution.problem.grid
+    require_flow(problem, axis, sides=between is None)
     if missing not in ("closed", "open"):
         raise about("missing", f"must be 'closed' or 'open', not {missing!r}")
     if not slip_length >= 0:
@@ -381,24 +380,18 @@ def gap_flow(
     return GapFlow(solution, gap, axis, slip_length, checked_tolerance(tolerance), between)
 
 
-def require_flow(problem: ContactProblem, axis: int | None, between: tuple[Mask, Mask] | None = None) -> None:
-    """Raise an error unless a contact has a gap through which the flow along an axis can be computed."""
+def require_flow(problem: ContactProblem, axis: int | None, *, sides: bool = True) -> None:
+    """Raise an error unless a contact is that of a map; `sides`: unless an axis leads through it."""
     grid = problem.grid
-    if (
-        problem.geometry is not Geometry.SURFACE
-        or not isinstance(grid, Grid)
-        or not is_numpy(problem.separation)
-    ):
+    if problem.geometry is not Geometry.SURFACE or not is_numpy(problem.separation):
         raise InputError(
             "the flow through a gap needs a map of heights in NumPy's memory", "press a Surface", "solution"
         )
-    if between is not None:
-        return
-    if axis is None and not all(grid.periodic):
+    if sides and axis is None and not all(grid.periodic):
         raise InputError(
             "on a map that is not periodic the direction of the flow must be given",
             "give axis=0 or axis=1",
             "axis",
         )
-    if axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
+    if sides and axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
         raise about("the axis", f"must be one that is not periodic, 0 or 1, not {axis!r}")
