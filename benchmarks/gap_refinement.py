@@ -15,7 +15,7 @@ from gap_flow import pressure_for, rough
 import roughcontact as rc
 from roughcontact.validation import Array
 
-AREAS, COARSEST = (0.10, 0.25, 0.35, 0.40), 64
+AREAS, COARSEST = (0.10, 0.25, 0.35, 0.40, 0.50), 64
 
 
 def half_trace(tensor: Array) -> float:
@@ -30,12 +30,13 @@ def main() -> None:
     )
     parser.add_argument("--finest", type=int, default=512)
     parser.add_argument("--seed", type=int, default=3)
+    parser.add_argument("--areas", type=float, nargs="+", default=AREAS)
     given = parser.parse_args()
     sides = [COARSEST * 2**k for k in range(round(math.log2(given.finest / COARSEST)) + 1)]
     surfaces = {cells: rough(cells, given.seed) for cells in sides}
     print("| p/E* | cells | A/A0 | transmissivity [L^3] | change | interval | across | width/L | share |")
     print("|---|---|---|---|---|---|---|---|---|")
-    for area in AREAS:
+    for area in given.areas:
         pressure = pressure_for(surfaces[sides[-1]], area)
         before = math.nan
         for cells, surface in surfaces.items():
@@ -51,6 +52,11 @@ def main() -> None:
                 flush=True,
             )
             before = value
+    for cells, surface in surfaces.items():
+        low, high = (sealed := rc.sealing_load(surface, 1.0, ratio=1e-3)).pressures
+        print(
+            f"{cells} cells: closes at p/E* = {low:.5f} to {high:.5f}, A/A0 = {sealed.contact_fractions[0]:.4f}"
+        )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The flow through the same gaps by ReynoldsFlow (BSD-3-Clause): docs/evidence/gap-flow-evidence.md.
 
-It solves the flow along axis 0 with harmonic means of g^3 at the faces, as roughcontact does, and knows no contact.
+It solves the flow along axis 0 with harmonic means of g^3 at the faces, as roughcontact does, and computes no contact.
 pip install reynoldsflow in an environment that holds roughcontact; then python benchmarks/peer_reynoldsflow.py 128
 """
 

@@ -53,7 +53,7 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
     grid, axes = flow.solution.problem.grid, axes_for(ax)
     window = part(grid, None)
     measured = flow.solution.problem.measured
-    gaps = flow.gap[measured]  # an open cell without height has no gap of its own
+    gaps = flow.gap[measured]  # the gap of an open cell without height is arbitrary
     usual = float(np.quantile(gaps, 0.99)) or float(gaps.max()) or 1.0
     chosen = scale(usual, VARIABLES["gap"].unit)
     gap = np.where(flow.gap > 0, flow.gap * chosen.factor, np.nan)
@@ -62,8 +62,8 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
     grey = "closed"
     if not measured.all():
         grey += "; not measured: darkest" if flow.gap[~measured].any() else " or not measured"
-    beyond = "max" if flow.gap.max() > usual else "neither"
-    colour_bar(axes, image, f"gap [{chosen.unit}]; grey: {grey}", beyond)
+    label = f"gap [{chosen.unit}]; grey: {grey}"
+    colour_bar(axes, image, label, "max" if flow.gap.max() > usual else "neither")
     if not flow.percolates:
         axes.set_title("no open path leads through the gap", fontsize=LABEL)
         return axes
