@@ -37,6 +37,14 @@ def test_each_name_is_there_once(package):
     assert all(getattr(package, name) is getattr(package, name) for name in names)
 
 
+@pytest.mark.parametrize("package", [rc, rc.plot])
+def test_no_module_takes_the_name_of_a_function(package):
+    """A package holds its modules by their names once they are imported."""
+    files = {path.stem for path in Path(package.__file__).parent.iterdir()}
+    taken = files & set(late_names(package.__spec__))
+    assert all(inspect.ismodule(getattr(package, name)) for name in taken)
+
+
 def test_a_misspelt_name_is_refused_with_similar_ones():
     with pytest.raises(
         AttributeError, match=r"module 'roughcontact\.theory' has no attribute 'hurtz'; did you mean hertz\?$"

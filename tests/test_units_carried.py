@@ -153,6 +153,7 @@ MORE = [
     *((getattr(rc.Gas("air"), name), {"pressure": 1e5}) for name in ("mean_free_path", "slip_length")),
     (rc.Gas("air").rarefaction, {"gap": 1e-6, "pressure": 1e5}),
     (rc.gap_flow, {"solution": PRESSED, "axis": 0, "slip_length": 1e-8}),
+    (rc.sealing_load, {"surface": ROUGH, "modulus": 1e9, "axis": 0, "hardness": 1e9, "ratio": 0.5}),
     (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
     (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "upstream": 2e3, "downstream": 1e3}),
     (rc.leak_rates, {"curve": FLOWN, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),

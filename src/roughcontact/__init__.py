@@ -108,6 +108,7 @@ if TYPE_CHECKING or _LATE is None:
         joint_conductance as joint_conductance,
     )
     from roughcontact.fluid.leak import Leak as Leak, leak as leak
+    from roughcontact.fluid.sealing_load import SealingLoad as SealingLoad, sealing_load as sealing_load
     from roughcontact.fluid.transmissivity import Transmissivity as Transmissivity, leak_rates as leak_rates
     from roughcontact.friction.slide import load_cycle as load_cycle, slide as slide, slide_path as slide_path
     from roughcontact.friction.slip_curve import SlipCurve as SlipCurve, slide_curve as slide_curve

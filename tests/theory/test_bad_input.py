@@ -139,6 +139,7 @@ OTHERS = {
     "plasticity.summit_index": {"height": np.array([1e-6, 2e-6]), "curvature": np.array([1e4, 2e4])},
     "pullen_williamson.flattened": {"heights": np.array([1e-6, 2e-6])},
     "leakage.bruggeman": {"conductances": np.array([1.0, 2.0]), "threshold": 0.5},
+    "leakage.critical_constriction": {"pressure": 1e6, "threshold": 0.4},
     "thermal.constriction": {"ratio": 0.3},
     "ultrasound.combined": {"stiffness": np.array([1e14, 1.01e14]), "error": np.array([1e12, 1e12])},
     "ultrasound.second_harmonic": {"stiffness": 1e14, "amplitude": 1e-9},

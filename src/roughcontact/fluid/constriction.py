@@ -83,7 +83,7 @@ def constriction_of(network: Network, drops: Array, gap: Array, grid: Grid) -> C
         of = cells // grid.shape[1] if along == 0 else cells % grid.shape[1]
         away = np.abs(of - centre)
         near &= (np.minimum(away, n - away) if periodic else away) <= half
-    near = np.append(near, np.zeros(network.count - len(cells), bool))
+    near = np.append(near, np.ones(network.count - len(cells), bool))  # half a cell at a side belongs to it
     share = dissipation[near[network.first] & near[network.second]].sum() / dissipation.sum()
     x, y = grid.coordinates
     at = (float(x[row]), float(y[column]))

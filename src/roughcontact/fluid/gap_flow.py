@@ -11,6 +11,7 @@ import numpy as np
 from roughcontact import methods
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
+from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.constriction import Constriction, constriction_of
@@ -24,7 +25,7 @@ from roughcontact.labels.note import in_order
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, Mask, numeric
 
-__all__ = ["GapFlow", "gap_flow"]
+__all__ = ["GapFlow", "gap_flow", "require_flow"]
 
 Missing: TypeAlias = Literal["closed", "open"]
 TOLERANCE = 1e-6  # largest relative difference of the two bounds
@@ -359,14 +360,7 @@ def gap_flow(
     (True, (2, 2), True)
     """
     problem, grid = solution.problem, solution.problem.grid
-    if (
-        problem.geometry is not Geometry.SURFACE
-        or not isinstance(grid, Grid)
-        or not is_numpy(solution.pressure)
-    ):
-        raise InputError(
-            "the flow through a gap needs a map of heights in NumPy's memory", "press a Surface", "solution"
-        )
+    require_flow(problem, axis, sides=between is None)
     if missing not in ("closed", "open"):
         raise about("missing", f"must be 'closed' or 'open', not {missing!r}")
     if not slip_length >= 0:
@@ -380,16 +374,25 @@ def gap_flow(
             or (between[0] & between[1]).any()
         ):
             raise about("between", f"must be two regions of shape {grid.shape} without a common cell")
-    elif axis is None and not all(grid.periodic):
-        raise InputError(
-            "on a map that is not periodic the direction of the flow must be given",
-            "give axis=0 or axis=1",
-            "axis",
-        )
-    elif axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
-        raise about("the axis", f"must be one that is not periodic, 0 or 1, not {axis!r}")
     gap = np.where(solution.contact | ~(solution.gap > 0), 0.0, solution.gap)
     if missing == "open" and solution.missing:
         gap[~problem.measured] = OPEN ** (1 / 3) * gap.max()
     gap.flags.writeable = False
     return GapFlow(solution, gap, axis, slip_length, checked_tolerance(tolerance), between)
+
+
+def require_flow(problem: ContactProblem, axis: int | None, *, sides: bool = True) -> None:
+    """Raise an error unless a contact is that of a map; `sides`: unless an axis leads through it."""
+    grid = problem.grid
+    if problem.geometry is not Geometry.SURFACE or not is_numpy(problem.separation):
+        raise InputError(
+            "the flow through a gap needs a map of heights in NumPy's memory", "press a Surface", "solution"
+        )
+    if sides and axis is None and not all(grid.periodic):
+        raise InputError(
+            "on a map that is not periodic the direction of the flow must be given",
+            "give axis=0 or axis=1",
+            "axis",
+        )
+    if sides and axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
+        raise about("the axis", f"must be one that is not periodic, 0 or 1, not {axis!r}")

@@ -34,8 +34,8 @@ if TYPE_CHECKING or _LATE is None:
         pressure_distribution as pressure_distribution,
     )
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
-    from roughcontact.plot.flow_map import flow_map as flow_map
     from roughcontact.plot.flux_plot import flux_map as flux_map, spot_resistances as spot_resistances
+    from roughcontact.plot.gap_flow_map import flow_map as flow_map
     from roughcontact.plot.jumps import (
         jump_area as jump_area,
         jump_figure as jump_figure,

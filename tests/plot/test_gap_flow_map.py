@@ -50,3 +50,30 @@ def test_a_closed_gap_has_no_lines():
     axes = flow.plot(Figure().subplots())
     assert axes.get_title() == "no open path leads through the gap"
     assert not axes.collections
+
+
+def test_cells_without_a_height():
+    """Closed they are grey, open they do not stretch the colours; both are named beside the colours."""
+    heights = np.random.default_rng(2).normal(0, 1e-7, GRID.shape)
+    heights[:, 20] = np.nan
+    heights[5, :] = np.nan
+    solution = rc.press(rc.Surface(heights, GRID), 1e9, pressure=1e4)
+    limits = set()
+    for missing, words in (("closed", "closed or not measured"), ("open", "not measured: darkest")):
+        flow = rc.gap_flow(solution, axis=1, missing=missing)
+        [image] = flow.plot(Figure().subplots()).images
+        assert words in image.colorbar.ax.get_ylabel()
+        limits.add(image.get_clim())
+    assert len(limits) == 1
+
+
+def test_on_few_cells_lines_end_at_contact():
+    flow = channel(8, 30)
+    axes = flow.plot(Figure().subplots())
+    [lines] = [each for each in axes.collections if isinstance(each, LineCollection)]
+    points = np.concatenate(lines.get_segments())
+    assert (
+        points[:, 1].min() >= 2 * 6 - 0.5
+    )  # the channel: rows 6 to 10 of 2 um; lines step over less than a quarter cell
+    assert points[:, 1].max() <= 2 * 11 + 0.5
+    assert points[:, 0].min() < 0.5  # they begin at the side, not in the middle of the first cell

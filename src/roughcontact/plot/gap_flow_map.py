@@ -20,7 +20,7 @@ __all__ = ["flow_map"]
 
 _LINES, _MARK, _CONTACT = "#c8290b", "#d6006c", "#4d4d4d"
 _LEAST = 1e-3  # of the largest flux: smaller fluxes have no lines
-_MOST = 256  # blocks along an axis between which flow lines are traced
+_FEWEST, _MOST = 128, 256  # values along an axis from which flow lines are traced
 
 
 @numeric
@@ -52,14 +52,18 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
     """
     grid, axes = flow.solution.problem.grid, axes_for(ax)
     window = part(grid, None)
-    usual = float(np.quantile(flow.gap, 0.99)) or float(flow.gap.max()) or 1.0
+    measured = flow.solution.problem.measured
+    gaps = flow.gap[measured]  # the gap of an open cell without height is arbitrary
+    usual = float(np.quantile(gaps, 0.99)) or float(gaps.max()) or 1.0
     chosen = scale(usual, VARIABLES["gap"].unit)
     gap = np.where(flow.gap > 0, flow.gap * chosen.factor, np.nan)
     image = show(axes, gap, grid, window, "Blues", (0.0, usual * chosen.factor))
     axes.patch.set_facecolor(_CONTACT)
-    colour_bar(
-        axes, image, f"gap [{chosen.unit}]; grey: closed", "max" if flow.gap.max() > usual else "neither"
-    )
+    grey = "closed"
+    if not measured.all():
+        grey += "; not measured: darkest" if flow.gap[~measured].any() else " or not measured"
+    label = f"gap [{chosen.unit}]; grey: {grey}"
+    colour_bar(axes, image, label, "max" if flow.gap.max() > usual else "neither")
     if not flow.percolates:
         axes.set_title("no open path leads through the gap", fontsize=LABEL)
         return axes
@@ -72,7 +76,8 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
         words = (
             f"ringed: critical constriction, {place.cells} open cells across, gap {written(place.gap, 'm')}"
         )
-        axes.set_title(f"{words}\n{100 * place.share:.0f} % of the dissipation", fontsize=LABEL)
+        share = f"{100 * place.share:.0f}" if place.share >= 0.01 else "less than 1"
+        axes.set_title(f"{words}\n{share} % of the dissipation", fontsize=LABEL)
     return axes
 
 
@@ -80,6 +85,9 @@ def _lines(axes: Axes, flow: GapFlow, direction: int, factor: float) -> None:
     """Draw the flow lines, whose width grows with the flux."""
     grid = flow.solution.problem.grid
     down, right = (_means(each) for each in flow.flux(direction))
+    # On few cells, lines between the centres would lead through contact, and end half a cell before the sides.
+    finer = -(-_FEWEST // min(down.shape))
+    down, right = (each.repeat(finer, 0).repeat(finer, 1) for each in (down, right))
     flux = np.hypot(down, right)
     flux[flux < _LEAST * flux.max()] = 0.0  # stagnant pockets, and rounding errors
     speed = np.sqrt(flux)
