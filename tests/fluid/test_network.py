@@ -239,7 +239,7 @@ def test_a_wrong_conductance_is_found(monkeypatch, wrong):
         wide = np.where(faces.axis == 0, grid.spacing[1] / grid.spacing[0], grid.spacing[0] / grid.spacing[1])
         return replace(faces, conductance=0.5 * (m[faces.first] + m[faces.second]) * wide)
 
-    monkeypatch.setattr("roughcontact.fluid.gap_flow.faces_of", planted)
+    monkeypatch.setattr("roughcontact.fluid.network.faces_of", planted)
     with pytest.raises(AssertionError):
         test_gaps_in_series_and_in_parallel(0)
 
