@@ -227,6 +227,39 @@ def test_fluids_that_make_no_sense(make, words):
         make()
 
 
+def test_adhesive_states_carry_a_flow_above_a_closing_gap():
+    """Cells at the wall and below the gap are closed; wider ones keep the gap of the state."""
+    surface = rc.Surface(rough(n=32, periodic=False).heights * 1e-6, rc.Grid((32, 32), 1e-6))
+    state = rc.adhesive_state(surface, 1e9, rc.Adhesion(1e-3, 2e-8), depth=1e-8)
+    assert state.contact.any()
+    narrow, wide = (rc.gap_flow(state, axis=0, closing_gap=each) for each in (1e-9, 8e-9))
+    is_open = ~state.contact & (state.gap >= 8e-9)
+    np.testing.assert_array_equal(wide.gap, np.where(is_open, state.gap, 0))
+    assert 0 < wide.transmissivity[0, 0] < narrow.transmissivity[0, 0]
+    assert narrow.to_record()["contact_fraction"] == state.contact_fraction
+    assert wide.notes == ()
+    heights = surface.heights.copy()
+    heights[10:12, 5:9] = np.nan
+    torn = rc.adhesive_state(rc.Surface(heights, surface.grid), 1e9, rc.Adhesion(1e-3, 2e-8), depth=1e-8)
+    closed, opened = (rc.gap_flow(torn, axis=0, closing_gap=1e-9, missing=m) for m in ("closed", "open"))
+    assert (closed.gap[10:12, 5:9] == 0).all()
+    assert opened.transmissivity[0, 0] > closed.transmissivity[0, 0]
+    assert any("8 cells hold no height" in note for note in closed.notes)
+
+
+def test_pressed_rings_are_closed_by_one_ring_in_contact():
+    """An axisymmetric contact always seals; at first touch the whole gap is open."""
+    rings = rc.RadialGrid(np.linspace(1e-3, 2e-3, 65))
+    profile = rc.RadialProfile(-1e-6 * (rings.radii / 1e-3 - 1.5) ** 2, rings)
+    pressed = rc.press(profile, 1e9, force=1e-3)
+    assert 0 < pressed.contact.sum() < 64
+    assert not rc.gap_flow(pressed).percolates
+    assert rc.leak(pressed, WATER, drop=10.0).volume == 0
+    stuck = rc.adhesive_state(profile, 1e9, rc.Adhesion(1e-3, 1e-7), depth=-1e-7)
+    assert not stuck.contact.any()
+    assert rc.gap_flow(stuck, closing_gap=1e-9).percolates
+
+
 def test_commands_offer_every_gas():
     assert tuple(fluids._GASES) == GASES
 

@@ -107,7 +107,8 @@ class GapFlow:
         if self.between is not None:
             raise InputError(
                 "between two regions the flow has no interval",
-                "use the flow from side to side, or on a period",
+                "leave between out, and give axis on a map that is not periodic",
+                "between",
             )
         lower = flux_bound(self._network, self._flow.flow, self._conductance, self._grid)
         upper = bilinear_bound(self._conductance, self._grid, self.axis)

@@ -79,25 +79,20 @@ class Leak:
 
     @property
     def reynolds(self) -> float:
-        """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density, and on rings."""
+        """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density."""
         place = self.constriction
         if place is None:
-            return math.nan if self.flow.percolates else 0.0
+            return 0.0
         flux = float(np.hypot(*self.flow.flux(self.direction)).max())
         return self._density * flux * self.drop / (12 * self.fluid.viscosity**2) * place.gap / place.width
 
     @property
     def rarefaction(self) -> float:
-        """Rarefaction parameter in the critical constriction at the mean pressure [1]; infinite for a liquid.
-
-        On rings it is that in the smallest gap.
-        """
-        if not self.flow.percolates or not isinstance(self.fluid, Gas):
+        """Rarefaction parameter in the critical constriction at the mean pressure [1]; infinite for a liquid."""
+        place = self.constriction
+        if place is None or not isinstance(self.fluid, Gas):
             return math.inf
-        on_rings, place = isinstance(self.flow.solution.problem.grid, RadialGrid), self.constriction
-        if place is None and not on_rings:
-            return math.inf
-        return self.fluid.rarefaction(place.gap if place else float(self.flow.gap.min()), self._mean)
+        return self.fluid.rarefaction(place.gap, self._mean)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -199,7 +194,7 @@ def leak(
             f"the gas is too rarefied in the critical constriction for a slip length: its rarefaction parameter is "
             f"{found.rarefaction:.2g}, less than {RAREFIED:g}",
             "raise the pressures, or press less",
-            "fluid",
+            "upstream, downstream",
         )
     return found
 

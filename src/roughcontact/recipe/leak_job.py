@@ -119,7 +119,7 @@ class LeakJob:
         if self.fluid.gas is not None and self.seal.drop is not None:
             raise InputError(
                 "the flow of a gas depends on the absolute pressures on both sides, not only on their difference",
-                "give `upstream` and `downstream` in place of `drop`, such as 2bar and 1bar",
+                "give `upstream` and `downstream` in place of `drop`",
                 "seal.drop",
             )
 
