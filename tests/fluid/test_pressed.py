@@ -191,7 +191,7 @@ def test_warnings_of_a_leak():
 @pytest.mark.parametrize(
     ("solution", "given", "words"),
     [
-        (lambda: steel(), {}, "direction of the flow must be given"),
+        (lambda: steel(), {}, "exactly one of axis and between"),
         (lambda: steel(), {"axis": 2}, "along an axis that is not periodic"),
         (lambda: pressed(0.01), {"axis": 0}, "along an axis that is not periodic"),
         (lambda: steel(), {"axis": 0, "missing": "shut"}, "must be 'closed' or 'open'"),

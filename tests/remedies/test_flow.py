@@ -72,9 +72,9 @@ FLOWS = [
     ),
     row(
         flow,
-        "the direction of the flow must be given: give axis=0 or axis=1",
+        "give exactly one of axis and between: none is given",
         lambda: flow(axis=0),
-        lambda: flow(axis=1),
+        lambda: flow(between=(LEFT, RIGHT)),
     ),
     row(lambda: flow(axis=2), "not 2: give axis=0", lambda: flow(axis=0)),
     row(lambda: flow(PERIODIC, axis=0), "not 0: leave axis out", lambda: flow(PERIODIC)),
@@ -85,7 +85,7 @@ FLOWS = [
     ),
     row(
         lambda: flow(axis=0, between=(LEFT, RIGHT)),
-        "axis and between exclude each other: give one of them",
+        "give exactly one of axis and between",
         lambda: flow(axis=0),
         lambda: flow(between=(LEFT, RIGHT)),
     ),

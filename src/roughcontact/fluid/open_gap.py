@@ -11,7 +11,7 @@ from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, RadialGrid
-from roughcontact.validation import Array, Mask
+from roughcontact.validation import Array, Mask, exactly_one
 
 __all__ = ["Missing", "checked_direction", "open_gap"]
 
@@ -41,26 +41,20 @@ def checked_direction(
             "press a Surface with two axes, or a RadialProfile",
             "solution",
         )
-    if axis is not None and between is not None:
-        raise InputError("axis and between exclude each other", "give one of them", "axis, between")
-    if between is not None:
-        regions = [np.asarray(each, dtype=bool) for each in between]
-        if [each.shape for each in regions] != [grid.shape] * 2 or (regions[0] & regions[1]).any():
-            raise about("between", f"must be two regions of shape {grid.shape} without a common cell")
-        return regions[0], regions[1]
-    if axis is None and not all(grid.periodic):
-        raise InputError(
-            "on a map that is not periodic the direction of the flow must be given",
-            "give axis=0 or axis=1",
-            "axis",
-        )
     if axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
         raise InputError(
             f"from side to side the fluid flows along an axis that is not periodic, 0 or 1, not {axis!r}",
             "leave axis out" if all(grid.periodic) else f"give axis={int(grid.periodic[0])}",
             "axis",
         )
-    return None
+    if not all(grid.periodic):
+        exactly_one(axis=axis, between=between)
+    if between is None:
+        return None
+    regions = [np.asarray(each, dtype=bool) for each in between]
+    if [each.shape for each in regions] != [grid.shape] * 2 or (regions[0] & regions[1]).any():
+        raise about("between", f"must be two regions of shape {grid.shape} without a common cell")
+    return regions[0], regions[1]
 
 
 def open_gap(solution: Solution | AdhesiveState, missing: Missing, closing_gap: float | None) -> Array:

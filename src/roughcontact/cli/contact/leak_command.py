@@ -49,8 +49,8 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     from roughcontact.fluid.flow_notes import notes_on_leak
     from roughcontact.fluid.leak import shape_factor
     from roughcontact.labels.engineering_units import written
+    from roughcontact.plot.facts import leak_facts, rate_words
     from roughcontact.plot.flow_map import flow_figure
-    from roughcontact.plot.leak_facts import leak_facts, rate_words
     from roughcontact.theory import leakage
 
     hardness_of_job(job.pressed)
