@@ -54,6 +54,7 @@ SHAPES = {
     rc.shapes.sphere: {"radius": 1e-3},
 }
 # What is called beside tests/test_bad_input.py, and good arguments.
+_LEAK = {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "axis": 0}
 MORE = [
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
@@ -152,10 +153,10 @@ MORE = [
               "momentum_accommodation": 0.9}),
     *((getattr(rc.Gas("air"), name), {"pressure": 1e5}) for name in ("mean_free_path", "slip_length")),
     (rc.Gas("air").rarefaction, {"gap": 1e-6, "pressure": 1e5}),
-    (rc.gap_flow, {"solution": PRESSED, "axis": 0, "slip_length": 1e-8}),
+    (rc.gap_flow, {"solution": PRESSED, "axis": 0, "slip_length": 1e-8, "closing_gap": 1e-9}),
+    (rc.leak, {**_LEAK, "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
+    (rc.leak, {**_LEAK, "upstream": 2e3, "downstream": 1e3}),
     (rc.sealing_load, {"surface": ROUGH, "modulus": 1e9, "axis": 0, "hardness": 1e9, "ratio": 0.5}),
-    (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
-    (rc.leak, {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "upstream": 2e3, "downstream": 1e3}),
     (rc.leak_rates, {"curve": FLOWN, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
@@ -168,7 +169,7 @@ UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
     " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
-    " slip_length seal_width circumference",
+    " slip_length closing_gap seal_width circumference",
     "Pa": "young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",

@@ -61,8 +61,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.fluid.leak_dataset import (
         flow_dataset as flow_dataset,
-        leak_dataset as leak_dataset,
-        leak_record as leak_record,
+        flow_record as flow_record,
     )
     from roughcontact.friction.slip_dataset import (
         slip_curve_dataset as slip_curve_dataset,
@@ -135,7 +134,7 @@ else:
         "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
-        "fluid.leak_dataset": "flow_dataset leak_dataset leak_record",
+        "fluid.leak_dataset": "flow_dataset flow_record",
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",

@@ -65,6 +65,7 @@ OPTIONAL = " | None"
 BODIES = {
     "Surface": "a Surface, as rc.read and rc.self_affine return it",
     "Solution": "a Solution, as rc.press returns it",
+    "Solution | AdhesiveState": "a Solution, as rc.press returns it, or an AdhesiveState",
     "Curve": "a Curve, as rc.loading_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
@@ -369,7 +370,7 @@ def fitting(shapes: Mapping[str, tuple[int, ...]]) -> None:
 
 def _is_a(kind: str, value: Any) -> bool:
     """Return whether a value is of the class, or of one of the classes, of an annotation."""
-    return any(one.__name__ in KINDS.get(kind, (kind,)) for one in type(value).__mro__)
+    return any(one.__name__ in KINDS.get(kind, kind.split(" | ")) for one in type(value).__mro__)
 
 
 def _shape(value: Any, name: str, kind: str) -> tuple[int, ...]:

@@ -131,14 +131,14 @@ def test_a_leak_is_the_transmissivity_times_drop_over_viscosity():
     assert found.mass == pytest.approx(found.volume * 1000, rel=1e-12)
     seal = rc.leak(solution, WATER, drop=1e5, axis=1, seal_width=1e-3, circumference=0.1)
     assert seal.volume == pytest.approx(100 * found.volume, rel=1e-12)
-    assert np.isnan(rc.leak(solution, rc.Liquid(1e-3), drop=1e5).mass)
+    assert np.isnan(rc.leak(solution, rc.Liquid(1e-3), drop=1e5, axis=1).mass)
     assert np.isnan(found.throughput)
 
 
 def test_a_gas_flows_by_the_squares_of_its_pressures():
     """Without slip G (p1^2 - p2^2)/(2 R T 12 eta); slip adds to it."""
     solution, air = steel(2e6), rc.Gas("air")
-    found = rc.leak(solution, air, upstream=2e5, downstream=1e5)
+    found = rc.leak(solution, air, upstream=2e5, downstream=1e5, axis=0)
     kappa = rc.gap_flow(solution, axis=0).transmissivity[0, 0]
     no_slip = kappa * (4e10 - 1e10) / (2 * air.gas_constant * 300 * 12 * air.viscosity)
     assert 1 < found.mass / no_slip < 1.5
@@ -173,27 +173,27 @@ def test_gases_at_300_kelvin(name, path, jump):
 )
 def test_leaks_that_make_no_sense(given, words):
     with pytest.raises(ValueError, match=words):
-        rc.leak(steel(), **given)
+        rc.leak(steel(), **{"axis": 0} | given)
 
 
 def test_warnings_of_a_leak():
     solution = steel()
-    assert not any("nominal pressure" in note for note in rc.leak(solution, WATER, drop=4.9e6).notes)
-    assert any("10% of the nominal" in note for note in rc.leak(solution, WATER, drop=5.1e6).notes)
+    assert not any("nominal pressure" in note for note in rc.leak(solution, WATER, drop=4.9e6, axis=0).notes)
+    assert any("10% of the nominal" in note for note in rc.leak(solution, WATER, drop=5.1e6, axis=0).notes)
     boiling = rc.Liquid(1e-3, 1000.0, vapour_pressure=3e3)
-    high, low = (rc.leak(solution, boiling, upstream=2e5, downstream=p).notes for p in (1e5, 1e3))
+    high, low = (rc.leak(solution, boiling, upstream=2e5, downstream=p, axis=0).notes for p in (1e5, 1e3))
     assert any("boils" in note for note in low)
     assert not any("boils" in note for note in high)
     thin = rc.Liquid(1e-6, 1000.0)
-    assert any("inertia" in note for note in rc.leak(steel(1e6), thin, drop=1e5).notes)
+    assert any("inertia" in note for note in rc.leak(steel(1e6), thin, drop=1e5, axis=0).notes)
 
 
 @pytest.mark.parametrize(
     ("solution", "given", "words"),
     [
-        (lambda: steel(), {}, "direction of the flow must be given"),
-        (lambda: steel(), {"axis": 2}, "must be one that is not periodic"),
-        (lambda: pressed(0.01), {"axis": 0}, "must be one that is not periodic"),
+        (lambda: steel(), {}, "exactly one of axis and between"),
+        (lambda: steel(), {"axis": 2}, "along an axis that is not periodic"),
+        (lambda: pressed(0.01), {"axis": 0}, "along an axis that is not periodic"),
         (lambda: steel(), {"axis": 0, "missing": "shut"}, "must be 'closed' or 'open'"),
         (lambda: steel(), {"axis": 0, "slip_length": -1.0}, "must be 0 or more"),
         (lambda: steel(), {"between": (np.ones((2, 2), bool),) * 2}, "two regions of shape"),
@@ -225,6 +225,39 @@ def test_flows_that_make_no_sense(solution, given, words):
 def test_fluids_that_make_no_sense(make, words):
     with pytest.raises(ValueError, match=words):
         make()
+
+
+def test_adhesive_states_carry_a_flow_above_a_closing_gap():
+    """Cells at the wall and below the gap are closed; wider ones keep the gap of the state."""
+    surface = rc.Surface(rough(n=32, periodic=False).heights * 1e-6, rc.Grid((32, 32), 1e-6))
+    state = rc.adhesive_state(surface, 1e9, rc.Adhesion(1e-3, 2e-8), depth=1e-8)
+    assert state.contact.any()
+    narrow, wide = (rc.gap_flow(state, axis=0, closing_gap=each) for each in (1e-9, 8e-9))
+    is_open = ~state.contact & (state.gap >= 8e-9)
+    np.testing.assert_array_equal(wide.gap, np.where(is_open, state.gap, 0))
+    assert 0 < wide.transmissivity[0, 0] < narrow.transmissivity[0, 0]
+    assert narrow.to_record()["contact_fraction"] == state.contact_fraction
+    assert wide.notes == ()
+    heights = surface.heights.copy()
+    heights[10:12, 5:9] = np.nan
+    torn = rc.adhesive_state(rc.Surface(heights, surface.grid), 1e9, rc.Adhesion(1e-3, 2e-8), depth=1e-8)
+    closed, opened = (rc.gap_flow(torn, axis=0, closing_gap=1e-9, missing=m) for m in ("closed", "open"))
+    assert (closed.gap[10:12, 5:9] == 0).all()
+    assert opened.transmissivity[0, 0] > closed.transmissivity[0, 0]
+    assert any("8 cells hold no height" in note for note in closed.notes)
+
+
+def test_pressed_rings_are_closed_by_one_ring_in_contact():
+    """An axisymmetric contact always seals; at first touch the whole gap is open."""
+    rings = rc.RadialGrid(np.linspace(1e-3, 2e-3, 65))
+    profile = rc.RadialProfile(-1e-6 * (rings.radii / 1e-3 - 1.5) ** 2, rings)
+    pressed = rc.press(profile, 1e9, force=1e-3)
+    assert 0 < pressed.contact.sum() < 64
+    assert not rc.gap_flow(pressed).percolates
+    assert rc.leak(pressed, WATER, drop=10.0).volume == 0
+    stuck = rc.adhesive_state(profile, 1e9, rc.Adhesion(1e-3, 1e-7), depth=-1e-7)
+    assert not stuck.contact.any()
+    assert rc.gap_flow(stuck, closing_gap=1e-9).percolates
 
 
 def test_commands_offer_every_gas():

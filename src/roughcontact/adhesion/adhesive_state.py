@@ -19,6 +19,7 @@ from roughcontact.adhesion.reduced_hessian import smallest_ratio, solved_bound
 from roughcontact.adhesion.tangent import force_slope
 from roughcontact.adhesion.truncated_newton import Counter
 from roughcontact.cached import cached_property
+from roughcontact.grid import AnyGrid
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of
@@ -68,6 +69,16 @@ class AdhesiveProblem:
     control: DepthControl | ForceControl
     tolerance: float
     resolved: bool
+
+    @property
+    def grid(self) -> AnyGrid:
+        """The grid of the operator."""
+        return self.operator.grid
+
+    @property
+    def measured(self) -> Mask:
+        """Cells that hold a height."""
+        return np.isfinite(self.separation)
 
 
 @hinted
@@ -130,6 +141,11 @@ class AdhesiveState:
     lowest_force_depth: float
 
     @property
+    def missing(self) -> int:
+        """Number of cells without a height; they never touch."""
+        return int(np.count_nonzero(~self.problem.measured))
+
+    @property
     def status(self) -> Status:
         """Whether the certificate meets the tolerance."""
         if not self.residual <= self.problem.tolerance:
@@ -190,7 +206,7 @@ class AdhesiveState:
     @property
     def nominal_area(self) -> float:
         """Area of all cells [m^2], missing ones included."""
-        return self.problem.operator.grid.area
+        return self.problem.grid.area
 
     @property
     def nominal_pressure(self) -> float:
@@ -210,7 +226,7 @@ class AdhesiveState:
     @property
     def mean_gap(self) -> float:
         """Gap averaged over the measured cells [m]."""
-        there = np.isfinite(self.problem.separation)
+        there = self.problem.measured
         areas = np.broadcast_to(np.asarray(self._weights, np.float64), there.shape)[there]
         return float(np.average(self.gap[there], weights=areas))
 

@@ -11,11 +11,15 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from roughcontact.cli.job import communicator_of_job
 from roughcontact.cli.messages import UsageError, note, plain
 
-__all__ = ["all_or_none", "command_line", "output", "writing"]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["all_or_none", "command_line", "output", "source_of", "write_state", "writing"]
 
 
 @contextmanager
@@ -80,6 +84,33 @@ def writing() -> Iterator[None]:
 def command_line() -> str:
     """Return the command as the user typed it, for the record."""
     return plain(shlex.join(["roughcontact", *sys.argv[1:]]))
+
+
+def source_of(problem: Any, recipe: dict[str, Any], control: str | None = None) -> dict[str, Any]:
+    """Return the provenance that files of a loaded state contain."""
+    from roughcontact.files.provenance import provenance
+
+    return provenance(
+        problem.surface,
+        modulus=problem.modulus,
+        control=control,
+        tolerance=problem.tolerance,
+        command=command_line(),
+        recipe=recipe,
+    )
+
+
+def write_state(
+    path: Path, answer: Any, record: dict[str, Any], figure: Figure, ending: str, source: dict[str, Any]
+) -> None:
+    """Write NetCDF, picture and summary of an answer, `path` without ending: all of them or none."""
+    from roughcontact.files.write import write_json, write_netcdf
+    from roughcontact.plot.canvas import save
+
+    with all_or_none(path.parent) as aside:
+        write_netcdf(answer.to_dataset(), aside / f"{path.name}.nc", source)
+        save(figure, aside / f"{path.name}.{ending}")
+        write_json(record, aside / f"{path.name}.json", source)
 
 
 def _check_free(target: Path) -> None:

@@ -29,7 +29,7 @@ def _flow(flow: GapFlow) -> Iterator[Note]:
     if not flow.percolates:
         yield Note(
             Rank.LIMITED,
-            "No open path leads through the gap: nothing flows but what the cells do not resolve.",
+            "No open path leads through the gap: nothing flows except through gaps that the cells do not resolve.",
         )
         return
     if not flow.residual <= flow.tolerance:

@@ -4,32 +4,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import numpy as np
 
 from roughcontact import methods
+from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
-from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.constriction import Constriction, constriction_of
 from roughcontact.fluid.interval import bilinear_bound, flux_bound
-from roughcontact.fluid.network import Indices, Network, faces_of, joined_network, winding_network
+from roughcontact.fluid.network import Indices, Network, flow_network
+from roughcontact.fluid.open_gap import Missing, checked_direction, open_gap
 from roughcontact.fluid.solve import NetworkFlow, solve
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.guesses import hinted
-from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.note import in_order
 from roughcontact.solver.control import checked_tolerance
 from roughcontact.validation import Array, Mask, numeric
 
-__all__ = ["GapFlow", "gap_flow", "require_flow"]
+__all__ = ["TOLERANCE", "GapFlow", "gap_flow"]
 
-Missing: TypeAlias = Literal["closed", "open"]
 TOLERANCE = 1e-6  # largest relative difference of the two bounds
-OPEN = 1e4  # a missing cell that is open conducts this many times as well as the widest gap
 
 
 @hinted
@@ -39,12 +36,12 @@ class GapFlow:
 
     Attributes
     ----------
-    solution : Solution
+    solution : Solution or AdhesiveState
         The contact.
     gap : array, shape of the grid
         Gap that the fluid passes [m]; zero in contact and where missing cells are closed.
     axis : int or None
-        Axis from side to side; None for a map that is periodic along both axes, or between two regions.
+        Axis from side to side; None for a map that is periodic along both axes, for rings, or between two regions.
     slip_length : float
         Slip length at both walls [m].
     tolerance : float
@@ -62,7 +59,7 @@ class GapFlow:
     (True, ['2.19e-22', '1.48e-22'])
     """
 
-    solution: Solution
+    solution: Solution | AdhesiveState
     gap: Array
     axis: int | None
     slip_length: float
@@ -81,7 +78,10 @@ class GapFlow:
 
     @property
     def transmissivity(self) -> Array:
-        """Cubed hydraulic gap [m^3]: a tensor, shape (2, 2), or one number from side to side, shape (1, 1)."""
+        """Cubed hydraulic gap [m^3]: a tensor, shape (2, 2), or one number from side to side, shape (1, 1).
+
+        Between two regions it is the flow itself for a unit drop and a viscosity of 1/12.
+        """
         return self._flow.upper * self._unit if self._flow is not None else np.zeros((self._rank,) * 2)
 
     @property
@@ -101,12 +101,16 @@ class GapFlow:
         They contain neither the difference to the gap between the cell centres, nor the error of the contact on its
         grid, nor that of Reynolds' equation.
         """
-        if self._flow is None or self._network is None:
-            return self.transmissivity, self.transmissivity
+        if self._flow is None or self._network is None or isinstance(self._grid, RadialGrid):
+            return (
+                self.lower_transmissivity,
+                self.transmissivity,
+            )  # of rings in series the discrete flow is exact
         if self.between is not None:
             raise InputError(
                 "between two regions the flow has no interval",
-                "use the flow from side to side, or on a period",
+                "leave between out, and give axis on a map that is not periodic",
+                "between",
             )
         lower = flux_bound(self._network, self._flow.flow, self._conductance, self._grid)
         upper = bilinear_bound(self._conductance, self._grid, self.axis)
@@ -134,7 +138,7 @@ class GapFlow:
         Returns
         -------
         array, shape of the grid
-            From 1 to 0 along the flow.
+            From 1 to 0 along the flow; on rings, from the inner rim to the outer one.
 
         Examples
         --------
@@ -168,6 +172,11 @@ class GapFlow:
         tuple of two arrays, shape of the grid
             Along y and along x.
 
+        Raises
+        ------
+        ValueError
+            On rings.
+
         Examples
         --------
         >>> import roughcontact as rc
@@ -177,12 +186,15 @@ class GapFlow:
         >>> [each.shape for each in flow.flux(1)]
         [(64, 64), (64, 64)]
         """
-        shape = self._grid.shape
-        if self._network is None or self._flow is None:
+        grid, shape, network = self._grid, self._grid.shape, self._network
+        if isinstance(grid, RadialGrid):
+            raise InputError(
+                "rings have no flux along y and x", "use transmissivity and pressure(), or press a Surface"
+            )
+        if network is None or self._flow is None:
             return np.zeros(shape), np.zeros(shape)
-        network = self._network
         # The potential of a period grows along the axis, that between reservoirs falls.
-        factor = -self._scale / self._grid.lengths[direction] if network.drive.any() else self._scale
+        factor = -self._scale / grid.lengths[direction] if network.drive.any() else self._scale
         found = []
         for axis in (0, 1):
             of = network.axis == axis
@@ -191,16 +203,16 @@ class GapFlow:
                 for end in (network.first, network.second)
             )
             mean = np.append(0.5 * through, 0.0)[network.cells].reshape(shape)
-            found.append(mean * (factor / self._grid.spacing[1 - axis]))
+            found.append(mean * (factor / grid.spacing[1 - axis]))
         return found[0], found[1]
 
     @cached_property
     def constriction(self) -> Constriction | None:
-        """The critical constriction, of the better conducting principal direction; None without flow."""
+        """The critical constriction, of the better conducting principal direction; None without flow, and on rings."""
         return None if self._flow is None else self._constriction(np.linalg.eigh(self._flow.upper)[1][:, -1])
 
     def constriction_along(self, direction: int) -> Constriction | None:
-        """Return the critical constriction of the flow by a drop along one direction; None without flow.
+        """Return the critical constriction of the flow by a drop along one direction; None without flow, and on rings.
 
         Parameters
         ----------
@@ -223,11 +235,12 @@ class GapFlow:
         return self._constriction(np.eye(self._rank)[direction])
 
     def _constriction(self, weights: Array) -> Constriction | None:
-        if self._network is None or self._flow is None or not weights @ self._flow.upper @ weights > 0:
+        network, flow, grid = self._network, self._flow, self._grid
+        if network is None or flow is None or isinstance(grid, RadialGrid):
             return None
-        return constriction_of(
-            self._network, weights @ self._network.drops(self._flow.potential), self.gap, self._grid
-        )
+        if not weights @ flow.upper @ weights > 0:
+            return None
+        return constriction_of(network, weights @ network.drops(flow.potential), self.gap, grid)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -236,6 +249,7 @@ class GapFlow:
 
     plot = methods.plot_flow
     to_dataset = methods.flow_dataset
+    to_record = methods.flow_record
 
     def __repr__(self) -> str:
         """Return the main numbers."""
@@ -245,14 +259,12 @@ class GapFlow:
         return f"GapFlow(transmissivity {values} m^3, bounds within {self.residual:.0e})"
 
     @property
-    def _grid(self) -> Grid:
-        grid = self.solution.problem.grid
-        assert isinstance(grid, Grid)
-        return grid
+    def _grid(self) -> AnyGrid:
+        return self.solution.problem.grid
 
     @property
     def _rank(self) -> int:
-        return 2 if self.axis is None and self.between is None else 1
+        return 2 if self.between is None and all(self._grid.periodic) else 1
 
     @cached_property
     def _scale(self) -> float:
@@ -267,12 +279,14 @@ class GapFlow:
     @property
     def _unit(self) -> float:
         """Transmissivity [m^3] by the dissipation of a unit drive."""
-        lengths = self._grid.lengths
+        grid = self._grid
         if self.between is not None:
             return self._scale
+        if isinstance(grid, RadialGrid):
+            return self._scale * math.log(grid.edges[-1] / grid.edges[0])
         if self.axis is None:
-            return self._scale / self._grid.area
-        return self._scale * lengths[self.axis] / lengths[1 - self.axis]
+            return self._scale / grid.area
+        return self._scale * grid.lengths[self.axis] / grid.lengths[1 - self.axis]
 
     @property
     def _network(self) -> Network | None:
@@ -280,39 +294,22 @@ class GapFlow:
 
     @cached_property
     def _network_and_windings(self) -> tuple[Network | None, Indices]:
-        grid, conductance = self._grid, self._conductance
-        faces = faces_of(conductance, grid)
-        if self.between is not None:
-            # The pressure is given in the cells of both regions: they join the reservoirs without resistance.
-            flat = conductance.ravel()
-            best = 1e6 * float(flat.max()) if flat.size else 1.0
-            ends = [np.flatnonzero(each.ravel() & (flat > 0)) for each in self.between]
-            inlet, outlet = ((each, np.full(len(each), best)) for each in ends)
-            return joined_network(faces, grid, 0, inlet, outlet), np.zeros((0, 2), np.intp)
-        if self.axis is None:
-            return winding_network(faces, grid)
-        index = np.arange(grid.size).reshape(grid.shape)
-        wide = grid.spacing[1 - self.axis] / grid.spacing[self.axis]
-        sides = []
-        for at in (0, -1):
-            cells = np.take(index, at, self.axis)
-            of = conductance.ravel()[cells]
-            sides.append((cells[of > 0], 2 * of[of > 0] * wide))
-        return joined_network(faces, grid, self.axis, sides[0], sides[1]), np.zeros((0, 2), np.intp)
+        return flow_network(self._conductance, self._grid, self.axis, self.between)
 
     @cached_property
     def _flow(self) -> NetworkFlow | None:
         return None if self._network is None else solve(self._network, self.tolerance)
 
 
-@numeric(slip_length="m")
+@numeric(slip_length="m", closing_gap="m")
 def gap_flow(
-    solution: Solution,
+    solution: Solution | AdhesiveState,
     *,
     axis: int | None = None,
     between: tuple[Mask, Mask] | None = None,
     missing: Missing = "closed",
     slip_length: float = 0.0,
+    closing_gap: float | None = None,
     tolerance: float = TOLERANCE,
 ) -> GapFlow:
     """Return the flow of a fluid through the gap of a contact, by Reynolds' equation.
@@ -323,8 +320,9 @@ def gap_flow(
 
     Parameters
     ----------
-    solution : Solution
-        Of a map of heights, by `press` or `loading_path`.
+    solution : Solution or AdhesiveState
+        Of a map of heights, by `press`, `loading_path` or `adhesive_state`. On rings, the fluid flows between the inner
+        and the outer rim.
     axis : int, optional
         Axis of the flow from side to side of a free map. Without it, a map must be periodic along both axes.
     between : tuple of two bool arrays, shape of the grid, optional
@@ -333,6 +331,8 @@ def gap_flow(
         Whether a cell without a height is closed or wide open.
     slip_length : float
         Slip length at both walls [m]: the flow of a cell is proportional to ``g^3 + 6 b g^2``.
+    closing_gap : float, optional
+        Cells with a smaller gap are closed [m]; required for an adhesive state.
     tolerance : float
         Largest relative difference of the two bounds of the discrete flow.
 
@@ -343,7 +343,8 @@ def gap_flow(
     Raises
     ------
     ValueError
-        If the contact is not that of a map of heights in memory of NumPy, or no direction of the flow follows.
+        If the contact is not that of a map of heights or of rings in memory of NumPy, no direction of the flow follows,
+        the rings begin at the axis, or an adhesive state has no closing gap or is detached.
 
     Notes
     -----
@@ -359,40 +360,21 @@ def gap_flow(
     >>> flow.percolates, flow.transmissivity.shape, flow.residual < 1e-6
     (True, (2, 2), True)
     """
-    problem, grid = solution.problem, solution.problem.grid
-    require_flow(problem, axis, sides=between is None)
-    if missing not in ("closed", "open"):
-        raise about("missing", f"must be 'closed' or 'open', not {missing!r}")
+    grid = solution.problem.grid
+    if not is_numpy(solution.pressure):
+        raise InputError(
+            "the flow through a gap needs arrays of NumPy on one process",
+            "press a Surface whose heights are such an array",
+            "solution",
+        )
     if not slip_length >= 0:
         raise about("the slip length", f"must be 0 or more [m], not {slip_length}")
-    if between is not None:
-        between = tuple(np.asarray(each, dtype=bool) for each in between)  # type: ignore[assignment]
-        assert between is not None
-        if (
-            len(between) != 2
-            or any(each.shape != grid.shape for each in between)
-            or (between[0] & between[1]).any()
-        ):
-            raise about("between", f"must be two regions of shape {grid.shape} without a common cell")
-    gap = np.where(solution.contact | ~(solution.gap > 0), 0.0, solution.gap)
-    if missing == "open" and solution.missing:
-        gap[~problem.measured] = OPEN ** (1 / 3) * gap.max()
-    gap.flags.writeable = False
-    return GapFlow(solution, gap, axis, slip_length, checked_tolerance(tolerance), between)
-
-
-def require_flow(problem: ContactProblem, axis: int | None, *, sides: bool = True) -> None:
-    """Raise an error unless a contact is that of a map; `sides`: unless an axis leads through it."""
-    grid = problem.grid
-    if problem.geometry is not Geometry.SURFACE or not is_numpy(problem.separation):
-        raise InputError(
-            "the flow through a gap needs a map of heights in NumPy's memory", "press a Surface", "solution"
-        )
-    if sides and axis is None and not all(grid.periodic):
-        raise InputError(
-            "on a map that is not periodic the direction of the flow must be given",
-            "give axis=0 or axis=1",
-            "axis",
-        )
-    if sides and axis is not None and (axis not in (0, 1) or grid.periodic[axis]):
-        raise about("the axis", f"must be one that is not periodic, 0 or 1, not {axis!r}")
+    between = checked_direction(grid, axis, between)
+    return GapFlow(
+        solution,
+        open_gap(solution, missing, closing_gap),
+        axis,
+        slip_length,
+        checked_tolerance(tolerance),
+        between,
+    )

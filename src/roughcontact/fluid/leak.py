@@ -12,8 +12,9 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.constriction import Constriction
 from roughcontact.fluid.fluids import Gas, Liquid
-from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow
-from roughcontact.grid import AnyGrid
+from roughcontact.fluid.gap_flow import GapFlow, gap_flow
+from roughcontact.fluid.open_gap import Missing
+from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.labels.note import in_order
 from roughcontact.validation import Mask, numeric
 
@@ -44,7 +45,7 @@ class Leak:
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
     >>> solution = rc.press(surface, 1e9, pressure=2e6)
-    >>> found = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
+    >>> found = rc.leak(solution, rc.Liquid(1e-3), drop=1e5, axis=0, seal_width=1e-3, circumference=0.1)
     >>> found.drop, found.constriction.cells
     (100000.0, 28)
     """
@@ -98,8 +99,8 @@ class Leak:
         """Limits of these numbers, in sentences; those of the flow among them."""
         return in_order(methods.notes_on_leak(self))
 
-    to_dataset = methods.leak_dataset
-    to_record = methods.leak_record
+    to_dataset = methods.flow_dataset
+    to_record = methods.flow_record
 
     @property
     def _mean(self) -> float:
@@ -120,7 +121,7 @@ def leak(
     drop: float | None = None,
     upstream: float | None = None,
     downstream: float | None = None,
-    axis: int = 0,
+    axis: int | None = None,
     between: tuple[Mask, Mask] | None = None,
     seal_width: float | None = None,
     circumference: float | None = None,
@@ -131,15 +132,15 @@ def leak(
     Parameters
     ----------
     solution : Solution
-        Of a map of heights, see `gap_flow`.
+        Of a map of heights or of rings, see `gap_flow`.
     fluid : Liquid or Gas
         A gas flows with slip at the walls.
     drop : float, optional
         Drop of pressure of a liquid [Pa].
     upstream, downstream : float, optional
         Absolute pressures [Pa]: in place of the drop, and always for a gas.
-    axis : int
-        Axis along which the pressure falls.
+    axis : int, optional
+        Axis along which the pressure falls; required for a map, free or periodic, without `between`.
     between : tuple of two bool arrays, optional
         Regions at both pressures in place of an axis, see `gap_flow`.
     seal_width, circumference : float, optional
@@ -155,8 +156,8 @@ def leak(
     Raises
     ------
     ValueError
-        If the pressures do not suit the fluid, if the drop exceeds the nominal pressure, or if the gas is too rarefied
-        in the critical constriction for a slip length.
+        If the pressures do not suit the fluid, the direction of the drop is not given, the drop exceeds the nominal
+        pressure, or the gas is too rarefied in the critical constriction for a slip length.
 
     Examples
     --------
@@ -165,7 +166,7 @@ def leak(
     >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
     >>> solution = rc.press(surface, 1e9, pressure=2e6)
     >>> water = rc.Liquid(viscosity=1e-3, density=1000)
-    >>> found = rc.leak(solution, water, drop=1e5, seal_width=1e-3, circumference=0.1)
+    >>> found = rc.leak(solution, water, drop=1e5, axis=0, seal_width=1e-3, circumference=0.1)
     >>> f"{found.volume * 6e7:.2g} ml/min"
     '1.1e-05 ml/min'
     """
@@ -179,17 +180,13 @@ def leak(
             "press harder, or give a smaller drop",
             "drop",
         )
-    is_periodic = all(solution.problem.grid.periodic) and between is None
     shape = shape_factor(solution.problem.grid, axis, seal_width, circumference, between is not None)
+    is_periodic = all(solution.problem.grid.periodic) and between is None
     slip = fluid.slip_length(0.5 * (upstream + downstream)) if isinstance(fluid, Gas) else 0.0
     flow = gap_flow(
-        solution,
-        axis=None if is_periodic or between is not None else axis,
-        between=between,
-        missing=missing,
-        slip_length=slip,
+        solution, axis=None if is_periodic else axis, between=between, missing=missing, slip_length=slip
     )
-    direction = axis if is_periodic else 0
+    direction = axis if is_periodic and axis is not None else 0
     conductance = flow.transmissivity[direction, direction] * shape / (12 * fluid.viscosity)
     found = Leak(flow, fluid, upstream, downstream, conductance * (upstream - downstream), direction)
     if not found.rarefaction >= RAREFIED:
@@ -197,7 +194,7 @@ def leak(
             f"the gas is too rarefied in the critical constriction for a slip length: its rarefaction parameter is "
             f"{found.rarefaction:.2g}, less than {RAREFIED:g}",
             "raise the pressures, or press less",
-            "fluid",
+            "upstream, downstream",
         )
     return found
 
@@ -221,19 +218,29 @@ def _pressures(
 
 
 def shape_factor(
-    grid: AnyGrid, axis: int, seal_width: float | None, circumference: float | None, between: bool = False
+    grid: AnyGrid,
+    axis: int | None,
+    seal_width: float | None,
+    circumference: float | None,
+    between: bool = False,
 ) -> float:
-    """Return the length across the flow over that along it [1]; one for a flow between two regions."""
+    """Return the flow over the transmissivity, for a unit drop and a viscosity of 1/12 [1]."""
     if (seal_width is None) != (circumference is None):
         raise InputError("a seal has a width and a circumference", "give both", "seal_width, circumference")
-    if seal_width is not None and circumference is not None:
-        if between:
-            raise InputError(
-                "between two regions the flow has no seal width", "leave seal_width and circumference out"
-            )
-        return circumference / seal_width
+    if (between or isinstance(grid, RadialGrid)) and seal_width is not None:
+        raise InputError(
+            "between two rims the flow has no seal width",
+            "leave seal_width and circumference out",
+            "seal_width, circumference",
+        )
+    if isinstance(grid, RadialGrid):
+        return 2 * math.pi / math.log(grid.edges[-1] / grid.edges[0]) if grid.edges[0] > 0 else 0.0
     if between:
         return 1.0
+    if axis not in (0, 1):
+        raise InputError("the direction of the drop must be given", "give axis=0 or axis=1", "axis")
+    if seal_width is not None and circumference is not None:
+        return circumference / seal_width
     if all(grid.periodic):
         raise InputError(
             "a periodic map is a sample of a seal",

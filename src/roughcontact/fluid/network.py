@@ -16,10 +16,19 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from roughcontact.fluid.winding import windings
-from roughcontact.grid import Grid
+from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Faces", "Indices", "Network", "faces_of", "joined_network", "winding_network"]
+__all__ = [
+    "Faces",
+    "Indices",
+    "Network",
+    "faces_of",
+    "flow_network",
+    "joined_network",
+    "ring_network",
+    "winding_network",
+]
 
 Indices: TypeAlias = npt.NDArray[np.integer[Any]]
 
@@ -142,6 +151,44 @@ def faces_of(conductance: Array, grid: Grid) -> Faces:
     return Faces(*(np.concatenate(each) for each in zip(*parts, strict=True)))
 
 
+def flow_network(
+    conductance: Array, grid: AnyGrid, axis: int | None, between: tuple[Mask, Mask] | None
+) -> tuple[Network | None, Indices]:
+    """Return the network of a flow, None if no open path leads through it, and the winding vectors on a period.
+
+    Parameters
+    ----------
+    conductance : array, shape of the grid
+        Of each cell, zero for a closed one.
+    grid : Grid or RadialGrid
+    axis : int or None
+        Axis from side to side.
+    between : tuple of two bool arrays, optional
+        Regions in place of the sides.
+    """
+    nowhere = np.zeros((0, 2), np.intp)
+    if isinstance(grid, RadialGrid):
+        return ring_network(conductance, grid), nowhere
+    faces = faces_of(conductance, grid)
+    if between is not None:
+        # The pressure is given in the cells of both regions: they join the reservoirs without resistance.
+        flat = conductance.ravel()
+        best = 1e6 * float(flat.max()) if flat.size else 1.0
+        ends = [np.flatnonzero(each.ravel() & (flat > 0)) for each in between]
+        inlet, outlet = ((each, np.full(len(each), best)) for each in ends)
+        return joined_network(faces, grid, 0, inlet, outlet), nowhere
+    if axis is None:
+        return winding_network(faces, grid)
+    index = np.arange(grid.size).reshape(grid.shape)
+    wide = grid.spacing[1 - axis] / grid.spacing[axis]
+    sides = []
+    for at in (0, -1):
+        cells = np.take(index, at, axis)
+        of = conductance.ravel()[cells]
+        sides.append((cells[of > 0], 2 * of[of > 0] * wide))
+    return joined_network(faces, grid, axis, sides[0], sides[1]), nowhere
+
+
 def winding_network(faces: Faces, grid: Grid) -> tuple[Network | None, Indices]:
     """Return the network of the components that percolate over a periodic map, and their winding vectors.
 
@@ -164,14 +211,14 @@ def winding_network(faces: Faces, grid: Grid) -> tuple[Network | None, Indices]:
 
 
 def joined_network(
-    faces: Faces, grid: Grid, axis: int, inlet: tuple[Indices, Array], outlet: tuple[Indices, Array]
+    faces: Faces, grid: AnyGrid, axis: int, inlet: tuple[Indices, Array], outlet: tuple[Indices, Array]
 ) -> Network | None:
     """Return the network between two reservoirs at the potentials 1 and 0; None if no open path joins them.
 
     Parameters
     ----------
     faces : Faces
-    grid : Grid
+    grid : Grid or RadialGrid
     axis : int
         Axis of the faces to the reservoirs.
     inlet, outlet : tuple of int array and array
@@ -192,6 +239,25 @@ def joined_network(
     return _numbered(
         every, flows, np.zeros((1, len(first))), np.array([size, size + 1]), np.array([1.0, 0.0]), 2
     )
+
+
+def ring_network(conductance: Array, grid: RadialGrid) -> Network | None:
+    """Return the network of rings in series, from the inner to the outer rim; None if one is closed.
+
+    A flow of 1 per angle of 1 rad and conductance loses the logarithm of the ratio of both radii of a ring: this is
+    exact for rings of constant gap.
+    """
+    if not np.all(conductance > 0):
+        return None
+    before = np.log(grid.radii / grid.edges[:-1]) / conductance
+    behind = np.log(grid.edges[1:] / grid.radii) / conductance
+    last = grid.size - 1
+    node = np.arange(last)
+    faces = Faces(
+        node, node + 1, 1 / (behind[:-1] + before[1:]), np.zeros(last, np.int8), np.zeros(last, bool)
+    )
+    rims = (np.array([0]), 1 / before[:1]), (np.array([last]), 1 / behind[-1:])
+    return joined_network(faces, grid, 0, *rims)
 
 
 def _numbered(

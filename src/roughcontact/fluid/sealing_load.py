@@ -14,8 +14,10 @@ from roughcontact.contact.size_law import Hardness
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.constriction import Constriction
-from roughcontact.fluid.gap_flow import GapFlow, Missing, gap_flow, require_flow
+from roughcontact.fluid.gap_flow import GapFlow, gap_flow
+from roughcontact.fluid.open_gap import Missing, checked_direction
 from roughcontact.guesses import hinted
+from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator
 from roughcontact.materials import Modulus
 from roughcontact.progress.events import task
@@ -153,7 +155,9 @@ def sealing_load(
     grid = grid_of(surface)
     problem = make_problem(surface, modulus, Depth(0.0), operator, tolerance=tolerance, hardness=hardness)
     along = None if grid.ndim == 2 and all(grid.periodic) else axis
-    require_flow(problem, along)
+    if problem.geometry is not Geometry.SURFACE:
+        raise InputError("the load that seals is that of a map of heights", "press a Surface", "surface")
+    checked_direction(grid, along, None)
     search = _Search(problem, along, axis, missing)
     search.require_both_ends()
     with task("Finding the load that closes the gap", shape=grid.shape):

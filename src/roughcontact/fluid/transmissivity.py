@@ -12,7 +12,8 @@ from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.fluids import Liquid
-from roughcontact.fluid.gap_flow import Missing, gap_flow
+from roughcontact.fluid.gap_flow import gap_flow
+from roughcontact.fluid.open_gap import Missing
 from roughcontact.theory.joints.leakage import bruggeman
 from roughcontact.validation import Array, Mask, numeric, positive_scalar
 

@@ -4,42 +4,27 @@ from __future__ import annotations
 
 from roughcontact.labels.column import Table, columns
 from roughcontact.labels.contact_columns import POINTS
-from roughcontact.labels.engineering_units import Scale
 
 __all__ = [
-    "CONSTRICTION",
-    "CONSTRICTION_NAMES",
-    "FLOW_MAPS",
-    "GAP_FLOW",
-    "LEAK",
-    "LEAK_NAMES",
-    "OF_CURVE",
-    "PRESSED",
-    "SHOWN",
-    "UNITS",
+    *("CONSTRICTION", "FLOW_MAPS", "FLOW_NAMES", "GAP_FLOW", "LEAK"),
+    *("OF_CURVE", "PRESSED", "SHOWN"),
 ]
 
 PRESSED = tuple(each for each in POINTS if each.name in ("nominal_pressure", "contact_fraction", "mean_gap"))
 """Columns of the contact."""
 GAP_FLOW: Table = {
-    (): columns("""
-        percolates | | whether an open path leads through the gap | | open path | .0f
-        hydraulic_gap | m | uniform gap with the same transmissivity
-        flow_residual | 1 | difference of both bounds of the transmissivity, relative
-    """),
+    ("principal",): columns(
+        "eigenvalues | m3 | eigenvalues of the transmissivity | facts | transmissivity, principal"
+    ),
     ("row", "column"): columns("""
         transmissivity | m3 | cubed hydraulic gap of the flow, its upper bound
         lower_transmissivity | m3 | lower bound of the transmissivity
     """),
-}
-CONSTRICTION: Table = {
     (): columns("""
-        constriction_cells | 1 | open cells across the critical constriction
-        constriction_width | m | width of the critical constriction
-        constriction_gap | m | largest gap in the critical constriction
-        constriction_share | 1 | part of the dissipation in the critical constriction
+        flow_residual | 1 | difference of both bounds of the transmissivity, relative | facts | certificate of the flow
+        hydraulic_gap | m | uniform gap with the same transmissivity | facts
+        percolates | | whether an open path leads through the gap | | open path | .0f
     """),
-    ("axis",): columns("constriction_place | m | place of the critical constriction, along y and x"),
 }
 OF_CURVE = columns("""
     flow_factor | 1 | transmissivity over the cubed mean gap
@@ -53,33 +38,31 @@ FLOW_MAPS = columns("""
     flux_y | m2 | flux down the map for a unit drop and a viscosity of 1/12
     flux_x | m2 | flux along the rows for a unit drop and a viscosity of 1/12
 """)
-LEAK: Table = {
+CONSTRICTION: Table = {
     (): columns("""
-        upstream | Pa | pressure before the seal
-        downstream | Pa | pressure behind the seal
-        leak_rate | m3 s-1 | volume flow of the leak, of a gas at the mean pressure
-        throughput | Pa m3 s-1 | pressure times volume flow of a gas
-        mass_rate | kg s-1 | mass flow of the leak
-        film_reynolds | 1 | reduced Reynolds number in the critical constriction
-        rarefaction | 1 | rarefaction parameter of a gas in the critical constriction
-    """)
+        constriction_cells | 1 | open cells across the critical constriction | facts | constriction, open cells across
+        constriction_width | m | width of the critical constriction | facts | constriction, width
+        constriction_gap | m | largest gap in the critical constriction | facts | constriction, largest gap
+        constriction_share | 1 | part of the dissipation in the critical constriction | facts | constriction, share
+    """),
+    ("axis",): columns(
+        "constriction_place | m | place of the critical constriction | facts | constriction, y and x"
+    ),
 }
-CONSTRICTION_NAMES = {
-    name: name.removeprefix("constriction_")
-    for table in CONSTRICTION.values()
-    for name in (each.name for each in table)
-}
-"""Attributes of a `Constriction`, by columns."""
-LEAK_NAMES = {
+LEAK = columns("""
+    upstream | Pa | pressure before the seal
+    downstream | Pa | pressure behind the seal
+    leak_rate | m3 s-1 | volume flow of the leak, of a gas at the mean pressure
+    throughput | Pa m3 s-1 | pressure times volume flow of a gas
+    mass_rate | kg s-1 | mass flow of the leak
+    film_reynolds | 1 | reduced Reynolds number in the critical constriction | facts | Reynolds number
+    rarefaction | 1 | rarefaction parameter of a gas in the critical constriction | facts
+""")
+FLOW_NAMES = {
     "leak_rate": "volume",
     "mass_rate": "mass",
     "film_reynolds": "reynolds",
     "flow_residual": "residual",
+    **{each.name: each.name.replace("_", ".", 1) for table in CONSTRICTION.values() for each in table},
 }
-"""Attributes of a `Leak` and of a `GapFlow`, by columns."""
-UNITS = {
-    "leak_rate": (Scale(1.0, "m³/s"), Scale(6e7, "ml/min")),
-    "throughput": (Scale(1.0, "Pa m³/s"), Scale(10.0, "mbar l/s")),
-    "mass_rate": (Scale(1e6, "mg/s"),),
-}
-"""Units in which a leak is printed."""
+"""Attributes of a `GapFlow` and of a `Leak`, by columns."""

@@ -13,6 +13,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
 from roughcontact.labels.engineering_units import Scale, pretty, scale, written
+from roughcontact.labels.flow_columns import CONSTRICTION, GAP_FLOW, LEAK, PRESSED
 from roughcontact.labels.labelled import values_of
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.solver.control import Status
@@ -24,13 +25,15 @@ if TYPE_CHECKING:
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
     from roughcontact.contact.solution import Solution
+    from roughcontact.fluid.leak import Leak
     from roughcontact.grid import AnyGrid
     from roughcontact.statistics.power_law import PowerLaw
     from roughcontact.surface.surface import Surface
 
 __all__ = [
     *("AREAL_COLUMNS", "CURVE_COLUMNS", "bend_words", "closed_gap", "column_facts", "curve_facts"),
-    *("load_table", "loop_facts", "quantity", "size_of", "solution_facts", "stiffness_facts"),
+    *("leak_facts", "load_table", "loop_facts", "quantity", "rate_words", "size_of", "solution_facts"),
+    "stiffness_facts",
     *("surface_facts", "surface_record"),
 ]
 
@@ -39,6 +42,16 @@ _ROUNDING = 1e-12  # of the depth: a gap is a difference of lengths of that size
 CURVE_COLUMNS = names_of(shown_in("patch", (*POINTS, *UNLOADED, *CERTIFICATES)))
 AREAL_COLUMNS = names_of(shown_in("joint", (*POINTS, *UNLOADED, *CERTIFICATES)))
 """The columns of a table of loads; those of unloading exist only in a loop."""
+
+
+_RATES = (
+    *(("volume", 1.0, "m³/s"), ("volume", 6e7, "ml/min")),
+    *(("throughput", 1.0, "Pa m³/s"), ("throughput", 10.0, "mbar l/s"), ("mass", 1e6, "mg/s")),
+)
+_LEAK_COLUMNS = (
+    *PRESSED,
+    *(each for table in (GAP_FLOW, CONSTRICTION, {(): LEAK}) for of in table.values() for each in of),
+)
 
 
 def quantity(name: str, value: float, geometry: Geometry = Geometry.SURFACE) -> str:
@@ -118,6 +131,31 @@ def stiffness_facts(
     columns = [each for each in POINTS if "stiffness" in each.name]
     facts = column_facts(solution, columns, solution.problem.geometry, STATE_NAMES, units)
     return [(f"{label} {words}", value) for label, value in facts]
+
+
+def leak_facts(leak: Leak) -> list[tuple[str, str]]:
+    """Return the contact, the flow and the leak rate, line by line; numbers that are not finite are left out."""
+    record, solution, windings = leak.to_record(), leak.flow.solution, leak.flow.windings.tolist()
+    path = f"along {' and '.join(map(str, windings))} periods (y, x)" if windings else "from side to side"
+    met = "met" if solution.status.converged else "MISSED"
+    numbers = [
+        (column.label, ", ".join(written(each, column.unit, 4) for each in np.ravel(record[column.name])))
+        for column in shown_in("facts", _LEAK_COLUMNS)
+        if record.get(column.name) is not None
+    ]
+    return [
+        ("surface", size_of(solution.problem.grid)),
+        ("certificate", f"{solution.residual:.1e} (tolerance {solution.problem.tolerance:.0e}: {met})"),
+        ("an open path leads", path if leak.flow.percolates else "nowhere"),
+        *numbers,
+        ("leak rate", rate_words(leak)),
+    ]
+
+
+def rate_words(leak: Leak) -> str:
+    """Return the leak rate in the units in use: volume, of a gas at the mean pressure, throughput of a gas, mass."""
+    values = [(getattr(leak, name), factor, unit) for name, factor, unit in _RATES]
+    return ", ".join(f"{value * factor:.4g} {unit}" for value, factor, unit in values if math.isfinite(value))
 
 
 def loop_facts(loop: Loop) -> list[tuple[str, str]]:

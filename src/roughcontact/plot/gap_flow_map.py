@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from roughcontact.fluid.gap_flow import GapFlow
@@ -16,11 +17,19 @@ from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, sho
 from roughcontact.plot.drawing.ticks import LABEL
 from roughcontact.validation import Array, numeric
 
-__all__ = ["flow_map"]
+__all__ = ["flow_figure", "flow_map"]
 
 _LINES, _MARK, _CONTACT = "#c8290b", "#d6006c", "#4d4d4d"
 _LEAST = 1e-3  # of the largest flux: smaller fluxes have no lines
 _FEWEST, _MOST = 128, 256  # values along an axis from which flow lines are traced
+
+
+def flow_figure(flow: GapFlow, direction: int) -> Figure:
+    """Return a figure of the map, as high as the map needs."""
+    height, width = flow.solution.problem.grid.lengths
+    figure = Figure(figsize=(6.4, min(max(1.0 + 4.2 * height / width, 2.6), 9.0)), layout="constrained")
+    flow_map(flow, figure.subplots(), direction=direction)
+    return figure
 
 
 @numeric
@@ -50,6 +59,7 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('x [µm]', 'y [µm]')
     """
+    down, right = (_means(each) for each in flow.flux(direction))
     grid, axes = flow.solution.problem.grid, axes_for(ax)
     window = part(grid, None)
     measured = flow.solution.problem.measured
@@ -68,7 +78,7 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
         axes.set_title("no open path leads through the gap", fontsize=LABEL)
         return axes
     unit = length_scale(grid)
-    _lines(axes, flow, direction, unit.factor)
+    _lines(axes, down, right, tuple(length * unit.factor for length in grid.lengths))
     if (place := flow.constriction_along(direction)) is not None:
         y, x = (each * unit.factor for each in place.place)
         radius = max(0.5 * place.width, 0.03 * max(grid.lengths)) * unit.factor
@@ -81,20 +91,15 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
     return axes
 
 
-def _lines(axes: Axes, flow: GapFlow, direction: int, factor: float) -> None:
+def _lines(axes: Axes, down: Array, right: Array, lengths: tuple[float, ...]) -> None:
     """Draw the flow lines, whose width grows with the flux."""
-    grid = flow.solution.problem.grid
-    down, right = (_means(each) for each in flow.flux(direction))
     # On few cells, lines between the centres would lead through contact, and end half a cell before the sides.
     finer = -(-_FEWEST // min(down.shape))
     down, right = (each.repeat(finer, 0).repeat(finer, 1) for each in (down, right))
     flux = np.hypot(down, right)
     flux[flux < _LEAST * flux.max()] = 0.0  # stagnant pockets, and rounding errors
     speed = np.sqrt(flux)
-    y, x = (
-        (np.arange(n) + 0.5) * length / n * factor
-        for n, length in zip(speed.shape, grid.lengths, strict=True)
-    )
+    y, x = ((np.arange(n) + 0.5) * length / n for n, length in zip(speed.shape, lengths, strict=True))
     widths = 0.3 + 1.9 * speed / speed.max()
     style: Any = {"color": _LINES, "arrowsize": 0.7, "density": 1.6, "zorder": 3, "linewidth": widths}
     # Lines end where nothing flows; zeros, unlike NaN, keep those through constrictions of one cell.

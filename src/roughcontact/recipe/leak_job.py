@@ -15,7 +15,7 @@ from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad
-from roughcontact.recipe.recipe_fields import check, described, specs, value_of
+from roughcontact.recipe.recipe_fields import check, described, values_of
 from roughcontact.recipe.source import Source
 from roughcontact.recipe.texts import Amount, Choice, temperature
 
@@ -35,37 +35,24 @@ class Fluid:
         "Dynamic viscosity of a liquid.", "1mPa*s", read=Amount(VISCOSITY), everyday=True
     )
     density: str | None = described(
-        "Density of the liquid, for its mass flow and the Reynolds number.",
-        "1000kg/m^3",
-        read=Amount(DENSITY),
-        needs="viscosity",
+        "Density of the liquid, for its mass flow.", "1000kg/m^3", read=Amount(DENSITY), needs="viscosity"
     )
     vapour_pressure: str | None = described(
         "Pressure below which the liquid boils.", "2.3kPa", read=_ABSOLUTE, needs="viscosity"
     )
-    gas: str | None = described("An ideal gas.", read=Choice(GASES))
+    gas: str | None = described("An ideal gas.", read=Choice(GASES), needs="temperature")
     temperature: str | None = described(
-        "Temperature of the gas, 200 to 600 K; required.",
-        "20degC",
-        read=temperature,
-        needs="gas",
+        "Temperature of the gas, 200 to 600 K.", "20degC", read=temperature, needs="gas"
     )
 
     def __post_init__(self) -> None:
         check(self)
-        if self.gas is not None and self.temperature is None:
-            raise InputError(
-                "the flow of a gas depends on its temperature",
-                "give `temperature`, such as 20degC",
-                "temperature",
-            )
 
     def call(self) -> Call:
         """Return the call that makes the fluid."""
-        values = {each.name: value_of(self, each.name) for each, _ in specs(self) if each.name != "gas"}
-        named = {name: value for name, value in values.items() if value is not None}
-        given = () if self.gas is None else (self.gas,)
-        return Call("rc.Gas" if given else "rc.Liquid", given, named, result="fluid", place="fluid")
+        named = values_of(self)
+        given = [named.pop("gas")] if "gas" in named else []
+        return Call("rc.Gas" if given else "rc.Liquid", tuple(given), named, result="fluid", place="fluid")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,11 +60,12 @@ class Seal:
     """The pressures on both sides, and the seal of which the map is a sample."""
 
     TITLE: ClassVar = "Seal"
+    ONE_OF: ClassVar = ("drop", "upstream")
     drop: str | None = described(
         "Drop of the pressure of a liquid.", "1bar", read=Amount(PRESSURE), everyday=True
     )
     upstream: str | None = described(
-        "Absolute pressure before the seal; always needed for a gas.", "2bar", read=Amount(PRESSURE)
+        "Absolute pressure before the seal.", "2bar", read=Amount(PRESSURE), needs="downstream"
     )
     downstream: str | None = described(
         "Absolute pressure behind it; 0 is vacuum.", "1bar", read=_ABSOLUTE, needs="upstream"
@@ -89,14 +77,11 @@ class Seal:
         "Length of the seal along the flow; required for a periodic map (default: the map is the seal).",
         "1mm",
         read=Amount(LENGTH),
+        needs="circumference",
         everyday=True,
     )
     circumference: str | None = described(
-        "Length of the seal across the flow.",
-        "0.1m",
-        read=Amount(LENGTH),
-        needs="seal_width",
-        everyday=True,
+        "Length of the seal across the flow.", "0.1m", read=Amount(LENGTH), needs="seal_width", everyday=True
     )
     missing: str = described(
         "Whether cells without a height are closed or wide open. The leak rate of the other choice is printed too.",
@@ -106,17 +91,10 @@ class Seal:
 
     def __post_init__(self) -> None:
         check(self)
-        if self.seal_width is not None and self.circumference is None:
-            raise InputError(
-                "a seal has a width and a circumference",
-                "give `circumference`, such as 0.1m",
-                "circumference",
-            )
 
     def named(self) -> dict[str, Any]:
         """Return the arguments of `roughcontact.leak` by name."""
-        values = {each.name: value_of(self, each.name) for each, _ in specs(self)} | {"axis": int(self.axis)}
-        return {name: value for name, value in values.items() if value not in (None, "closed")}
+        return values_of(self) | {"axis": int(self.axis)}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,19 +114,12 @@ class LeakJob:
     def __post_init__(self) -> None:
         check(self)
         _ = self.pressed
-        seal, both = self.seal, self.seal.upstream is not None and self.seal.downstream is not None
         if self.contact.profile is not None:
             raise InputError("a leak needs a map of heights", "leave `profile` out", "contact.profile")
-        if self.fluid.gas is not None and (seal.drop is not None or not both):
+        if self.fluid.gas is not None and self.seal.drop is not None:
             raise InputError(
                 "the flow of a gas depends on the absolute pressures on both sides, not only on their difference",
-                "give `upstream` and `downstream` without `drop`, such as 2bar and 1bar",
-                "seal.upstream, seal.downstream",
-            )
-        if (seal.drop is not None) == both:
-            raise InputError(
-                "the drop of the pressure does not follow",
-                "give `drop`, such as 1bar, or both `upstream` and `downstream`",
+                "give `upstream` and `downstream` in place of `drop`",
                 "seal.drop",
             )
 

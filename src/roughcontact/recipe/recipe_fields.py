@@ -20,6 +20,7 @@ __all__ = [
     "refused",
     "specs",
     "value_of",
+    "values_of",
     "with_fields_of",
     "words_of",
 ]
@@ -127,6 +128,12 @@ def value_of(part: Any, name: str) -> Any:
         return text
     with placed(name):
         return tuple(map(spec.read, text)) if isinstance(text, tuple) else spec.read(text)
+
+
+def values_of(part: Any) -> dict[str, Any]:
+    """Return the values of all fields in SI, by name, without those that are not given."""
+    values = {each.name: value_of(part, each.name) for each, _ in specs(part)}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def check(part: Any) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -11,7 +11,7 @@ from roughcontact.cli.contact_of_job import best_state, contact_of, name_of
 from roughcontact.cli.exits import MISSED
 from roughcontact.cli.messages import note
 from roughcontact.cli.options import Answer
-from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.output import output, source_of, write_state
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import adhesive_facts, emit, print_facts
 from roughcontact.progress.events import task
@@ -21,8 +21,6 @@ from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from roughcontact.adhesion.adhesive_state import AdhesiveState
 
 __all__ = ["EXAMPLES", "press"]
@@ -41,6 +39,8 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
 
     The approach begins beyond the range of the attraction. For a tensile force, use 'adhesion curve'.
     """
+    from roughcontact.plot.tension import state_figure
+
     with output(answer.out) as folder:
         known = contact_of(job)
         law, call = job.calls()
@@ -62,7 +62,9 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
             if folder is not None:
                 [(name, value)] = job.load.named(job.contact.profile).items()
                 control = f"{name.replace('_', ' ')} = {value!r} {kinds_of(job.contact.profile)[name].unit}"
-                _write(state, record, folder, control, answer.ending)
+                source = source_of(state.problem, record["recipe"], control)
+                path = folder / "adhesive_state"
+                write_state(path, state, record, state_figure(state), answer.ending, source)
     if answer.json:
         emit(record)
     else:
@@ -74,24 +76,3 @@ def press(job: AdhesivePressJob, *, answer: Answer) -> None:
     answer.finish(folder, files, job, state)
     if not state.status.converged:
         raise typer.Exit(MISSED)
-
-
-def _write(state: AdhesiveState, record: dict[str, Any], folder: Path, control: str, ending: str) -> None:
-    """Write NetCDF, picture and summary into a folder: all of them or none."""
-    from roughcontact.files.provenance import provenance
-    from roughcontact.files.write import write_json, write_netcdf
-    from roughcontact.plot.canvas import save
-    from roughcontact.plot.tension import state_figure
-
-    source = provenance(
-        state.problem.surface,
-        modulus=state.problem.modulus,
-        control=control,
-        tolerance=state.problem.tolerance,
-        command=command_line(),
-        recipe=record["recipe"],
-    )
-    with all_or_none(folder) as aside:
-        write_netcdf(state.to_dataset(), aside / "adhesive_state.nc", source)
-        save(state_figure(state), aside / f"adhesive_state.{ending}")
-        write_json(record, aside / "adhesive_state.json", source)

@@ -16,7 +16,7 @@ from roughcontact.cli.exits import MISSED
 from roughcontact.cli.job import communicator_of_job
 from roughcontact.cli.messages import UsageError, note, note_all
 from roughcontact.cli.options import Answer
-from roughcontact.cli.output import all_or_none, command_line, output
+from roughcontact.cli.output import all_or_none, output, source_of
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import emit, print_facts, solution_facts, stiffness_facts
 from roughcontact.progress.events import task
@@ -79,7 +79,7 @@ def press(job: PressJob, *, answer: Answer) -> None:
                 record["recipe"] = carried(job, answer.out)
             record["errors"] = errors[0].to_record() if errors else None
             if answer.out is not None:
-                source = _source(solution, _control(job), record["recipe"])
+                source = source_of(solution.problem, record["recipe"], _control(job))
                 budget = errors[0].budget if errors else None
                 drawn = _write(solution, record, folder, source, theory, answer.ending, budget)
             if folder is not None and solution.flow is not None and solution.flow.volume:
@@ -130,21 +130,6 @@ def _record(solution: Solution, job: PressJob, pressed: Pressed, elastic: Soluti
         "tolerance": solution.problem.tolerance,
         "converged": solution.status.converged,
     }
-
-
-def _source(solution: Solution, control: str, recipe: dict[str, Any]) -> dict[str, Any]:
-    """Return the provenance that files contain."""
-    from roughcontact.files.provenance import provenance
-
-    problem = solution.problem
-    return provenance(
-        problem.surface,
-        modulus=problem.modulus,
-        control=control,
-        tolerance=problem.tolerance,
-        command=command_line(),
-        recipe=recipe,
-    )
 
 
 def _write(
