@@ -23,6 +23,7 @@ if TYPE_CHECKING or _LATE is None:
         solution_figure as solution_figure,
         surface_figure as surface_figure,
     )
+    from roughcontact.plot.conductance_plot import conductance_curve as conductance_curve
     from roughcontact.plot.curves import (
         areal_curve as areal_curve,
         force_curve as force_curve,

@@ -9,12 +9,13 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
+from roughcontact.recipe.heat_parts import HeatParts
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
-from roughcontact.recipe.recipe_fields import check, value_of
+from roughcontact.recipe.recipe_fields import check, given, value_of
 from roughcontact.recipe.source import Source
 
 __all__ = ["CurveJob", "PressJob", "SurfaceJob"]
@@ -108,6 +109,7 @@ class CurveJob:
     contact: Contact = field(default_factory=Contact)
     plastic: LoopOfLoads = field(default_factory=LoopOfLoads)
     conduction: Conduction = field(default_factory=Conduction)
+    heat: HeatParts = field(default_factory=HeatParts)
     theories: Theories = field(default_factory=Theories)
     errors: Errors = field(default_factory=Errors)
     tables: InterfaceTables = field(default_factory=InterfaceTables)
@@ -143,13 +145,45 @@ class CurveJob:
             raise InputError(
                 "a Winkler foundation only has a total conductance", "give `of` total", "conduction.of"
             )
+        if self.heat.named():
+            self._require_heat()
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
+
+    def _require_heat(self) -> None:
+        """Raise an error if the conductance by parts cannot be computed."""
+        asked = " and ".join(f"`{name}`" for name in given(self.heat))
+        if self.conduction.conductivity is None:
+            raise InputError(
+                f"{asked} needs the conductivity of the bodies",
+                "give `conductivity`, such as 400W/m/K or steel,aluminium",
+                "conduction.conductivity",
+            )
+        if 0 in self.conduction.named()["conductivities"]:
+            raise InputError(
+                "an insulator has no conductance", "give conductivities above 0", "conduction.conductivity"
+            )
+        refused = (
+            ("loop", self.plastic.loop, "plastic", "leave out one of them"),
+            ("profile", self.contact.profile is not None, "contact", "press a map of heights"),
+            ("of", self.conduction.of == "total", "conduction", "leave `of` out"),
+        )
+        for name, contradicts, part, remedy in refused:
+            if contradicts:
+                raise InputError(f"{asked} does not go with `{name}`", remedy, f"{part}.{name}")
+
+    def measures(self) -> list[Call]:
+        """Return the calls that make the functions of a state whose numbers become columns of the curve."""
+        if not (heat := self.heat.named()):
+            return []
+        pair = {"conductivities": self.conduction.named()["conductivities"]}
+        return [Call("rc.ConductanceParts", (), pair | heat, place="heat")]
 
     def calls(self) -> Iterator[Call]:
         """Yield the calls that follow the loads, and those that evaluate the curve."""
         loads = self.loads.named(self.contact.profile)
         flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
-        named = {**loads, **_hardness(self), **flow, **self.contact.named()}
+        measures = {"measures": found} if (found := self.measures()) else {}
+        named = {**loads, **_hardness(self), **flow, **self.contact.named(), **measures}
         function, result = ("rc.loading_loop", "loop") if self.plastic.loop else ("rc.loading_curve", "curve")
         yield pressed(function, named, result, "loads")
         curve = "loop.loading" if self.plastic.loop else "curve"

@@ -134,6 +134,6 @@ def _found(path: str, known: Mapping[str, Any]) -> Any:
 
 
 def _value(argument: Any, known: Mapping[str, Any]) -> Any:
-    if isinstance(argument, tuple):
-        return tuple(_value(each, known) for each in argument)
+    if isinstance(argument, tuple | list):
+        return type(argument)(_value(each, known) for each in argument)
     return argument.value(known) if isinstance(argument, Call | Name) else argument

@@ -18,7 +18,7 @@ from roughcontact.cli.contact_of_job import name_of
 from roughcontact.cli.messages import note_all, worded
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
-from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.recipe_fields import given, value_of
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
@@ -230,8 +230,11 @@ class CurveAnswer:
 
     def write(self, folder: Path, source: dict[str, Any], ending: str) -> None:
         """Write NetCDF, CSV, picture (by its `ending`) and summary into a folder: all of them or none."""
+        from matplotlib.figure import Figure
+
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
+        from roughcontact.plot.conductance_plot import conductance_curve
 
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
@@ -240,10 +243,15 @@ class CurveAnswer:
             if self.loop is not None:
                 figure.suptitle("first loading")
             save(figure, aside / f"{self.picture}.{ending}")
+            if self.job.heat.named():
+                figure = Figure(figsize=(5.6, 4.2), layout="constrained")
+                conductance_curve(self.curve, figure.subplots(), units=self.units)
+                save(figure, aside / f"conductance_parts.{ending}")
             write_json(self.record, aside / "curve.json", source)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and its notes on standard error."""
+        from roughcontact.labels.variables import VARIABLES
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
@@ -257,12 +265,15 @@ class CurveAnswer:
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
-            report.print_table(*report.load_table(self.dataset, (*columns, *shown_columns(self.dataset))))
+            measured = (name for name in curve.measured if "joint" in VARIABLES[name].shown.split())
+            shown = (*columns, *shown_columns(self.dataset), *measured)
+            report.print_table(*report.load_table(self.dataset, shown))
             conducting = (
                 []
                 if self.conductors is None
                 else conduction_facts(self.dataset, self.conductors, self.job.conduction.of)
             )
+            conducting += given(self.job.heat).items()
             local = exponents(curve, self.comparisons)
             report.print_facts([*report.curve_facts(curve, self.fit), *local, *conducting])
             if self.comparisons:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
 from roughcontact.progress.events import task
 from roughcontact.recipe.elastic_jobs import CurveJob
+from roughcontact.recipe.jobs import known_names
 from roughcontact.recipe.prescribed_loads import kinds_of, numbers
 from roughcontact.recipe.recipe_fields import given, value_of
 
@@ -136,6 +138,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             with task("Writing files"), writing():
                 found.write(folder, source, answer.ending)
                 more = write_tables(job.tables, folder, computed, surface, conductors)
+                if job.heat.named():
+                    more += (f"conductance_parts.{answer.ending}",)
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json)
@@ -170,12 +174,12 @@ def _computed(
     from roughcontact.solver.loads import Loads
 
     if stored is None:
-        curve, outer, loop = _load(surface, modulus, loads, limits, loop=job.plastic.loop)
+        curve, outer, loop = _load(surface, modulus, loads, limits, job, loop=job.plastic.loop)
         return curve, loads.values[: len(curve)], outer, loop
     new = np.setdiff1d(loads.values, stored.values)
     if not new.size:
         return stored.curve, stored.values, [], None
-    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, loop=False)
+    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, job, loop=False)
     done = np.union1d(stored.values, new[: len(curve)])
     return joined(stored.curve, curve), done, outer, None
 
@@ -250,7 +254,7 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 
 
 def _load(
-    surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], *, loop: bool
+    surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], job: CurveJob, *, loop: bool
 ) -> tuple[Curve, list[Solution], Loop | None]:
     """Return the curve, the first and last load that are resolved, and the whole loop.
 
@@ -259,8 +263,11 @@ def _load(
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
+    from roughcontact.contact.measures import measured_at
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
+    # Each remembers its last state: Ctrl-C while it is measured ends the curve before this state.
+    measures = [lru_cache(maxsize=1)(call.value(known_names())) for call in job.measures()]
     path = solutions_along(surface, modulus, every, **limits)
     ends: list[Solution] = []
     last: list[Solution] = []
@@ -269,6 +276,7 @@ def _load(
         try:
             for solution in islice(path, count):
                 resolved = solution.resolved and solution.status.converged  # which takes as long as the load
+                measured_at(solution, measures, ())
                 last[:] = [solution]
                 if resolved:
                     ends[1 if ends else 0 :] = [solution]
@@ -277,7 +285,7 @@ def _load(
             if not last:  # nothing to keep
                 raise
 
-    curve = collect(watched(path))
+    curve = collect(watched(path), measures)
     closed = None
     if loop and len(curve) == count:
         with suppress(KeyboardInterrupt):

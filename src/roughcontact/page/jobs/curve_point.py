@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from roughcontact.contact.measures import StateMeasure, measured_at
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
 from roughcontact.labels.column import Column, shown_in
@@ -14,6 +16,7 @@ from roughcontact.labels.contact_columns import (
     POINTS,
     STATE_NAMES,
 )
+from roughcontact.labels.flux_columns import HEAT_PARTS
 from roughcontact.labels.labelled import plain_values, values_of
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.job_calls import Call, Name
@@ -23,6 +26,7 @@ __all__ = ["columns_of", "point_of"]
 
 _SHOWN = shown_in("page", (*POINTS, *CERTIFICATES))
 _STICKING = shown_in("path", [each for each in ADHESIVE_CURVE[("load",)] if each.unit])
+_MEASURED = {"rc.ConductanceParts": shown_in("page", HEAT_PARTS)}  # by the function of a measure
 _GEOMETRIES = {None: Geometry.SURFACE, "line": Geometry.LINE, "winkler": Geometry.FOUNDATION}
 
 
@@ -30,12 +34,15 @@ def columns_of(job: Any) -> list[dict[str, str]]:
     """Return the quantities of a point of the curve of a job, with the words and units of pictures."""
     from roughcontact.labels.engineering_units import pretty
 
-    shown = (*_SHOWN, *_conducted(job)) if isinstance(job, CurveJob) else _STICKING
+    shown: Sequence[Column] = _STICKING
+    if isinstance(job, CurveJob):
+        measured = (each for call in job.measures() for each in _MEASURED[call.function])
+        shown = (*_SHOWN, *_conducted(job), *measured)
     units = {each.name: pretty(each.unit_on(_GEOMETRIES[job.contact.profile])) for each in shown}
     return [{"name": each.name, "label": each.label, "unit": units[each.name]} for each in shown]
 
 
-def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
+def point_of(state: Any, job: Job | None = None, measures: Sequence[StateMeasure] = ()) -> dict[str, Any]:
     """Return the quantities of a state in SI units, those of the curve of a job; None where one is infinite."""
     shown = _SHOWN if job is None or isinstance(job, CurveJob) else _STICKING
     point = {each.name: value for each, value in values_of(state, shown, STATE_NAMES).items()}
@@ -43,6 +50,7 @@ def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
         named = job.conduction.named() | {"of": job.conduction.of}
         found = Call("rc.conductance", (Name("state"),), named).value(known_names() | {"state": state})
         point |= {each.name: float(found[each.name]) for each in conducted}
+    point |= measured_at(state, measures, tuple(point))
     return {name: plain_values(value) for name, value in point.items()}
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from roughcontact.errors import within
 from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
+    from roughcontact.contact.measures import StateMeasure
     from roughcontact.materials import Modulus
     from roughcontact.solver.loads import Loads
 
@@ -35,6 +36,8 @@ class Followed:
         The number of states, if it is known.
     notes : tuple of str
         Notes on the loads.
+    measures : sequence of functions
+        They return further numbers of a state by name. Each remembers the last state, so that it is measured once.
     parts : bool
         Whether the first states without the rest are an answer.
     """
@@ -46,6 +49,7 @@ class Followed:
     count: int | None = None
     notes: tuple[str, ...] = ()
     parts: bool = True
+    measures: Sequence[StateMeasure] = ()
 
 
 def collected(followed: Followed) -> Any:
@@ -75,9 +79,11 @@ def _curve(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.curve import collect
 
+    measures = [lru_cache(maxsize=1)(each) for each in named.pop("measures", ())]
     loads, notes = _rising(surface, modulus, named)
     states = rc.loading_path(surface, modulus, **named)
-    return Followed(states, loads, collect, count=len(loads.values), notes=notes)
+    collecting = partial(collect, measures=measures)
+    return Followed(states, loads, collecting, count=len(loads.values), notes=notes, measures=measures)
 
 
 def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:
