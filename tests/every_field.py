@@ -77,6 +77,8 @@ BESIDE = {
     "Errors.shortest_wave": {"errors": True},
     "Errors.noise": {"errors": True},
     "Errors.noise_length": {"errors": True, "noise": "3nm"},
+    "HeatParts.emissivity": {"temperature": "20degC"},
+    "HeatParts.temperature": {"emissivity": "0.2"},
     "Theories.hurst": {"theory": "finite-size"},
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
@@ -99,9 +101,14 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
-# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures.
+# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures,
+# heat the conductivity of the bodies.
 ELSEWHERE = {
     **{field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")},
+    **{
+        f"HeatParts.{name}": {"conduction": {"conductivity": "400W/m/K"}}
+        for name in ("gas", "emissivity", "temperature", "film")
+    },
     **{
         field: {"seal": {"upstream": "2bar", "downstream": "1bar"}}
         for field in ("Fluid.gas", "Fluid.temperature")

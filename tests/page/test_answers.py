@@ -130,6 +130,19 @@ def test_conductances_of_points_are_those_of_the_python_that_is_stated(ask):
         assert [point[name] for point in points] == space["conductance"][name].tolist()
 
 
+def test_gas_and_radiation_are_columns_of_the_points(ask):
+    heat = {"gas": "air,1bar,20degC,alpha=0.9:0.9", "emissivity": "0.2"}
+    said = ask(curve, loads=LOADS, conduction=CONDUCTION, heat=heat)
+    [loads], points = of(said, "loads"), of(said, "point")
+    record = json.loads(run(of(said, "stated")[0]["command"] + " --json"))
+    labels = {each["name"]: (each["label"], each["unit"]) for each in loads["columns"]}
+    assert labels["joint_conductance_per_area"] == ("h of the joint", "W/m²/K")
+    for part in ("spots", "gas", "radiation", "joint"):
+        name = f"{part}_conductance_per_area"
+        assert name in labels
+        assert [point[name] for point in points] == record[name]
+
+
 def test_one_rigid_body_conducts_nothing(ask):
     [loads] = of(ask(curve, loads=LOADS, bodies={"materials": "steel,rigid"}), "loads")
     assert not any("conductance" in column["name"] for column in loads["columns"])

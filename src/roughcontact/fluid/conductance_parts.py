@@ -45,7 +45,7 @@ class ConductanceParts:
     >>> parts = rc.ConductanceParts(conductivities=(50, 160), gas=air)
     >>> curve = rc.loading_curve(surface, 1.1e11, pressures=[1e7, 3e7], measures=[parts])
     >>> curve.measured["gas_conductance_per_area"].round(-2)  # W/(m^2 K)
-    array([ 9700., 10900.])
+    array([10900., 11600.])
     """
 
     conductivities: tuple[float, float]

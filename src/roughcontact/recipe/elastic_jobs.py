@@ -134,6 +134,8 @@ class CurveJob:
                 "give `forces`",
                 "loads.depths",
             )
+        if self.heat.named():
+            self._require_heat()
         profile, conducts = self.contact.profile, bool(self.conduction.named())
         if conducts and profile == "line":
             raise InputError(
@@ -145,13 +147,23 @@ class CurveJob:
             raise InputError(
                 "a Winkler foundation only has a total conductance", "give `of` total", "conduction.of"
             )
-        if self.heat.named():
-            self._require_heat()
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
     def _require_heat(self) -> None:
         """Raise an error if the conductance by parts cannot be computed."""
         asked = " and ".join(f"`{name}`" for name in given(self.heat))
+        beside = (
+            ("loop", self.plastic.loop, "plastic"),
+            ("profile", self.contact.profile is not None, "contact"),
+            ("of", self.conduction.of == "total", "conduction"),
+        )
+        for name, contradicts, part in beside:
+            if contradicts:
+                raise InputError(
+                    f"{asked} does not go with `{name}`",
+                    f"leave {'`of`' if name == 'of' else asked} out",
+                    f"{part}.{name}",
+                )
         if self.conduction.conductivity is None:
             raise InputError(
                 f"{asked} needs the conductivity of the bodies",
@@ -160,16 +172,10 @@ class CurveJob:
             )
         if 0 in self.conduction.named()["conductivities"]:
             raise InputError(
-                "an insulator has no conductance", "give conductivities above 0", "conduction.conductivity"
+                "an insulator has no conductance",
+                "give conductivities above 0, such as 400W/m/K",
+                "conduction.conductivity",
             )
-        refused = (
-            ("loop", self.plastic.loop, "plastic", "leave out one of them"),
-            ("profile", self.contact.profile is not None, "contact", "press a map of heights"),
-            ("of", self.conduction.of == "total", "conduction", "leave `of` out"),
-        )
-        for name, contradicts, part, remedy in refused:
-            if contradicts:
-                raise InputError(f"{asked} does not go with `{name}`", remedy, f"{part}.{name}")
 
     def measures(self) -> list[Call]:
         """Return the calls that make the functions of a state whose numbers become columns of the curve."""

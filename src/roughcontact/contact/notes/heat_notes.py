@@ -24,7 +24,7 @@ def heat_notes(columns: Mapping[str, Array]) -> Iterator[Note]:
         yield Note(
             Rank.USUAL,
             f"At {count} of {len(interaction)} loads gas and radiation do not add to the spots (h l/k_s up to "
-            f"{interaction.max():.2g}): the conductance of the joint is solved there, and is below the sum of the "
+            f"{interaction.max():.2g}): the conductance of the joint is solved there, and differs from the sum of the "
             "parts.",
         )
     if not (residual <= _MET).all():

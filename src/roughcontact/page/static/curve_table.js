@@ -5,6 +5,7 @@ import { digits, scaleFor } from "./words.js";
 
 const COLUMNS = [
   "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "residual",
+  "spots_conductance_per_area", "gas_conductance_per_area", "radiation_conductance_per_area", "joint_conductance_per_area",
 ];
 
 // Without `chosen` the rows are not clickable.
