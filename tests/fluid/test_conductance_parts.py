@@ -47,6 +47,16 @@ def test_each_load_has_the_parts_of_its_state(conductivities, tmp_path):
         assert joints[-1].total > joints[-1].parts_sum
 
 
+def test_the_sum_is_no_bound_but_the_drop_across_the_open_cells_gives_one():
+    """On a period the mean of the displacement is 0, and 1 in contact: across the open cells 1 - u is 1/(1 - A/A0)."""
+    for state in rc.loading_path(SURFACE, 1e10, pressures=PRESSURES):
+        joint = rc.joint_conductance(state, conductivities=(0.5, 0.5), gas=AIR)
+        drop = 1 - state.problem.operator.apply(state.frozen.tangent)
+        assert drop[~state.contact].mean() == pytest.approx(1 / (1 - state.contact_fraction), rel=1e-6)
+        bound = joint.spots + np.mean(joint.gas_cells * drop**2)  # by Dirichlet's principle
+        assert joint.total < bound
+
+
 def test_a_drop_that_is_missed_and_radiation_are_noted():
     curve = curve_of(conductivities=(50.0, 160.0), emissivities=(1.0, 1.0), temperature=600.0)
     assert not any("Radiation" in note for note in curve.notes)

@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
@@ -83,7 +84,8 @@ def test_the_points_of_a_curve_are_those_of_its_command(ask):
         assert [point[name] for point in points] == record[name]
     table = (files("roughcontact.page") / "static" / "curve_table.js").read_text(encoding="utf-8")
     in_table = re.findall(r'"(\w+)"', table.partition("const COLUMNS = [")[2].partition("]")[0])
-    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*shown}
+    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*VARIABLES}
+    assert {name for name in in_table if name in record} <= {*shown}
     assert [point["resolved"] for point in points] == record["resolved"]
     space = {}
     exec(of(said, "stated")[0]["python"], space)

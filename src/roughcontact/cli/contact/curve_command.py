@@ -266,7 +266,7 @@ def _load(
     from roughcontact.contact.measures import measured_at
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
-    # Each remembers its last state: Ctrl-C while it is measured ends the curve before this state.
+    # Each keeps the numbers of its last state: Ctrl-C while one is measured ends the curve before this state.
     measures = [lru_cache(maxsize=1)(call.value(known_names())) for call in job.measures()]
     path = solutions_along(surface, modulus, every, **limits)
     ends: list[Solution] = []

@@ -37,7 +37,7 @@ class Followed:
     notes : tuple of str
         Notes on the loads.
     measures : sequence of functions
-        They return further numbers of a state by name. Each remembers the last state, so that it is measured once.
+        They return further numbers of a state by name. Each keeps those of the last state, which is measured once.
     parts : bool
         Whether the first states without the rest are an answer.
     """
