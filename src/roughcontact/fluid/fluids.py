@@ -88,8 +88,8 @@ class Gas:
         Absolute pressure [Pa], for the conduction of heat.
     accommodation : tuple of float, optional
         Thermal accommodation coefficients of both walls [1], for the conduction of heat. Often quoted are 0.85 to 0.95
-        for air, nitrogen and argon on engineering metals, 0.3 to 0.6 for helium. Trott and others (Sandia 2010) measured
-        about 0.95 for argon, 0.85 for nitrogen and 0.45 for helium on most surfaces.
+        for air, nitrogen and argon on engineering metals, 0.3 to 0.6 for helium. Trott and others (Sandia 2010)
+        measured about 0.95 for argon, 0.85 for nitrogen and 0.45 for helium on most surfaces.
     momentum_accommodation : float
         Part of the molecules that both walls reflect diffusely [1], for slip.
 

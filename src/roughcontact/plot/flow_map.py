@@ -14,7 +14,7 @@ from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, show
 from roughcontact.plot.drawing.ticks import LABEL
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array, numeric_method
 
 __all__ = ["flow_map"]
 
@@ -23,7 +23,7 @@ _LEAST = 1e-3  # of the largest flux: smaller fluxes have no lines
 _MOST = 256  # blocks along an axis between which flow lines are traced
 
 
-@numeric
+@numeric_method
 def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Axes:
     """Draw the gap in colour and the contact in grey, flow lines, and a ring around the critical constriction.
 

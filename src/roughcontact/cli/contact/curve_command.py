@@ -59,6 +59,7 @@ roughcontact curve part.x3p --modulus 110GPa --errors --shortest-wave 5um
 roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 110GPa
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
+roughcontact curve joint.npz --modulus 110GPa --conductivity 50W/m/K --gas air,1bar,20degC,alpha=0.9 --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 """,
 }
