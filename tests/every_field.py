@@ -78,6 +78,8 @@ BESIDE = {
     "Errors.noise": {"errors": True},
     "Errors.noise_length": {"errors": True, "noise": "3nm"},
     "LeakAlong.missing": {"leak": "0"},
+    "HeatParts.emissivity": {"temperature": "20degC"},
+    "HeatParts.temperature": {"emissivity": "0.2"},
     "Theories.hurst": {"theory": "finite-size"},
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
@@ -101,13 +103,18 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
-# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures, sound two bodies.
+# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures, sound two bodies,
+# heat the conductivity of the bodies.
 ELSEWHERE = {
     **{
         field: {"bodies": {"materials": "steel,aluminium"}}
         for field in ("Ultrasound.frequency", "Ultrasound.density")
     },
     **{field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")},
+    **{
+        f"HeatParts.{name}": {"conduction": {"conductivity": "400W/m/K"}}
+        for name in ("gas", "emissivity", "temperature", "film")
+    },
     **{
         field: {"seal": {"upstream": "2bar", "downstream": "1bar"}}
         for field in ("Fluid.gas", "Fluid.temperature")

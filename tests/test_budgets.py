@@ -16,7 +16,7 @@ PARAMETERS = {
 # Commands that press take every step of a preparation, and the help shows the everyday options first. Each command has
 # --quiet, --verbose and --help-all.
 OPTIONS = {
-    "curve": 63,  # two of the noise of the heights, two of the flow at each load, two of ultrasound
+    "curve": 67,  # two of the noise of the heights, two of the flow, two of ultrasound, four of gas, radiation and film
     "leak": 56,
     "press": 51,
     "adhesion press": 46,

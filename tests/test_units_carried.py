@@ -142,6 +142,8 @@ MORE = [
     (rc.joint_conductance, {"solution": PRESSED, "conductivities": (30.0, 40.0), "emissivities": (0.5, 0.5),
                             "temperature": 300.0, "film": 1e-7}),
     (rc.joint_conductance, {"solution": PRESSED, "resistivities": (1e-8, 2e-8), "film": 1e-12}),
+    (rc.ConductanceParts, {"conductivities": (30.0, 40.0), "emissivities": (0.5, 0.5), "temperature": 300.0,
+                           "film": 1e-7}),
     (rc.Gas("air", pressure=1e5, accommodation=(0.9, 0.9)).conductance, {"gap": np.array([1e-6, 2e-6])}),
     (rc.conductance, {"contact": CURVE, "resistivities": (1e-8, 2e-8), "conductivities": (30.0, 40.0)}),
     (rc.reflection, {"contact": CURVE, "bodies": ("steel", "steel"), "frequency": 5e6, "densities": (8e3, 7e3)}),

@@ -101,6 +101,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
     from roughcontact.files.save import write as write
+    from roughcontact.fluid.conductance_parts import ConductanceParts as ConductanceParts
     from roughcontact.fluid.fluids import Gas as Gas, Liquid as Liquid
     from roughcontact.fluid.gap_flow import GapFlow as GapFlow, gap_flow as gap_flow
     from roughcontact.fluid.joint_conductance import (

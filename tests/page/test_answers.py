@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
-from roughcontact.labels.flow_columns import SHOWN
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.page.jobs.curve_jobs import curve, theories
 from roughcontact.page.jobs.export_job import export
 from roughcontact.page.jobs.press_jobs import cut, press
@@ -84,7 +84,8 @@ def test_the_points_of_a_curve_are_those_of_its_command(ask):
         assert [point[name] for point in points] == record[name]
     table = (files("roughcontact.page") / "static" / "curve_table.js").read_text(encoding="utf-8")
     in_table = re.findall(r'"(\w+)"', table.partition("const COLUMNS = [")[2].partition("]")[0])
-    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*shown, *SHOWN}
+    assert {"interfacial_stiffness_per_area", *in_table} == {*in_table} <= {*VARIABLES}
+    assert {name for name in in_table if name in record} <= {*shown}
     assert [point["resolved"] for point in points] == record["resolved"]
     space = {}
     exec(of(said, "stated")[0]["python"], space)
@@ -166,6 +167,19 @@ def test_the_reflection_at_points_is_that_of_the_python_that_is_stated(ask):
     assert not any("K/A0" in note for note in of(silent, "curve")[0]["notes"])
     [(_, table)] = ask(export, {"kind": "csv"}, loads=LOADS, ultrasound=heard)[-1:]
     assert b"error_amplification" in table
+
+
+def test_gas_and_radiation_are_columns_of_the_points(ask):
+    heat = {"gas": "air,1bar,20degC,alpha=0.9:0.9", "emissivity": "0.2"}
+    said = ask(curve, loads=LOADS, conduction=CONDUCTION, heat=heat)
+    [loads], points = of(said, "loads"), of(said, "point")
+    record = json.loads(run(of(said, "stated")[0]["command"] + " --json"))
+    labels = {each["name"]: (each["label"], each["unit"]) for each in loads["columns"]}
+    assert labels["joint_conductance_per_area"] == ("h of the joint", "W/m²/K")
+    for part in ("spots", "gas", "radiation", "joint"):
+        name = f"{part}_conductance_per_area"
+        assert name in labels
+        assert [point[name] for point in points] == record[name]
 
 
 def test_one_rigid_body_conducts_nothing(ask):

@@ -302,6 +302,27 @@ ANSWERS = [
         lambda: rc.conductance(curve(forces=RISING), resistivities=(1.7e-8, 1.7e-8)),
     ),
     row(
+        lambda: rc.plot.conductance_curve(curve(forces=RISING)),
+        "no parts of a conductance: compute it with measures=[rc.ConductanceParts(conductivities=(50, 160))]",
+        lambda: rc.plot.conductance_curve(
+            curve(forces=RISING, measures=[rc.ConductanceParts(conductivities=(50, 160))])
+        ),
+    ),
+    row(
+        lambda: rc.ConductanceParts(
+            conductivities=(50, 160),
+            gas=rc.Gas("air", pressure=1e5, accommodation=(1, 1)),
+            emissivities=(1, 1),
+            temperature=300,
+        ),
+        "the gas has a temperature already: leave temperature out",
+        lambda: rc.ConductanceParts(
+            conductivities=(50, 160),
+            gas=rc.Gas("air", pressure=1e5, accommodation=(1, 1)),
+            emissivities=(1, 1),
+        ),
+    ),
+    row(
         lambda: rc.conductance(ROUGH, resistivities=(1e-8, 1e-8)),
         "conductance takes a Curve, a Solution or a Dataset, not Surface: press the surface first",
         lambda: rc.conductance(rc.press(ROUGH, MODULUS, force=1e-4), resistivities=(1e-8, 1e-8)),

@@ -236,6 +236,66 @@ $ conductance rough.npz
 """
 
 
-@pytest.mark.parametrize("refusal", commands(LOADS, ADHESION, FLOW, BESIDE))
+AIR = "--gas air,1bar,20degC,alpha=0.9:0.9"
+BOTH = "--conductivity 50W/m/K"
+HEAT = f"""
+$ {TWO} {BOTH} --gas air,1bar,20degC
+! depends on the accommodation coefficients of both bodies, which 'air,1bar,20degC' lacks; \
+write air,1bar,20degC,alpha=0.9:0.9
+> {TWO} {BOTH} {AIR}
+
+$ {TWO} {BOTH} --gas air,1,20degC,alpha=1
+! '1' has no unit; write a pressure such as 1bar
+> {TWO} {BOTH} --gas air,1bar,20degC,alpha=1
+
+$ {TWO} {BOTH} --gas air,1bar,2bar,20degC,alpha=1
+! states the pressure twice; leave one of them out
+> {TWO} {BOTH} --gas air,2bar,20degC,alpha=1
+
+$ {TWO} {BOTH} --gas air,1bar,20degC,beta=1
+! a gas has no 'beta'; write alpha=0.9:0.9 for the accommodation coefficients
+> {TWO} {BOTH} --gas air,1bar,20degC,alpha=0.9:0.9
+
+$ {TWO} {BOTH} --gas air,1bar,20degC,alpha=1:1:1
+! contains 3 values for two bodies; give one for both, such as 0.9, or two, such as 0.9:0.9
+> {TWO} {BOTH} --gas air,1bar,20degC,alpha=0.9
+> {TWO} {BOTH} --gas air,1bar,20degC,alpha=0.9:0.9
+
+$ {TWO} {BOTH} --gas air,1bar,900K,alpha=1
+! --gas: the temperature must be between 200 and 600 K
+> {TWO} {BOTH} --gas air,1bar,600K,alpha=1
+
+$ {TWO} {AIR}
+! --gas needs the conductivity of the bodies; give --conductivity, such as 400W/m/K or steel,aluminium
+> {TWO} {AIR} --conductivity 400W/m/K
+> {TWO} {AIR} --conductivity steel,aluminium
+
+$ {TWO} {AIR} --conductivity 0,50W/m/K
+! an insulator has no conductance; give conductivities above 0, such as 400W/m/K
+> {TWO} {AIR} --conductivity 400W/m/K
+
+$ {TWO} {BOTH} --emissivity 0.2
+! radiation depends on the temperature; give --temperature, such as 20degC
+> {TWO} {BOTH} --emissivity 0.2 --temperature 20degC
+
+$ {TWO} {BOTH} {AIR} --emissivity 0.2 --temperature 20degC
+! the gas has a temperature already; leave --temperature out
+> {TWO} {BOTH} {AIR} --emissivity 0.2
+
+$ {TWO} {BOTH} {AIR} --of total
+! --gas does not go with --of; leave --of out
+> {TWO} {BOTH} {AIR}
+
+$ {TWO} {BOTH} --film 1e-7m^2*K/W --loop --hardness 100MPa
+! --film does not go with --loop; leave --film out
+> {TWO} {BOTH} --loop --hardness 100MPa
+
+$ {SPRINGS} {BOTH} {AIR} --of total
+! --gas does not go with --profile; leave --gas out
+> {SPRINGS} {BOTH} --of total
+"""
+
+
+@pytest.mark.parametrize("refusal", commands(LOADS, ADHESION, FLOW, BESIDE, HEAT))
 def test_curve(command, refusal):
     follow_command(command, refusal)

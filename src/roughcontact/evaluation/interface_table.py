@@ -19,6 +19,7 @@ __all__ = ["InterfaceTable", "interface_table"]
 
 _FLOW = ("hydraulic_gap", "flow_factor")
 _CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_area")
+_PARTS = ("spots_conductance_per_area", "joint_conductance_per_area")
 
 
 @hinted
@@ -33,7 +34,9 @@ class InterfaceTable:
     pressure, gap, stiffness, contact_fraction : array, shape (n,)
         Nominal pressure p [Pa], mean gap g [m], K/A0 [Pa/m], relative real contact area A/A0.
     conductances : dict of array
-        ``thermal_conductance_per_area`` [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], if known.
+        ``thermal_conductance_per_area`` (h_c) [W/(m^2 K)] and ``electrical_conductance_per_area`` [S/m^2], if known.
+        For a curve with `ConductanceParts`, h_c is replaced by ``spots_conductance_per_area`` and by
+        ``joint_conductance_per_area``, which includes gas and radiation.
     flow : dict of array
         ``hydraulic_gap`` [m] and ``flow_factor``, if the curve has the measure `Transmissivity`.
     area : float
@@ -160,15 +163,18 @@ def interface_table(
         raise InputError(
             "the gap does not fall from each resolved load to the next", "use loads that are further apart"
         )
-    found = {}
+    found: dict[str, Array] = {}
     if resistivities is not None or conductivities is not None:
         found = conductance(curve, resistivities=resistivities, conductivities=conductivities)
+    names: tuple[str, ...] = _CONDUCTANCES
+    if _PARTS[1] in curve.measured:
+        found, names = found | dict(curve.measured), (*_PARTS, _CONDUCTANCES[1])
     return InterfaceTable(
         pressure=curve.nominal_pressure[kept],
         gap=gap,
         stiffness=curve.interfacial_stiffness_per_area[kept],
         contact_fraction=curve.contact_fraction[kept],
-        conductances={name: found[name][kept] for name in _CONDUCTANCES if name in found},
+        conductances={name: found[name][kept] for name in names if name in found},
         flow={name: curve.measured[name][kept] for name in _FLOW if name in curve.measured},
         area=curve.nominal_area if area is None else float(positive(area, "area [m^2]")),
         periodic=all(curve.periodic),

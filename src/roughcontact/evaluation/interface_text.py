@@ -21,8 +21,10 @@ UNIT_SYSTEMS = {
 }
 _WIDTH = 120  # characters of a comment; Abaqus reads at most 256
 _LINES = 1001  # of a table for LAMMPS: evenly spaced, as its interpolation requires
+_OF_SPOTS, _OF_JOINT = "spots_conductance_per_area", "joint_conductance_per_area"
 _GAP_CONDUCTANCES = (
     ("thermal_conductance_per_area", "*GAP CONDUCTANCE, PRESSURE"),
+    (_OF_JOINT, "*GAP CONDUCTANCE, PRESSURE"),
     ("electrical_conductance_per_area", "*GAP ELECTRICAL CONDUCTANCE, PRESSURE"),
 )
 
@@ -56,9 +58,14 @@ def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: st
     lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]
     lines.append("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR")
     lines += _pairs(table.pressure * stress, table.overclosure * length)
-    for (name, keyword), factor in zip(_GAP_CONDUCTANCES, conduction, strict=True):
+    thermal, electrical = conduction
+    for name, keyword in _GAP_CONDUCTANCES:
         if name in table.conductances:
-            lines += [keyword, *_pairs(table.conductances[name] * factor, table.pressure * stress)]
+            factor, start = (electrical if "electrical" in name else thermal), 0.0
+            if name == _OF_JOINT:  # without load: gas and radiation, as at the lowest load
+                start = float(table.conductances[name][0] - table.conductances[_OF_SPOTS][0])
+            numbers = (table.conductances[name] * factor, table.pressure * stress)
+            lines += [keyword, *_pairs(*numbers, max(start, 0.0) * factor)]
     return "\n".join(lines) + "\n"
 
 
@@ -104,6 +111,8 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
         if table.periodic
         else "free patch, which is not pressed evenly (docs/concepts/joints.md)"
     )
+    if _OF_JOINT in table.conductances:
+        yield "the gap conductance is that of spots, gas and radiation together; without load: of gas and radiation"
     flows = math.isfinite(table.hardness)
     body = "elastic and perfectly plastic" if flows else "elastic"
     yield f"computed on a {kind}; {body}, normal load, no friction, no adhesion"
@@ -112,9 +121,9 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
         yield f"no cell bears more than {limit}: for loading only, the law of unloading differs"
 
 
-def _pairs(first: Array, second: Array) -> Iterator[str]:
-    """Yield lines of two numbers, zeros first."""
-    yield "0.0, 0.0"
+def _pairs(first: Array, second: Array, start: float = 0.0) -> Iterator[str]:
+    """Yield lines of two numbers, those without load first."""
+    yield f"{start!r}, 0.0"
     yield from (f"{a!r}, {b!r}" for a, b in zip(first.tolist(), second.tolist(), strict=True))
 
 

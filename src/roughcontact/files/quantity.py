@@ -20,6 +20,7 @@ __all__ = [
     "LENGTH",
     "MODULUS",
     "PRESSURE",
+    "RESISTANCE_AREA",
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
     "TEMPERATURE",
@@ -66,6 +67,7 @@ STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
 ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
+RESISTANCE_AREA = Kind("a thermal resistance times area", "m^2*K/W", "0.1mm^2*K/W")
 VISCOSITY = Kind("a viscosity", "Pa*s", "1mPa*s")
 DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
 FREQUENCY = Kind("a frequency", "Hz", "5MHz")

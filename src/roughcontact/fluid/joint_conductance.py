@@ -17,6 +17,7 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
+from roughcontact.contact.notes.heat_notes import ADDITIVE
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.fluids import Gas
@@ -28,9 +29,8 @@ from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.theory.joints.conductance import harmonic_mean
 from roughcontact.validation import Array, Mask, exactly_one, numeric, pair, require
 
-__all__ = ["JointConductance", "joint_conductance"]
+__all__ = ["JointConductance", "coefficients", "joint_conductance"]
 
-ADDITIVE = 0.2  # h l/k_s of gas and radiation, up to which they add to the spots; tests/fluid/test_joint_conductance.py
 TOLERANCE = 1e-7  # of the drop, root mean square; the error of the conductance is about its square
 MOST_STEPS = 5000
 
@@ -116,6 +116,11 @@ class JointConductance:
     def residual(self) -> float:
         """Error of the unit drop in `solved`, root mean square: its certificate."""
         return self._solution_of_all[1]
+
+    @property
+    def residual_of_total(self) -> float:
+        """Error of the unit drop in `total`, root mean square: that of `solved`, and 0 for a sum."""
+        return 0.0 if self.additive else self.residual
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -256,7 +261,7 @@ def joint_conductance(
     emissivities : tuple of float, optional
         Of both bodies [1], for radiation.
     temperature : float, optional
-        Temperature of the joint in vacuum, for radiation [K]; with a gas, its temperature is used.
+        Temperature of the joint in vacuum, for radiation [K]; left out with a gas, whose temperature is used.
     film : float
         Resistance of a film on the spots, such as an oxide, times area [m^2 K/W] or [ohm m^2]. It is in series with the
         constriction of each spot, so both are solved together.
@@ -270,7 +275,7 @@ def joint_conductance(
     ------
     ValueError
         If the contact is not that of a map in memory of NumPy; if the gas has no accommodation coefficients; if
-        radiation has no temperature; or if a number is out of range.
+        radiation has no temperature, or two; or if a number is out of range.
 
     Notes
     -----
@@ -299,6 +304,39 @@ def joint_conductance(
             "press a Surface",
             "solution",
         )
+    mean, radiation = coefficients(
+        conductivities=conductivities,
+        resistivities=resistivities,
+        gas=gas,
+        emissivities=emissivities,
+        temperature=temperature,
+        film=film,
+    )
+    flat = solution.flattened
+    cells = np.zeros(grid.shape)
+    if gas is not None:
+        is_open = ~flat.contact & problem.measured
+        cells[is_open] = gas.conductance(np.maximum(flat.gap[is_open], 0.0))
+    cells.flags.writeable = False
+    return JointConductance(flat, mean, film, cells, radiation)
+
+
+def coefficients(
+    *,
+    conductivities: tuple[float, float] | None = None,
+    resistivities: tuple[float, float] | None = None,
+    gas: Gas | None = None,
+    emissivities: tuple[float, float] | None = None,
+    temperature: float | None = None,
+    film: float = 0.0,
+) -> tuple[float, float]:
+    """Return the conductivity of both bodies in series and the conductance of radiation [W/(m^2 K)].
+
+    Raises
+    ------
+    ValueError
+        If the arguments of `joint_conductance` make no sense together.
+    """
     exactly_one(conductivities=conductivities, resistivities=resistivities)
     if resistivities is not None and (gas is not None or emissivities is not None):
         raise InputError("gas and radiation carry no current", "give conductivities", "gas, emissivities")
@@ -310,16 +348,14 @@ def joint_conductance(
         require(mean > 0, "an insulator has no conductance", place="conductivities")
     if not 0 <= film < np.inf:
         raise about("the film", f"must have a finite resistance of 0 or more, not {film}")
+    if gas is not None:
+        _ = gas.jump_distance  # raises an error without pressure and accommodation
+        if temperature is not None:
+            raise InputError("the gas has a temperature already", "leave temperature out", "temperature")
     radiation = 0.0
     if emissivities is not None:
         radiation = _radiation(emissivities, gas.temperature if gas is not None else temperature)
-    flat = solution.flattened
-    cells = np.zeros(grid.shape)
-    if gas is not None:
-        is_open = ~flat.contact & problem.measured
-        cells[is_open] = gas.conductance(np.maximum(flat.gap[is_open], 0.0))
-    cells.flags.writeable = False
-    return JointConductance(flat, mean, film, cells, radiation)
+    return mean, radiation
 
 
 def _radiation(emissivities: tuple[float, float], temperature: float | None) -> float:

@@ -157,6 +157,12 @@ def sealing_load(
     along = None if grid.ndim == 2 and all(grid.periodic) else axis
     if problem.geometry is not Geometry.SURFACE:
         raise InputError("the load that seals is that of a map of heights", "press a Surface", "surface")
+    if axis is None and not all(grid.periodic):
+        raise InputError(
+            "on a map that is not periodic the direction of the flow must be given",
+            "give axis=0 or axis=1",
+            "axis",
+        )
     checked_direction(grid, along, None)
     search = _Search(problem, along, axis, missing)
     search.require_both_ends()

@@ -80,8 +80,8 @@ class Transmissivity:
         cubed = max(float(solution.mean_gap), 0.0) ** 3
         factor = kappa and (kappa / cubed if cubed > 0 else math.inf)
         return {
-            "transmissivity": kappa,
             "hydraulic_gap": math.nan if between else math.cbrt(kappa),
+            "transmissivity": kappa,
             "flow_factor": math.nan if between else factor,
             "percolates": float(percolates),
             "constriction_cells": 0.0 if place is None else float(place.cells),

@@ -7,7 +7,7 @@ from roughcontact.labels.contact_columns import POINTS
 
 __all__ = [
     *("CONSTRICTION", "FLOW_MAPS", "FLOW_NAMES", "GAP_FLOW", "LEAK"),
-    *("OF_CURVE", "PRESSED", "SHOWN"),
+    *("FLOW_OF_CURVE", "PRESSED"),
 ]
 
 PRESSED = tuple(each for each in POINTS if each.name in ("nominal_pressure", "contact_fraction", "mean_gap"))
@@ -17,22 +17,25 @@ GAP_FLOW: Table = {
         "eigenvalues | m3 | eigenvalues of the transmissivity | facts | transmissivity, principal"
     ),
     ("row", "column"): columns("""
-        transmissivity | m3 | cubed hydraulic gap of the flow, its upper bound
+        transmissivity | m3 | cubed hydraulic gap of the flow, its upper bound | joint page
         lower_transmissivity | m3 | lower bound of the transmissivity
     """),
     (): columns("""
         flow_residual | 1 | difference of both bounds of the transmissivity, relative | facts | certificate of the flow
-        hydraulic_gap | m | uniform gap with the same transmissivity | facts
-        percolates | | whether an open path leads through the gap | | open path | .0f
+        hydraulic_gap | m | uniform gap with the same transmissivity | facts joint page
+        percolates | | whether an open path leads through the gap | joint page | open path | .0f
     """),
 }
-OF_CURVE = columns("""
-    flow_factor | 1 | transmissivity over the cubed mean gap
-    transmissivity_bruggeman | m3 | transmissivity of an effective medium of the same gaps (Bruggeman)
-""")
-"""Further columns of a curve."""
-SHOWN = ("hydraulic_gap", "transmissivity", "flow_factor", "percolates")
-"""Columns of a curve in tables on a screen."""
+FLOW_OF_CURVE = (
+    *GAP_FLOW[()][1:2],
+    *GAP_FLOW[("row", "column")][:1],
+    *columns("""
+        flow_factor | 1 | transmissivity over the cubed mean gap | joint page
+        transmissivity_bruggeman | m3 | transmissivity of an effective medium of the same gaps (Bruggeman)
+    """),
+    *GAP_FLOW[()][2:],
+)
+"""Columns of a curve with the measure of the flow."""
 FLOW_MAPS = columns("""
     fluid_pressure | 1 | pressure of the fluid for a unit drop
     flux_y | m2 | flux down the map for a unit drop and a viscosity of 1/12

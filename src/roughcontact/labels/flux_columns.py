@@ -8,7 +8,7 @@ from types import MappingProxyType
 from roughcontact.labels.column import CELLS, Column, Table, columns
 from roughcontact.labels.contact_columns import CONDUCTION, CONTACT, SPOT_LABEL, SPOTS
 
-__all__ = ["FLUX", "FLUX_NAMES"]
+__all__ = ["FLUX", "FLUX_NAMES", "HEAT_PARTS", "HEAT_PARTS_NAMES"]
 
 _SHARE = Column(
     "spot_share",
@@ -76,3 +76,27 @@ FLUX_NAMES: Mapping[str, str] = MappingProxyType(
     }
 )
 """The attributes that hold the columns."""
+HEAT_PARTS = columns("""
+    spots_conductance_per_area | W m-2 K-1 | thermal conductance of the spots with their film over the nominal area | \
+        joint page | h of the spots
+    gas_conductance_per_area | W m-2 K-1 | thermal conductance of the gas in the gap over the nominal area | \
+        joint page | h of the gas
+    radiation_conductance_per_area | W m-2 K-1 | thermal conductance of radiation over the nominal area | \
+        joint page | h of radiation
+    joint_conductance_per_area | W m-2 K-1 | \
+        thermal conductance of spots, gas and radiation together over the nominal area | joint page | h of the joint
+    conductance_interaction | 1 | conductance of gas and radiation over that of a layer of the bodies, as thick as the \
+        longer side of the map; up to 0.2 the parts add
+    conductance_residual | 1 | error of the unit drop where the parts do not add, root mean square
+""")
+"""The thermal conductance of a joint by its parts."""
+HEAT_PARTS_NAMES: Mapping[str, str] = MappingProxyType(
+    dict(
+        zip(
+            (each.name for each in HEAT_PARTS),
+            ("spots", "gas", "radiation", "total", "interaction", "residual_of_total"),
+            strict=True,
+        )
+    )
+)
+"""Attributes of a `JointConductance`, by columns."""

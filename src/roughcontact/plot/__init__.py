@@ -23,6 +23,7 @@ if TYPE_CHECKING or _LATE is None:
         solution_figure as solution_figure,
         surface_figure as surface_figure,
     )
+    from roughcontact.plot.conductance_plot import conductance_curve as conductance_curve
     from roughcontact.plot.curves import (
         areal_curve as areal_curve,
         force_curve as force_curve,
@@ -41,7 +42,7 @@ if TYPE_CHECKING or _LATE is None:
         jump_figure as jump_figure,
         jump_loop as jump_loop,
     )
-    from roughcontact.plot.leak_curve import leak_curve as leak_curve
+    from roughcontact.plot.leak_plot import leak_curve as leak_curve
     from roughcontact.plot.loops import (
         bearing_curves as bearing_curves,
         depth_loop as depth_loop,

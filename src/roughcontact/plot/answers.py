@@ -18,7 +18,7 @@ from roughcontact.evaluation.contact_flux import ContactFlux
 from roughcontact.fluid.gap_flow import GapFlow
 from roughcontact.plot import curves, flux_plot, loops, maps, profile_plot
 from roughcontact.plot.gap_flow_map import flow_map
-from roughcontact.plot.leak_curve import LEAKS, leak_curve
+from roughcontact.plot.leak_plot import LEAKS, leak_curve
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.preparation.spikes import Spikes

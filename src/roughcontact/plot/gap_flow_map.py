@@ -15,7 +15,7 @@ from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.raster import colour_bar, length_scale, part, show
 from roughcontact.plot.drawing.ticks import LABEL
-from roughcontact.validation import Array, numeric
+from roughcontact.validation import Array, numeric_method
 
 __all__ = ["flow_figure", "flow_map"]
 
@@ -32,7 +32,7 @@ def flow_figure(flow: GapFlow, direction: int) -> Figure:
     return figure
 
 
-@numeric
+@numeric_method
 def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Axes:
     """Draw the gap in colour and the contact in grey, flow lines, and a ring around the critical constriction.
 

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
+from roughcontact.recipe.heat_parts import HeatParts
 from roughcontact.recipe.incident_wave import Ultrasound
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.leak_along import LeakAlong
@@ -16,7 +17,7 @@ from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory,
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
-from roughcontact.recipe.recipe_fields import check, value_of
+from roughcontact.recipe.recipe_fields import check, given, value_of
 from roughcontact.recipe.source import Source
 
 __all__ = ["CurveJob", "PressJob", "SurfaceJob"]
@@ -110,6 +111,7 @@ class CurveJob:
     contact: Contact = field(default_factory=Contact)
     plastic: LoopOfLoads = field(default_factory=LoopOfLoads)
     conduction: Conduction = field(default_factory=Conduction)
+    heat: HeatParts = field(default_factory=HeatParts)
     ultrasound: Ultrasound = field(default_factory=Ultrasound)
     theories: Theories = field(default_factory=Theories)
     errors: Errors = field(default_factory=Errors)
@@ -144,6 +146,8 @@ class CurveJob:
             raise InputError(
                 f"`leak` does not go with `{other}`: {why}", "leave out one of them", "leak.leak"
             )
+        if self.heat.named():
+            self._require_heat()
         profile, conducts = self.contact.profile, bool(self.conduction.named())
         if conducts and profile == "line":
             raise InputError(
@@ -158,11 +162,48 @@ class CurveJob:
         self.ultrasound.require(self.bodies, profile)
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
+    def _require_heat(self) -> None:
+        """Raise an error if the conductance by parts cannot be computed."""
+        asked = " and ".join(f"`{name}`" for name in given(self.heat))
+        beside = (
+            ("loop", self.plastic.loop, "plastic"),
+            ("profile", self.contact.profile is not None, "contact"),
+            ("of", self.conduction.of == "total", "conduction"),
+        )
+        for name, contradicts, part in beside:
+            if contradicts:
+                raise InputError(
+                    f"{asked} does not go with `{name}`",
+                    f"leave {'`of`' if name == 'of' else asked} out",
+                    f"{part}.{name}",
+                )
+        if self.conduction.conductivity is None:
+            raise InputError(
+                f"{asked} needs the conductivity of the bodies",
+                "give `conductivity`, such as 400W/m/K or steel,aluminium",
+                "conduction.conductivity",
+            )
+        if 0 in self.conduction.named()["conductivities"]:
+            raise InputError(
+                "an insulator has no conductance",
+                "give conductivities above 0, such as 400W/m/K",
+                "conduction.conductivity",
+            )
+
+    def measures(self) -> list[Call]:
+        """Return the calls that make the functions of a state whose numbers become columns of the curve."""
+        found = self.leak.measures()
+        if heat := self.heat.named():
+            pair = {"conductivities": self.conduction.named()["conductivities"]}
+            found.append(Call("rc.ConductanceParts", (), pair | heat, place="heat"))
+        return found
+
     def calls(self) -> Iterator[Call]:
         """Yield the calls that follow the loads, and those that evaluate the curve."""
         loads = self.loads.named(self.contact.profile)
         flow = {} if self.plastic.flow in (None, "removed") else {"flow": self.plastic.flow}
-        named = {**loads, **_hardness(self), **flow, **self.contact.named(), **self.leak.named()}
+        measures = {"measures": found} if (found := self.measures()) else {}
+        named = {**loads, **_hardness(self), **flow, **self.contact.named(), **measures}
         function, result = ("rc.loading_loop", "loop") if self.plastic.loop else ("rc.loading_curve", "curve")
         yield pressed(function, named, result, "loads")
         curve = "loop.loading" if self.plastic.loop else "curve"

@@ -34,11 +34,11 @@ class LeakAlong:
     def __post_init__(self) -> None:
         check(self)
 
-    def named(self) -> dict[str, list[Call]]:
-        """Return the argument `measures` of `roughcontact.loading_curve` by name; empty if no flow is asked for."""
+    def measures(self) -> list[Call]:
+        """Return the call that makes the measure of the flow; empty if no flow is asked for."""
         if self.leak is None:
-            return {}
+            return []
         given: dict[str, Any] = {"axis": int(self.leak)}
         if self.missing != "closed":
             given["missing"] = self.missing
-        return {"measures": [Call("rc.Transmissivity", (), given)]}
+        return [Call("rc.Transmissivity", (), given, place="leak")]

@@ -11,6 +11,7 @@ from roughcontact.files.quantity import DENSITY, LENGTH, PRESSURE, VISCOSITY
 from roughcontact.recipe.bodies import Bodies
 from roughcontact.recipe.contact import Contact
 from roughcontact.recipe.elastic_jobs import PressJob
+from roughcontact.recipe.heat_parts import GASES
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.preparation import Preparation
@@ -19,9 +20,8 @@ from roughcontact.recipe.recipe_fields import check, described, values_of
 from roughcontact.recipe.source import Source
 from roughcontact.recipe.texts import Amount, Choice, temperature
 
-__all__ = ["GASES", "Fluid", "LeakJob", "Seal"]
+__all__ = ["Fluid", "LeakJob", "Seal"]
 
-GASES = ("air", "nitrogen", "helium", "argon")  # those of `fluid.fluids`, which imports NumPy
 _ABSOLUTE = Amount(PRESSURE, positive=False, zero=True)
 
 

@@ -268,9 +268,11 @@ def carried(job: Job, folder: Path | None) -> dict[str, Any]:
 
 
 def contact_in(recipe: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the part of a recipe that the states of a curve depend on, without its loads."""
+    """Return the part of a recipe that the columns of a curve depend on, without its loads."""
     aside = (*OUTPUTS, Conduction, Ultrasound, RisingLoads)
     beside = {name for name, kind in hints_of(CurveJob).items() if kind in aside}
+    if "heat" in recipe:
+        beside.remove("conduction")
     return {name: value for name, value in recipe.items() if name not in beside}
 
 

@@ -19,7 +19,7 @@ from roughcontact.cli.messages import note_all, worded
 from roughcontact.cli.output import all_or_none, command_line
 from roughcontact.errors import InputError
 from roughcontact.recipe.jobs import known_names
-from roughcontact.recipe.recipe_fields import value_of
+from roughcontact.recipe.recipe_fields import given, value_of
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
@@ -244,13 +244,18 @@ class CurveAnswer:
 
         Return the names of further pictures.
         """
-        import matplotlib.figure
+        from matplotlib.figure import Figure
 
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
-        from roughcontact.plot.leak_curve import leak_curve
+        from roughcontact.plot.conductance_plot import conductance_curve
+        from roughcontact.plot.leak_plot import leak_curve
 
-        more = [] if self.job.leak.leak is None else [f"leak.{ending}"]
+        drawn: dict[str, Any] = {}
+        if self.job.leak.leak is not None:
+            drawn[f"leak.{ending}"] = leak_curve
+        if self.job.heat.named():
+            drawn[f"conductance_parts.{ending}"] = conductance_curve
 
         with all_or_none(folder) as aside:
             write_netcdf(self.dataset, aside / "curve.nc", source)
@@ -259,18 +264,18 @@ class CurveAnswer:
             if self.loop is not None:
                 figure.suptitle("first loading")
             save(figure, aside / f"{self.picture}.{ending}")
-            for name in more:
-                figure = matplotlib.figure.Figure(figsize=(5.6, 4.2), layout="constrained")
-                leak_curve(self.curve, figure.subplots(), units=self.units)
+            for name, draw in drawn.items():
+                figure = Figure(figsize=(5.6, 4.2), layout="constrained")
+                draw(self.curve, figure.subplots(), units=self.units)
                 save(figure, aside / name)
             write_json(self.record, aside / "curve.json", source)
-        return tuple(more)
+        return tuple(drawn)
 
     def tell(self, json: bool) -> None:
         """Print the answer on standard output, and its notes on standard error."""
         from roughcontact.labels.column import names_of, shown_in
         from roughcontact.labels.contact_columns import REFLECTION
-        from roughcontact.labels.flow_columns import SHOWN
+        from roughcontact.labels.variables import VARIABLES
         from roughcontact.plot.facts import AREAL_COLUMNS, CURVE_COLUMNS
 
         curve = self.curve
@@ -284,13 +289,16 @@ class CurveAnswer:
                 [*doubts, ("surface", size), *self.pressed.facts(), ("reduced modulus E*", modulus)]
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
-            shown = (*columns, *SHOWN, *shown_columns(self.dataset), *names_of(shown_in("joint", REFLECTION)))
+            measured = [name for name in curve.measured if "joint" in VARIABLES[name].shown.split()]
+            reflected = names_of(shown_in("joint", REFLECTION))
+            shown = (*columns, *measured, *shown_columns(self.dataset), *reflected)
             report.print_table(*report.load_table(self.dataset, shown))
             conducting = (
                 []
                 if self.conductors is None
                 else conduction_facts(self.dataset, self.conductors, self.job.conduction.of)
             )
+            conducting += given(self.job.heat).items()
             local = exponents(curve, self.comparisons)
             facts = [*report.curve_facts(curve, self.fit), *local, *conducting, *self._waves()]
             report.print_facts(facts)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from roughcontact.cli.contact.stored_loads import StoredLoads
     from roughcontact.contact.curve import Curve
     from roughcontact.contact.loop import Loop
-    from roughcontact.contact.measures import StateMeasure
     from roughcontact.contact.solution import Solution
     from roughcontact.halfspace.operators.operator import Operator
     from roughcontact.labels.note import Note
@@ -60,6 +60,7 @@ roughcontact curve scan.csv --profile line --forces 1N/mm:100N/mm:12 --modulus 1
 roughcontact curve part.x3p --materials steel,aluminium --theory mikic,cmy --hardness aluminium
 roughcontact curve part.x3p --materials steel,aluminium --hardness aluminium --loop --out result
 roughcontact curve part.x3p --modulus 110GPa --pressures 1MPa:300MPa:12 --leak 0 --out result
+roughcontact curve joint.npz --modulus 110GPa --conductivity 50W/m/K --gas air,1bar,20degC,alpha=0.9 --out result
 roughcontact curve joint.npz --modulus 110GPa --conductivity steel,aluminium --table abaqus-mm,csv --out result
 roughcontact curve joint.npz --materials steel,aluminium --frequency 5MHz
 """,
@@ -115,9 +116,8 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
             "operator": operator,
             "flow": plastic.flow or "removed",
         }
-        measures = [each.value(known_names()) for each in job.leak.named().get("measures", ())]
         stored = None if in_slabs else stored_loads(job, loads, answer.out)
-        computed, done, outer, loop = _computed(surface, modulus, loads, limits, measures, stored, job)
+        computed, done, outer, loop = _computed(surface, modulus, loads, limits, stored, job)
         notes: tuple[Note, ...] = ()
         left = np.setdiff1d(loads.values, done)
         if left.size:
@@ -165,7 +165,6 @@ def _computed(
     modulus: Modulus,
     loads: Loads,
     limits: dict[str, Any],
-    measures: Sequence[StateMeasure],
     stored: StoredLoads | None,
     job: CurveJob,
 ) -> tuple[Curve, Array, list[Solution], Loop | None]:
@@ -176,12 +175,12 @@ def _computed(
     from roughcontact.solver.loads import Loads
 
     if stored is None:
-        curve, outer, loop = _load(surface, modulus, loads, limits, measures, loop=job.plastic.loop)
+        curve, outer, loop = _load(surface, modulus, loads, limits, job, loop=job.plastic.loop)
         return curve, loads.values[: len(curve)], outer, loop
     new = np.setdiff1d(loads.values, stored.values)
     if not new.size:
         return stored.curve, stored.values, [], None
-    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, measures, loop=False)
+    curve, outer, _ = _load(surface, modulus, Loads(loads.kind, new), limits, job, loop=False)
     done = np.union1d(stored.values, new[: len(curve)])
     return joined(stored.curve, curve), done, outer, None
 
@@ -256,13 +255,7 @@ def _look_ahead(surface: Surface, modulus: Modulus, loads: Loads, operator: Oper
 
 
 def _load(
-    surface: Surface,
-    modulus: Modulus,
-    loads: Loads,
-    limits: dict[str, Any],
-    measures: Sequence[StateMeasure],
-    *,
-    loop: bool,
+    surface: Surface, modulus: Modulus, loads: Loads, limits: dict[str, Any], job: CurveJob, *, loop: bool
 ) -> tuple[Curve, list[Solution], Loop | None]:
     """Return the curve, the first and last load that are resolved, and the whole loop.
 
@@ -271,8 +264,11 @@ def _load(
     from roughcontact.contact.curve import collect
     from roughcontact.contact.loading import solutions_along
     from roughcontact.contact.loop import closed_loop, loads_of_loop
+    from roughcontact.contact.measures import measured_at
 
     every, count = loads_of_loop(loads) if loop else loads, loads.values.size
+    # Each keeps the numbers of its last state: Ctrl-C while one is measured ends the curve before this state.
+    measures = [lru_cache(maxsize=1)(call.value(known_names())) for call in job.measures()]
     path = solutions_along(surface, modulus, every, **limits)
     ends: list[Solution] = []
     last: list[Solution] = []
@@ -281,6 +277,7 @@ def _load(
         try:
             for solution in islice(path, count):
                 resolved = solution.resolved and solution.status.converged  # which takes as long as the load
+                measured_at(solution, measures, ())
                 last[:] = [solution]
                 if resolved:
                     ends[1 if ends else 0 :] = [solution]

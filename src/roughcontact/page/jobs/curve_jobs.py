@@ -141,8 +141,7 @@ def _as_far(job: Job, path: Followed, done: int) -> tuple[Job | None, dict[str, 
 def _point(state: Any, job: Job, path: Followed, at: int) -> dict[str, Any]:
     converged = state.status.converged
     return {
-        **point_of(state, job),
-        **{name: plain_values(value) for name, value in path.measured(state).items()},
+        **point_of(state, job, path.measures),
         "branch": path.branches[at] if path.branches else "",
         "resolved": bool(getattr(state, "resolved", True) and converged),
         "status": state.status.value,

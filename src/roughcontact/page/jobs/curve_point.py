@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from roughcontact.contact.measures import StateMeasure, measured_at
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.adhesive_columns import ADHESIVE_CURVE
 from roughcontact.labels.column import Column, shown_in
@@ -15,9 +17,9 @@ from roughcontact.labels.contact_columns import (
     REFLECTION,
     STATE_NAMES,
 )
-from roughcontact.labels.flow_columns import SHOWN
+from roughcontact.labels.flow_columns import FLOW_OF_CURVE
+from roughcontact.labels.flux_columns import HEAT_PARTS
 from roughcontact.labels.labelled import plain_values, values_of
-from roughcontact.labels.variables import VARIABLES
 from roughcontact.recipe.elastic_jobs import CurveJob
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.jobs import Job, known_names
@@ -26,6 +28,10 @@ __all__ = ["columns_of", "point_of"]
 
 _SHOWN = shown_in("page", (*POINTS, *CERTIFICATES))
 _STICKING = shown_in("path", [each for each in ADHESIVE_CURVE[("load",)] if each.unit])
+_MEASURED = {  # by the function of a measure
+    "rc.ConductanceParts": shown_in("page", HEAT_PARTS),
+    "rc.Transmissivity": shown_in("page", FLOW_OF_CURVE),
+}
 _GEOMETRIES = {None: Geometry.SURFACE, "line": Geometry.LINE, "winkler": Geometry.FOUNDATION}
 
 
@@ -33,18 +39,15 @@ def columns_of(job: Any) -> list[dict[str, str]]:
     """Return the quantities of a point of the curve of a job, with the words and units of pictures."""
     from roughcontact.labels.engineering_units import pretty
 
-    curve = isinstance(job, CurveJob)
-    shown = (*_SHOWN, *_conducted(job), *_reflected(job), *_measured(job)) if curve else _STICKING
+    shown: Sequence[Column] = _STICKING
+    if isinstance(job, CurveJob):
+        measured = (each for call in job.measures() for each in _MEASURED[call.function])
+        shown = (*_SHOWN, *_conducted(job), *measured, *_reflected(job))
     units = {each.name: pretty(each.unit_on(_GEOMETRIES[job.contact.profile])) for each in shown}
     return [{"name": each.name, "label": each.label, "unit": units[each.name]} for each in shown]
 
 
-def _measured(job: CurveJob) -> list[Column]:
-    """Return the columns of the flow, if the job asks for it."""
-    return [] if job.leak.leak is None else [VARIABLES[name] for name in SHOWN]
-
-
-def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
+def point_of(state: Any, job: Job | None = None, measures: Sequence[StateMeasure] = ()) -> dict[str, Any]:
     """Return the quantities of a state in SI units, those of the curve of a job; None where one is infinite."""
     shown = _SHOWN if job is None or isinstance(job, CurveJob) else _STICKING
     point = {each.name: value for each, value in values_of(state, shown, STATE_NAMES).items()}
@@ -56,6 +59,7 @@ def point_of(state: Any, job: Job | None = None) -> dict[str, Any]:
         for call in job.ultrasound.calls("state", job.bodies):
             found = call.value(known_names() | {"state": state})
             point |= {each.name: float(found[each.name]) for each in _reflected(job)}
+    point |= measured_at(state, measures, tuple(point))
     return {name: plain_values(value) for name, value in point.items()}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from roughcontact.errors import within
 from roughcontact.recipe.job_calls import Call, perform
 
 if TYPE_CHECKING:
+    from roughcontact.contact.measures import StateMeasure
     from roughcontact.materials import Modulus
     from roughcontact.solver.loads import Loads
 
@@ -35,6 +36,8 @@ class Followed:
         The number of states, if it is known.
     notes : tuple of str
         Notes on the loads.
+    measures : sequence of functions
+        They return further numbers of a state by name. Each keeps those of the last state, which is measured once.
     parts : bool
         Whether the first states without the rest are an answer.
     measured : function
@@ -48,7 +51,7 @@ class Followed:
     count: int | None = None
     notes: tuple[str, ...] = ()
     parts: bool = True
-    measured: Callable[[Any], Mapping[str, float]] = lambda _: {}
+    measures: Sequence[StateMeasure] = ()
 
 
 def collected(followed: Followed) -> Any:
@@ -77,22 +80,12 @@ def up_to_path(calls: Iterable[Call]) -> Iterator[Call]:
 def _curve(surface: Any, modulus: Modulus, **named: Any) -> Followed:
     import roughcontact as rc
     from roughcontact.contact.curve import collect
-    from roughcontact.contact.measures import measured_at
 
-    measures = named.pop("measures", ())
+    measures = [lru_cache(maxsize=1)(each) for each in named.pop("measures", ())]
     loads, notes = _rising(surface, modulus, named)
     states = rc.loading_path(surface, modulus, **named)
-    measured = lru_cache(maxsize=1)(
-        lambda state: measured_at(state, measures, ())
-    )  # of each point, and its curve
-    return Followed(
-        states,
-        loads,
-        lambda path: collect(path, [measured]),
-        count=len(loads.values),
-        notes=notes,
-        measured=measured,
-    )
+    collecting = partial(collect, measures=measures)
+    return Followed(states, loads, collecting, count=len(loads.values), notes=notes, measures=measures)
 
 
 def _loop(surface: Any, modulus: Modulus, **named: Any) -> Followed:

@@ -4,8 +4,10 @@ import { element } from "./numbers.js";
 import { digits, scaleFor } from "./words.js";
 
 const COLUMNS = [
-  "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "hydraulic_gap", "transmissivity", "flow_factor",
-  "percolates", "spots", "reflection", "error_amplification", "best_frequency", "residual",
+  "force", "nominal_pressure", "depth", "stiffness", "interfacial_stiffness_per_area", "contact_fraction", "mean_gap", "spots", "residual",
+  "hydraulic_gap", "transmissivity", "flow_factor", "percolates",
+  "spots_conductance_per_area", "gas_conductance_per_area", "radiation_conductance_per_area", "joint_conductance_per_area",
+  "reflection", "error_amplification", "best_frequency",
 ];
 
 // Without `chosen` the rows are not clickable.
