@@ -42,6 +42,7 @@ ORDER = [
     {"fluid"},
     {"adhesion"},
     {"friction"},
+    {"viscoelastic"},
     {"mdr"},
     {"files"},
     {"recipe"},

@@ -10,13 +10,7 @@ import roughcontact as rc
 from roughcontact.mdr.bodies import indenter
 from roughcontact.mdr.bodies.indentation import indent, indentation_curve
 from roughcontact.mdr.viscoelasticity.lee_radok import transfer
-from roughcontact.mdr.viscoelasticity.viscoelastic import (
-    kelvin_voigt,
-    maxwell,
-    prony,
-    standard_solid,
-    viscous,
-)
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
 
 R, E = 0.5, 3.0
 BODY = indenter.paraboloid(R)

@@ -10,7 +10,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import roughcontact as rc
-from roughcontact.mdr import lee_radok, viscoelastic
+from roughcontact import viscoelastic
+from roughcontact.mdr import lee_radok
 
 grid = rc.Grid((128, 128), 1e-6)
 surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))

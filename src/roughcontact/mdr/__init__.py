@@ -23,7 +23,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.mdr.viscoelasticity import (
         lee_radok as lee_radok,
         sliding_friction as sliding_friction,
-        viscoelastic as viscoelastic,
         viscoelastic_history as viscoelastic_history,
     )
 

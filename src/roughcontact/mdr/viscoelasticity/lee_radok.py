@@ -17,9 +17,10 @@ from typing import Protocol
 import numpy as np
 
 from roughcontact.errors import InputError
-from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic, checked_history, checked_material
 from roughcontact.theory.tools.computed import LogCubic
 from roughcontact.validation import Array, exactly_one, number, require, shown
+from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
+from roughcontact.viscoelastic.time_history import checked_history
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
 
@@ -73,7 +74,8 @@ class Transfer:
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact.mdr import indentation, indenter, lee_radok, viscoelastic
+    >>> from roughcontact import viscoelastic
+    >>> from roughcontact.mdr import indentation, indenter, lee_radok
     >>> curve = indentation.indentation_curve(indenter.paraboloid(1e-2), 1e9, forces=np.geomspace(1e-3, 1e3, 61))
     >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
     >>> held = lee_radok.transfer(curve, soft, [0.0, 100.0], forces=[1.0, 1.0])
@@ -127,7 +129,8 @@ def transfer(
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact.mdr import indentation, indenter, lee_radok, viscoelastic
+    >>> from roughcontact import viscoelastic
+    >>> from roughcontact.mdr import indentation, indenter, lee_radok
     >>> elastic = indentation.indentation_curve(indenter.paraboloid(1e-2), 1e8, forces=np.geomspace(1e-3, 10, 60))
     >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
     >>> creep = lee_radok.transfer(elastic, soft, [0.0, 100.0], forces=1.0)

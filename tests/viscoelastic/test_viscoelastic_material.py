@@ -5,14 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.mdr.viscoelasticity.viscoelastic import (
-    Viscoelastic,
-    kelvin_voigt,
-    maxwell,
-    prony,
-    standard_solid,
-    viscous,
-)
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 MATERIALS = {
     "viscous": viscous(2.0),

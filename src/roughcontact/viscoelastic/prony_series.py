@@ -11,7 +11,7 @@ with the identity that the convolution of E with dJ is 1 (Lee & Radok, J. Appl. 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -21,17 +21,7 @@ from scipy.optimize import brentq
 from roughcontact.errors import InputError, about
 from roughcontact.validation import Array, number, scalar, shown
 
-__all__ = [
-    "Creep",
-    "Viscoelastic",
-    "checked_history",
-    "checked_material",
-    "kelvin_voigt",
-    "maxwell",
-    "prony",
-    "standard_solid",
-    "viscous",
-]
+__all__ = ["Creep", "Viscoelastic", "checked_material"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +39,7 @@ class Creep:
 
     Examples
     --------
-    >>> from roughcontact.mdr import viscoelastic
+    >>> from roughcontact import viscoelastic
     >>> creep = viscoelastic.standard_solid(1e8, 1e9, 1.0).creep()
     >>> [round(float(creep(t)) * 1e9, 3) for t in (0.0, 1000.0)], creep.times  # 1/E_0 and 1/E_inf; tau E_0/E_inf
     ([1.0, 10.0], (10.0,))
@@ -89,8 +79,8 @@ class Viscoelastic:
 
     Examples
     --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> rubber = viscoelastic.Viscoelastic(equilibrium=1e6, moduli=(4e6, 5e6), times=(0.1, 1.0))
+    >>> import roughcontact as rc
+    >>> rubber = rc.Viscoelastic(equilibrium=1e6, moduli=(4e6, 5e6), times=(0.1, 1.0))
     >>> rubber.instantaneous, round(float(rubber.relaxation(100.0))), round(float(rubber.creep()(0.0)) * 1e6, 6)
     (10000000.0, 1000000, 0.1)
     """
@@ -176,139 +166,6 @@ class Viscoelastic:
         return theta / (self.dashpot + math.fsum(elements))
 
 
-def viscous(viscosity: float) -> Viscoelastic:
-    """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt.
-
-    Parameters
-    ----------
-    viscosity : float
-        eta [Pa s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> viscoelastic.viscous(10.0).dashpot
-    40.0
-    """
-    return Viscoelastic(dashpot=4 * scalar(viscosity, "viscosity"))
-
-
-def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
-    """Return spring and dashpot in parallel: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s].
-
-    Parameters
-    ----------
-    modulus : float
-        E* of the spring [Pa].
-    retardation_time : float
-        tau [s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> creep = viscoelastic.kelvin_voigt(1e8, 2.0).creep()
-    >>> round(float(creep(2.0)) * 1e8, 6)  # 1 - 1/e after the retardation time
-    0.632121
-    """
-    return Viscoelastic(
-        equilibrium=modulus, dashpot=scalar(modulus, "modulus") * scalar(retardation_time, "retardation time")
-    )
-
-
-def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
-    """Return spring and dashpot in series: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s].
-
-    Parameters
-    ----------
-    modulus : float
-        E* of the spring [Pa].
-    relaxation_time : float
-        tau [s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> round(float(viscoelastic.maxwell(1e8, 2.0).relaxation(2.0)) / 1e8, 6)  # 1/e after the relaxation time
-    0.367879
-    """
-    return Viscoelastic(moduli=(modulus,), times=(relaxation_time,))
-
-
-def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: float) -> Viscoelastic:
-    """Return ``E(t) = E_inf + (E_0 - E_inf) exp(-t/tau)``.
-
-    Parameters
-    ----------
-    equilibrium, instantaneous : float
-        Reduced moduli after a long time and immediately, E_inf < E_0 [Pa].
-    relaxation_time : float
-        tau [s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
-    >>> [round(float(soft.relaxation(t)) / 1e8, 4) for t in (0.0, 1.0, 100.0)]
-    [10.0, 4.3109, 1.0]
-    """
-    if not 0 < scalar(equilibrium, "equilibrium modulus") < scalar(instantaneous, "instantaneous modulus"):
-        raise InputError(
-            f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
-            f"not to {equilibrium} Pa"
-        )
-    return Viscoelastic(equilibrium, (instantaneous - equilibrium,), (relaxation_time,))
-
-
-def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
-    """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s].
-
-    Parameters
-    ----------
-    equilibrium : float
-        E_inf, the reduced modulus after a long time [Pa]; 0 for a fluid.
-    moduli : sequence of float
-        E_k of the elements [Pa].
-    times : sequence of float
-        Relaxation times tau_k of the elements [s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> rubber = viscoelastic.prony(1e6, [4e6, 5e6], [0.1, 1.0])
-    >>> rubber.instantaneous
-    10000000.0
-    """
-    lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
-    if any(values.ndim != 1 for values in lists):
-        raise about(
-            "moduli",
-            "and times must be two lists with an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
-            f"not {shown(moduli)} and {shown(times)}",
-        )
-    E, tau = (tuple(values.tolist()) for values in lists)
-    return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
-
-
 def checked_material(material: Viscoelastic) -> Viscoelastic:
     """Return a viscoelastic material, or refuse anything else.
 
@@ -323,8 +180,8 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
 
     Examples
     --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> viscoelastic.checked_material(viscoelastic.maxwell(1e8, 1.0)).moduli
+    >>> from roughcontact import viscoelastic
+    >>> checked_material(viscoelastic.maxwell(1e8, 1.0)).moduli
     (100000000.0,)
     """
     if not isinstance(material, Viscoelastic):
@@ -334,43 +191,6 @@ def checked_material(material: Viscoelastic) -> Viscoelastic:
             place="material",
         )
     return material
-
-
-def checked_history(times: Sequence[float] | Array, loads: Sequence[float] | Array) -> tuple[Array, Array]:
-    """Return a history as arrays, or refuse numbers that are not finite and times that decrease.
-
-    Parameters
-    ----------
-    times : array, shape (n,)
-        Times [s].
-    loads : array, shape (n,)
-        Loads at these times.
-
-    Returns
-    -------
-    times, loads : array, shape (n,)
-        The same as float64.
-
-    Raises
-    ------
-    ValueError
-        If the numbers of loads and times differ, a number is not finite, or the times decrease.
-
-    Examples
-    --------
-    >>> from roughcontact.mdr import viscoelastic
-    >>> viscoelastic.checked_history([0, 1], [2, 3])
-    (array([0., 1.]), array([2., 3.]))
-    """
-    t, load = np.asarray(number(times, "times [s]")), np.asarray(number(loads, "loads"))
-    if t.ndim != 1 or t.shape != load.shape or not len(t):
-        raise InputError(f"a history needs one time for each load, not {t.shape} and {load.shape}")
-    for name, values in (("times", t), ("loads", load)):
-        if (wrong := values[~np.isfinite(values)]).size:
-            raise InputError(f"{name} must be finite, not {wrong[0]}", place=name)
-    if (back := np.nonzero(np.diff(t) < 0)[0]).size:
-        raise about("times", f"must not decrease, as from {t[back[0]]:g} to {t[back[0] + 1]:g} s")
-    return t, load
 
 
 def _times(time: float | Array) -> Array:
