@@ -225,7 +225,8 @@ PLAIN_ONLY = [
     (SOFT_MATERIAL.relaxation, {"time": 1.0}),
     (MDR.viscoelastic_history.depth_history, SLOW | {"depths": [0.0, 1e-8]}),
     (MDR.viscoelastic_history.force_history, SLOW | {"forces": [0.0, 1e-4]}),
-    (MDR.lee_radok.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], "forces": [2e-2, 3e-2]}),
+    *((rc.viscoelastic.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], name: values})
+      for name, values in (("forces", [2e-2, 3e-2]), ("depths", [2.1e-6, 2.5e-6]))),
     (rc.statistics.force_window, {"lowest": 1e-4, "highest": 1e-2}),
     (rc.statistics.resolved_window, {"cell": 0.01, "full_contact_stiffness": 1.0, "highest": 1e-2}),
     (MDR.line_scan.scan_curves, {"scan": SCAN, "modulus": 1e9, "rng": None, "forces": [1e-3, 1e-2], "count": 2}),

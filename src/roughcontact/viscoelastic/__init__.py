@@ -13,6 +13,11 @@ if TYPE_CHECKING or _LATE is None:
         in_series as in_series,
         reduced as reduced,
     )
+    from roughcontact.viscoelastic.elastic_transfer import (
+        ElasticCurve as ElasticCurve,
+        Transfer as Transfer,
+        transfer as transfer,
+    )
     from roughcontact.viscoelastic.fitted import (
         creep_power_law as creep_power_law,
         from_dma as from_dma,
