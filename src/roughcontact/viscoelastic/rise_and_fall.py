@@ -17,7 +17,7 @@ __all__ = ["History", "Law"]
 
 ROUNDING = 1e-12  # of the largest value: a change below this is rounding
 STEPS = 1000  # of an interval at most 50: the error for a sphere is 1e-8, below that of most curves
-GRADED = 1e-6  # the first of the steps that grow in size, relative to an interval
+GRADED = 1e-4  # the first of the steps that grow in size, relative to an interval
 NEAR = 1e-3  # of an interval: no mark closer to its end
 
 
