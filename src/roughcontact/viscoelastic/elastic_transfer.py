@@ -23,7 +23,7 @@ import numpy as np
 from roughcontact.errors import InputError
 from roughcontact.validation import Array, exactly_one, number, numeric, require, shown
 from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
-from roughcontact.viscoelastic.rise_and_fall import History, Law
+from roughcontact.viscoelastic.rise_and_fall import ElasticLaw, RiseAndFall
 from roughcontact.viscoelastic.time_history import checked_band, checked_history
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
@@ -151,6 +151,7 @@ def transfer(
     9.9996
     >>> cycle = viscoelastic.transfer(elastic, soft, [0.0, 1.0, 1.5, 2.0], depths=[0.0, 1e-5, 5e-6, 0.0])
     >>> cycle.force.round(4).tolist(), cycle.growth_time.round(3).tolist()
+    ([0.0, 3.0509, 0.0628, 0.0], [0.0, 1.0, 0.13, 0.0])
     """
     name, given = exactly_one(forces=forces, depths=depths)
     loads = number(given, name)
@@ -167,8 +168,8 @@ def transfer(
     require(load >= 0, f"loads must not be negative, but the least is {load.min():g}", place=name)
     checked_band(material, t, load)
     rows = _points(curve)
-    history = History.of(material, t, load, name, rows[1])
-    found = history.on(Law.of(rows))
+    history = RiseAndFall.of(material, t, load, name, rows[1])
+    found = history.on(ElasticLaw.of(rows))
     used = found[3][found[3] > 0]
     if used.min(initial=np.inf) < rows[0, 0] * (1 - ROUNDING):
         raise InputError(
@@ -177,7 +178,7 @@ def transfer(
             "compute the curve for more loads",
         )
     count = rows.shape[1]
-    half = history.on(Law.of(rows[:, sorted({*range(1, count, 2), count - 1})]))
+    half = history.on(ElasticLaw.of(rows[:, sorted({*range(1, count, 2), count - 1})]))
     changes = np.abs(half[:3] - found[:3]).max(axis=1) / np.maximum(np.abs(found[:3]).max(axis=1), 1e-300)
     force, depth, area, phi, growth_time = found
     return Transfer(t, force, depth, area, phi * curve.modulus, growth_time, float(changes.max()))

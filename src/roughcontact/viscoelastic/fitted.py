@@ -112,7 +112,7 @@ def from_dma(
     return reduced(measured, kind, poisson=poisson, bulk=bulk)
 
 
-@numeric(modulus="Pa", time="s", equilibrium="Pa")
+@numeric(modulus="Pa", time="s", equilibrium="Pa", band="s")
 def power_law(
     modulus: float,
     time: float,
@@ -154,7 +154,7 @@ def power_law(
     >>> from roughcontact import viscoelastic
     >>> gel = viscoelastic.power_law(1e5, 1.0, 0.3, band=(1e-3, 1e3))
     >>> round(float(gel.relaxation(100.0))), gel.misfit < 2e-3
-    (25103, True)
+    (25113, True)
     """
     t, law = _power_law(modulus, time, -exponent, band, equilibrium, "equilibrium")
     times = _long_times(band, terms_per_decade)
@@ -163,7 +163,7 @@ def power_law(
     return Viscoelastic(*_kept(equilibrium, weights, times), 0.0, band, None, misfit)
 
 
-@numeric(compliance="Pa^-1", time="s", instantaneous="Pa^-1")
+@numeric(compliance="Pa^-1", time="s", instantaneous="Pa^-1", band="s")
 def creep_power_law(
     compliance: float,
     time: float,

@@ -19,9 +19,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from roughcontact import methods
 from roughcontact.errors import InputError, about
 from roughcontact.guesses import hinted
-from roughcontact.validation import Array, number, positive_scalar, require_numbers, shown
+from roughcontact.late import static
+from roughcontact.validation import Array, number, numeric, positive_scalar, require_numbers, shown
 
 __all__ = ["Creep", "Viscoelastic", "checked_material", "partner_terms"]
 
@@ -61,6 +63,7 @@ class Creep:
     times: tuple[float, ...]
     band: Band = None
 
+    @numeric(time="s")
     def __call__(self, time: float | Array) -> Array:
         """Return J(t) [1/Pa] at times >= 0 [s]."""
         t = _times(time, self.band)
@@ -144,11 +147,15 @@ class Viscoelastic:
         if self.band is not None and not (len(self.band) == 2 and 0 < self.band[0] < self.band[1] < math.inf):
             raise about("band", f"must be two positive times that rise [s], not {self.band}")
 
+    read = static(methods.read_material)
+    write = methods.write_material
+
     @property
     def instantaneous(self) -> float:
         """E_inf + sum E_k, the modulus under a sudden load if there is no dashpot [Pa]."""
         return self.equilibrium + math.fsum(self.moduli)
 
+    @numeric(time="s")
     def relaxation(self, time: float | Array) -> Array:
         """Return E(t) [Pa] at times >= 0 [s], at 0 the limit from above; a dashpot adds the pulse c delta(t).
 
@@ -172,6 +179,7 @@ class Viscoelastic:
             (E * np.exp(-t / tau) for E, tau in zip(self.moduli, self.times, strict=True)), np.zeros_like(t)
         )
 
+    @numeric(angular_frequency="rad/s")
     def complex_modulus(self, angular_frequency: float | Array) -> npt.NDArray[np.complex128]:
         """Return storage + i loss of E* [Pa].
 
@@ -201,6 +209,7 @@ class Viscoelastic:
         )
         return np.asarray(self.equilibrium + 1j * w * self.dashpot + sum(elements))[()]
 
+    @numeric(temperature="K")
     def shifted(self, factor: float, temperature: float | None = None) -> Viscoelastic:
         """Return the material at another temperature: all times are multiplied by the shift factor a_T.
 

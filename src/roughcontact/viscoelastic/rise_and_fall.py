@@ -13,7 +13,7 @@ from roughcontact.theory.tools.computed import LogCubic
 from roughcontact.validation import Array, require
 from roughcontact.viscoelastic.prony_series import Creep, Viscoelastic
 
-__all__ = ["History", "Law"]
+__all__ = ["ElasticLaw", "RiseAndFall"]
 
 ROUNDING = 1e-12  # of the largest value: a change below this is rounding
 STEPS = 1000  # of an interval at most 50: the error for a sphere is 1e-8, below that of most curves
@@ -22,7 +22,7 @@ NEAR = 1e-3  # of an interval: no mark closer to its end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Law:
+class ElasticLaw:
     """An elastic curve of unit modulus, Phi = F/E*."""
 
     phi: Callable[[Array], Array]
@@ -30,7 +30,7 @@ class Law:
     area: Callable[[Array], Array]
 
     @classmethod
-    def of(cls, rows: Array) -> Law:
+    def of(cls, rows: Array) -> ElasticLaw:
         """Return the law of the points of a curve, Phi, depth and area in rows."""
         phi, depth, area = rows
         return cls(_reader(depth, phi, "depth"), _reader(phi, depth, "F/E*"), _reader(phi, area, "F/E*"))
@@ -96,7 +96,7 @@ class _Grown:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class History:
+class RiseAndFall:
     """A history in small steps. The growth of the given quantity and t_1 do not depend on the elastic curve."""
 
     material: Viscoelastic
@@ -110,7 +110,7 @@ class History:
     )
 
     @classmethod
-    def of(cls, material: Viscoelastic, t: Array, load: Array, name: str, marks: Array) -> History:
+    def of(cls, material: Viscoelastic, t: Array, load: Array, name: str, marks: Array) -> RiseAndFall:
         """Return the growth under given "forces" or "depths", and t_1; `marks` are the depths of the curve."""
         by_force = name == "forces"
         _one_rise_and_fall(t, load, name)
@@ -131,7 +131,7 @@ class History:
         places = _receding(material, grown, time[most - 1 :], small[most - 1 :], by_force)
         return cls(material, by_force, time, small, given, grown, places)
 
-    def on(self, law: Law) -> Array:
+    def on(self, law: ElasticLaw) -> Array:
         """Return force, depth, area, Phi and t_1 in rows, at the user's times."""
         most = len(self.grown.time)
         other = (law.depth if self.by_force else law.phi)(self.grown.value)
