@@ -32,7 +32,7 @@ def from_dma(
     kind: Kind = "young",
     poisson: float | None = None,
     bulk: float | None = None,
-    terms_per_decade: float = 2.0,
+    terms_per_decade: float = 3.0,
     temperature: float | None = None,
 ) -> Viscoelastic:
     """Return the reduced modulus of a body from a table of dynamic mechanical analysis.
