@@ -18,6 +18,7 @@ PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float6
 # CF and UDUNITS write exponents behind the names: "N m-1", "m2".
 _EXPONENT = re.compile(r"(?<![\d.][eE])(?<=[^\W\d])(?=-?\d)")
 
+
 def in_si(value: Any, unit: str | None, what: str) -> Any:
     """Return a value that carries a unit as plain numbers in an SI `unit`, and any other value as it is.
 
