@@ -34,6 +34,7 @@ TITLES = {  # in this order
     "solver": "Solvers",
     "statistics": "Statistics",
     "theory": "Theory",
+    "viscoelastic": "Viscoelastic materials",
     "mdr": "Dimensionality reduction",
     "study": "Studies",
     "plot": "Pictures",

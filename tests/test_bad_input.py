@@ -33,7 +33,7 @@ DERIVATIVES = rc.sensitivity(PRESSED)
 MASK = np.pad(np.ones((4, 4), bool), 6)
 TIP = rc.mdr.indenter.paraboloid(1e-2)
 STICKY = rc.mdr.adhesion.jkr(TIP, 1e9, 0.05)
-SOFT = rc.mdr.viscoelastic.standard_solid(1e8, 1e9, 1.0)
+SOFT = rc.viscoelastic.standard_solid(1e8, 1e9, 1.0)
 HISTORY = rc.mdr.viscoelastic_history
 # What is called, and good arguments.
 CALLS = {

@@ -29,7 +29,7 @@ print(rc.theory.hertz.point(radius=1.0, modulus=1.0, force=1.0).depth)
 """
 
 
-@pytest.mark.parametrize("package", [rc, rc.theory, rc.mdr, rc.plot])
+@pytest.mark.parametrize("package", [rc, rc.theory, rc.mdr, rc.viscoelastic, rc.plot])
 def test_each_name_is_there_once(package):
     names = list(late_names(package.__spec__))
     assert len(names) == len(set(names))

@@ -42,6 +42,7 @@ ORDER = [
     {"adhesion"},
     {"fluid"},
     {"friction"},
+    {"viscoelastic"},
     {"mdr"},
     {"files"},
     {"recipe"},

@@ -7,7 +7,7 @@ Press it: `press` for one load, `loading_curve` for many, `loading_loop` up and 
 attract each other, `slide` under a tangential force. `conductance`, `error_budget` and `below` evaluate the result;
 `citations` lists the papers behind it.
 
-Subpackages: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`.
+Subpackages: `theory` (laws to compare with), `plot`, `study` (ensembles), `statistics`, `mdr`, `viscoelastic`.
 ``help(rc.press)`` shows one name; the command ``roughcontact doctor`` checks an installation.
 """
 
@@ -38,6 +38,7 @@ if TYPE_CHECKING or _LATE is None:
         statistics as statistics,
         study as study,
         theory as theory,
+        viscoelastic as viscoelastic,
     )
     from roughcontact.adhesion.adhesive_curve import (
         AdhesiveCurve as AdhesiveCurve,
@@ -216,6 +217,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.preparation.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.surface import Surface as Surface
+    from roughcontact.viscoelastic.prony_series import Viscoelastic as Viscoelastic
 
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]
 

@@ -133,6 +133,12 @@ def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
     except Exception as error:  # pint raises many classes for a bad unit, also those of its tokenizer
         wanted = f"plain numbers in {unit}" if unit else "plain numbers"
         raise about(what, f"carries the unit {stated!r}, which is not known", f"give {wanted}") from error
+    if (unit == "Hz" and "radian" in str(given.to_root_units().units)) or (
+        unit == "rad/s" and re.search("hz|hertz", stated, re.IGNORECASE)
+    ):  # pint converts one to the other without the factor 2 pi
+        raise about(
+            what, f"must be in {unit}, not in {stated}", "divide or multiply by 2 pi: 1 Hz is 2 pi rad/s"
+        )
     if given.is_compatible_with(unit or ""):
         return given.m_as(unit or "")
     if unit is not None:

@@ -24,6 +24,7 @@ __all__ = [
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
     "TEMPERATURE",
+    "TIME",
     "VISCOSITY",
     "Kind",
     "has_unit",
@@ -71,6 +72,7 @@ RESISTANCE_AREA = Kind("a thermal resistance times area", "m^2*K/W", "0.1mm^2*K/
 VISCOSITY = Kind("a viscosity", "Pa*s", "1mPa*s")
 DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
 FREQUENCY = Kind("a frequency", "Hz", "5MHz")
+TIME = Kind("a time", "s", "0.1s")
 TEMPERATURE = Kind("a temperature", "K", "20degC")
 
 

@@ -16,10 +16,11 @@ from scipy.optimize import brentq
 from roughcontact.errors import about
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.indentation import Indentation, indent
-from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic, checked_history, checked_material
 from roughcontact.mdr.viscoelasticity.viscoelastic_springs import Springs, ViscoelasticFoundation
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, require, whole
+from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
+from roughcontact.viscoelastic.time_history import checked_history
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
 
@@ -41,7 +42,8 @@ class ViscoelasticHistory:
 
     Examples
     --------
-    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> from roughcontact import viscoelastic
+    >>> from roughcontact.mdr import indenter, viscoelastic_history
     >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
     >>> held = viscoelastic_history.depth_history(
     ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
@@ -93,7 +95,8 @@ def depth_history(
 
     Examples
     --------
-    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> from roughcontact import viscoelastic
+    >>> from roughcontact.mdr import indenter, viscoelastic_history
     >>> soft = viscoelastic.standard_solid(1e8, 1e9, 1.0)
     >>> held = viscoelastic_history.depth_history(
     ...     indenter.paraboloid(1e-2), soft, [0.0, 0.0, 100.0], [0.0, 1e-5, 1e-5]
@@ -151,7 +154,8 @@ def force_history(
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact.mdr import indenter, viscoelastic, viscoelastic_history
+    >>> from roughcontact import viscoelastic
+    >>> from roughcontact.mdr import indenter, viscoelastic_history
     >>> soft, t = viscoelastic.standard_solid(1e8, 1e9, 1.0), np.linspace(0, 20, 41)
     >>> held = viscoelastic_history.force_history(
     ...     indenter.paraboloid(1e-2), soft, t, np.ones(41), springs=100

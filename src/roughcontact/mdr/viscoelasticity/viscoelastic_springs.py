@@ -12,9 +12,9 @@ from functools import cache
 import numpy as np
 
 from roughcontact.errors import InputError
-from roughcontact.mdr.viscoelasticity.viscoelastic import Viscoelastic
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, Mask
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 __all__ = ["Springs", "ViscoelasticFoundation"]
 

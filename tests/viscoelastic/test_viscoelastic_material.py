@@ -5,14 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.mdr.viscoelasticity.viscoelastic import (
-    Viscoelastic,
-    kelvin_voigt,
-    maxwell,
-    prony,
-    standard_solid,
-    viscous,
-)
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 MATERIALS = {
     "viscous": viscous(2.0),
@@ -97,15 +91,16 @@ class TestClosedForms:
         (lambda: Viscoelastic(-1.0), "negative"),
         (lambda: Viscoelastic(1.0, (1.0,), ()), "each modulus"),
         (lambda: prony(1.0, [1.0, 2.0], [1.0, 1.0]), "the relaxation times of the elements must differ"),
-        (lambda: prony(1.0, [-1.0], [1.0]), "must be positive"),
-        (lambda: maxwell(1.0, math.inf), "must be positive"),
-        (lambda: viscous(math.nan), "negative"),
+        (lambda: prony(1.0, [-1.0], [1.0]), "moduli and viscosities must be finite and not negative"),
+        (lambda: maxwell(1.0, math.inf), "times of elements must be positive and finite"),
+        (lambda: prony(1.0, [1.0], [0.0]), "times of elements must be positive and finite"),
+        (lambda: viscous(math.nan), "viscosity must be a number, not nan"),
         (lambda: standard_solid(3.0, 1.0, 1.0), "softens"),
-        (lambda: prony(1e8, 1e8, 1.0), "two lists.*not 100000000.0 and 1.0"),
+        (lambda: prony(1e8, 1e8, 1.0), "moduli must be a list, such as .*not 100000000.0"),
         (lambda: prony(1e8, ["a"], [1.0]), "moduli must be"),
         (lambda: maxwell("a", 1.0), "modulus"),
-        (lambda: kelvin_voigt(1.0, "a"), "retardation time"),
-        (lambda: standard_solid("a", 1.0, 1.0), "equilibrium modulus"),
+        (lambda: kelvin_voigt(1.0, "a"), "retardation_time"),
+        (lambda: standard_solid("a", 1.0, 1.0), "equilibrium must be"),
         (lambda: viscous("a"), "viscosity"),
         (lambda: maxwell(1.0, 1.0).relaxation(-1.0), "must not be negative.*not -1"),
         (lambda: maxwell(1.0, 1.0).relaxation([0.0, math.nan]), "not nan"),
