@@ -60,12 +60,16 @@ def plot_creep(
     later = elapsed > 0
     for place, name, colour in zip((axes, axes.twinx()), quantities, _COLOURS, strict=True):
         if name not in VARIABLES or not isinstance(values := getattr(curve, name, None), np.ndarray):
-            raise InputError(f"the curve has no column {name!r}", "choose contact_area, depth or force", "quantities")
+            raise InputError(
+                f"the curve has no column {name!r}", "choose contact_area, depth or force", "quantities"
+            )
         unit = scale(float(np.abs(values).max(initial=0.0)), unit_of(name, curve.geometry))
         place.plot(elapsed[later], values[later] * unit.factor, color=colour, linewidth=1.1)
         marks = later & curve.prescribed
         place.plot(elapsed[marks], values[marks] * unit.factor, "o", color=colour, markersize=3.5)
-        label_axes(place, "time since the start [s]", f"{VARIABLES[name].label} [{unit.unit}]", grid=place is axes)
+        label_axes(
+            place, "time since the start [s]", f"{VARIABLES[name].label} [{unit.unit}]", grid=place is axes
+        )
         place.yaxis.label.set_color(colour)
     axes.set_xscale("log")
     return axes

@@ -41,8 +41,9 @@ class Memory:
         r_k of the material and the displacements that they would cause.
     work, stored, dissipated : float
         Energies [J].
-    largest_force, largest_depth, largest_pressure : float
-        Largest values so far, to which errors are related.
+    largest_force, largest_depth, largest_pressure, largest_strain, largest_energy : float
+        Largest values so far, to which errors are related: of the strain its total, of the energy that which is stored
+        or dissipated.
     time_residual : float
         Of the last step.
     """
@@ -59,7 +60,14 @@ class Memory:
     largest_force: float = 0.0
     largest_depth: float = 0.0
     largest_pressure: float = 0.0
+    largest_strain: float = 0.0
+    largest_energy: float = 0.0
     time_residual: float = 0.0
+
+    @property
+    def leak(self) -> float:
+        """Work less stored and dissipated energy [J]."""
+        return self.work - self.stored - self.dissipated
 
     @property
     def guess(self) -> Guess | None:
@@ -106,6 +114,12 @@ class Trial:
         """The end of the step, to start others from."""
         return self.pressure, self.depth
 
+    @property
+    def total_strain(self) -> float:
+        """Total of the strain at the end of the step [N]."""
+        total = self.problem.measure.total
+        return total(self.past.pressure) + total(self.pressure) / self.transition.modulus
+
     def finished(self) -> Memory:
         """Return the memory at the end of the step, by one product."""
         start, numbers, measure = self.start, self.transition, self.problem.measure
@@ -136,6 +150,8 @@ class Trial:
             largest_force=max(start.largest_force, force),
             largest_depth=max(start.largest_depth, abs(self.depth)),
             largest_pressure=highest,
+            largest_energy=max(start.largest_energy, stored + start.dissipated + dissipated),
+            largest_strain=max(start.largest_strain, measure.total(strain.pressure)),
             time_residual=residual,
         )
 
@@ -196,7 +212,9 @@ class ContactInTime:
         depth = touch + state.depth if self.forced else load
         return Trial(start, step, numbers, past, problem, state, subdomain, depth, pressure)
 
-    def state(self, trial: Trial, end: Memory, time_error: float, products: int, *, prescribed: bool) -> ViscoelasticState:
+    def state(
+        self, trial: Trial, end: Memory, time_error: float, products: int, *, prescribed: bool
+    ) -> ViscoelasticState:
         """Return the state at the end of a step, with its stiffness."""
         part = self._subdomains.operator_on(trial.subdomain)
         solution = settled(trial.problem, trial.state, trial.subdomain, part, self._tangent)
@@ -223,7 +241,8 @@ class ContactInTime:
     def errors(self, coarse: Trial, fine: Trial, end: Memory) -> tuple[float, float]:
         """Return the estimated errors of the finer of two solutions at one time, with steps in the ratio of two.
 
-        First the error of what is not prescribed, the force or the depth, over the largest so far. Then that of the
+        First the largest error of what is not prescribed, the force or the depth, of the total strain, which shows the
+        recovery of a free surface, and of the balance of energy, over the largest values so far. Then that of the
         fields: the absolute difference of the pressures over the largest force, or that of the areas, less one cell.
         """
         measure = self.problem.measure
@@ -231,11 +250,14 @@ class ContactInTime:
             own = _share(abs(coarse.depth - fine.depth), end.largest_depth)
         else:
             own = _share(abs(measure.total(coarse.pressure) - end.force), end.largest_force)
+        strain = _share(abs(coarse.total_strain - fine.total_strain), end.largest_strain)
         pressure = _share(measure.total(abs(coarse.pressure - fine.pressure)), end.largest_force)
         area = measure.total(fine.pressure > 0)
         more = abs(measure.total(coarse.pressure > 0) - area) - float(np.max(self.problem.operator.weights))
         parts = 2**self.order - 1
-        return own / parts, max(pressure, _share(max(more, 0.0), area)) / parts
+        leaks = [abs(each.leak - coarse.start.leak) for each in (fine.start, end)]
+        leak = _share(max(leaks), end.largest_energy)
+        return max(max(own, strain) / parts, leak), max(pressure, _share(max(more, 0.0), area)) / parts
 
     @property
     def order(self) -> int:

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from roughcontact.solver.inner_product import Measure
-from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 __all__ = ["Element", "Pair", "Transition", "combined"]
@@ -112,7 +111,9 @@ class Transition:
     @property
     def modulus(self) -> float:
         """M, the modulus of the step."""
-        return self.equilibrium + self.viscous + math.fsum(each.modulus * each.taken for each in self.elements)
+        return (
+            self.equilibrium + self.viscous + math.fsum(each.modulus * each.taken for each in self.elements)
+        )
 
     @property
     def halved(self) -> Transition:
@@ -138,14 +139,14 @@ class Transition:
             for each, old in zip(self.elements, elements, strict=True)
         )
 
-    def mean_pressure(self, strain: Array, elements: Iterable[Array], change: Array) -> Any:
+    def mean_pressure(self, strain: Any, elements: Iterable[Any], change: Any) -> Any:
         """Return the pressure averaged over the step, of fields or of their totals."""
         mean = self.equilibrium * strain + (0.5 * self.equilibrium + self.viscous) * change
         for each, old in zip(self.elements, elements, strict=True):
             mean = mean + each.taken * old + each.modulus * each.averaged * change
         return mean
 
-    def pressure(self, strain: Array, elements: Iterable[Array], change: Array) -> Any:
+    def pressure(self, strain: Any, elements: Iterable[Any], change: Any) -> Any:
         """Return the pressure at the end of the step."""
         end = self.equilibrium * strain + (self.equilibrium + self.viscous) * change
         for each, old in zip(self.elements, elements, strict=True):
@@ -162,7 +163,11 @@ class Transition:
                 continue
             own = measure.dot(old.pressure, old.displacement) / each.modulus
             mixed = measure.dot(old.pressure, change.displacement)
-            total += own * lost * (1 - lost / 2) + mixed * lost**2 / each.ratio + squared * each.modulus * each.damped
+            total += (
+                own * lost * (1 - lost / 2)
+                + mixed * lost**2 / each.ratio
+                + squared * each.modulus * each.damped
+            )
         return total
 
     def stored(self, strain: Pair, elements: tuple[Pair, ...], measure: Measure) -> float:

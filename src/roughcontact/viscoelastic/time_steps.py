@@ -53,7 +53,9 @@ class FixedSteps:
 
     count: int
 
-    def through(self, contact: ContactInTime, memory: Memory, interval: Interval, left: float) -> Iterator[Done]:
+    def through(
+        self, contact: ContactInTime, memory: Memory, interval: Interval, left: float
+    ) -> Iterator[Done]:
         """Yield the steps of an interval."""
         length = (interval.end - interval.begin) / self.count
         for k in range(1, self.count + 1):
@@ -65,7 +67,7 @@ class FixedSteps:
 
 @dataclass(slots=True)
 class AdaptiveSteps:
-    """Steps whose estimated errors of force or depth add up to a tolerance at most.
+    """Steps whose estimated errors of force or depth, strain and energy add up to a tolerance at most.
 
     Each may use up an equal part of what is left of the tolerance, by the number of steps that are left. The error of the fields, which fades, is below the tolerance at each step.
     """
@@ -74,7 +76,9 @@ class AdaptiveSteps:
     error: float = 0.0
     step: float = math.inf
 
-    def through(self, contact: ContactInTime, memory: Memory, interval: Interval, left: float) -> Iterator[Done]:
+    def through(
+        self, contact: ContactInTime, memory: Memory, interval: Interval, left: float
+    ) -> Iterator[Done]:
         """Yield the steps of an interval; `left` is the time from its begin to the end of the history [s]."""
         length = interval.end - interval.begin
         self.step, products = min(self.step, FIRST * length), 0
@@ -90,14 +94,16 @@ class AdaptiveSteps:
             end = second.finished()
             products += whole.state.steps + first.state.steps + second.state.steps + 2
             own, of_fields = contact.errors(whole, second, end)
-            allowed = (self.tolerance - self.error) / _steps_left(step, time - interval.begin, left)
+            allowed = max(self.tolerance - self.error, 1e-6 * self.tolerance) / _steps_left(
+                step, time - interval.begin, left
+            )
             excess = max((own / allowed) ** (1 / (contact.order + 1)), (of_fields / self.tolerance) ** 0.5)
             factor = min(max(CAUTION / excess, GROWTH[0]), GROWTH[1]) if excess else GROWTH[1]
             self.step = step * factor
             if excess > 1 and step > SMALLEST * length:
                 continue
-            yield Done(first, middle, self.error + own / 2, products // 2)
-            self.error = min(self.error + own, self.tolerance * (1 - 1e-6))
+            yield Done(first, middle, self.error + own, products // 2)
+            self.error += own
             memory = replace(end, time=interval.end if step == rest else time)
             yield Done(second, memory, self.error, products - products // 2)
             products = 0

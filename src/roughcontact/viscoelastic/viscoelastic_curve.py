@@ -116,7 +116,9 @@ class ViscoelasticCurve:
     plot = methods.plot_creep
 
 
-_POINTS = names_of(column for column in VISCOELASTIC_CURVE[("time",)] if column.name not in ("status", "energy_leak"))
+_POINTS = names_of(
+    column for column in VISCOELASTIC_CURVE[("time",)] if column.name not in ("status", "energy_leak")
+)
 
 
 def collect(path: Iterable[ViscoelasticState], measures: Sequence[StateMeasure] = ()) -> ViscoelasticCurve:
@@ -130,9 +132,7 @@ def collect(path: Iterable[ViscoelasticState], measures: Sequence[StateMeasure] 
         geometry = state.solution.problem.geometry
         if state.contact_area > largest[0]:
             largest = state.contact_area, tuple(methods.notes_on(state.solution))
-    columns = {
-        name: np.array(values) for name, values in zip(_POINTS, zip(*rows, strict=True), strict=True)
-    }
+    columns = {name: np.array(values) for name, values in zip(_POINTS, zip(*rows, strict=True), strict=True)}
     return ViscoelasticCurve(
         **columns,
         status=tuple(status),

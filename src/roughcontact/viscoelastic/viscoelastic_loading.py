@@ -63,13 +63,13 @@ def viscoelastic_path(
         Exactly one: normal forces [N] and nominal pressures [Pa], 0 or more, or depths [m], negative where the bodies
         are apart. On a line, forces are per unit length [N/m].
     time_tolerance : float
-        Largest estimated error of time over the whole history: pressure over the largest force, depth over the largest
-        depth. Step doubling estimates it, and the steps between the given times are adapted to it.
+        Largest estimated error of time over the whole history: of force or depth, of the total strain and of the
+        balance of energy, each over its largest value. The steps between the given times are adapted to it.
     steps : int, optional
         Number of equal steps in each interval instead, without an estimate.
     operator : Operator, optional
-        A body other than the half-space on the surface's grid, with the instantaneous modulus ``material.instantaneous``
-        (1 Pa if this is 0). A surface of one axis needs one: `line`.
+        A body other than the half-space on the surface's grid, with the modulus ``material.instantaneous`` (1 Pa if
+        this is 0). A surface of one axis needs one: `line`.
     solver : Solver, optional
         Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
     tolerance : float
@@ -101,7 +101,13 @@ def viscoelastic_path(
     _require_band(material, t)
     forced = loads.kind != "depth"
     if forced:
-        require(values >= 0, f"the {loads.kind}s must not be negative", "surfaces without adhesion do not pull", value=values, place=f"{loads.kind}s")
+        require(
+            values >= 0,
+            f"the {loads.kind}s must not be negative",
+            "surfaces without adhesion do not pull",
+            value=values,
+            place=f"{loads.kind}s",
+        )
         values = Loads(loads.kind, values).as_forces(grid).values
     accuracy = scalar(time_tolerance, "time_tolerance")
     reference = material.instantaneous or 1.0

@@ -42,8 +42,8 @@ class ViscoelasticState:
         Largest pressure of an open cell in the middle of the last step, over the largest pressure so far. Open cells
         are those without contact at both ends.
     time_error : float
-        Estimate of the error of time by step doubling, summed over all steps so far: pressure over the largest force
-        so far, or depth over the largest depth. NaN for fixed steps.
+        Estimate of the error of time, summed over all steps so far: of the force or the depth and of the total strain
+        by step doubling, and of the balance of energy; each over its largest value so far. NaN for fixed steps.
     products : int
         Products with the operator on the way from the state before; those of an estimate included.
     prescribed : bool
