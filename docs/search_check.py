@@ -30,7 +30,7 @@ QUESTIONS = {
     "pint": "how-to/units",
     "why unresolved": "how-to/unresolved",
     "leak": "how-to/leaks",
-    "viscoelastic": "concepts/mdr",
+    "viscoelastic": "concepts/time",
     "mated": "reference/glossary",
     "K from ultrasound": "how-to/ultrasound",
     "mpi": "how-to/scale",

@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 import roughcontact as rc
-from roughcontact.viscoelastic.relaxation_step import Element, Pair, Transition
+from roughcontact.viscoelastic.relaxation_step import Transition
 
 SOLID = rc.viscoelastic.prony(1.0, [2.0, 3.0], [0.5, 4.0])
 CREEP = SOLID.creep()
@@ -180,24 +180,30 @@ def test_a_fluid_is_pressed_until_a_period_is_full():
 
 def test_numbers_of_a_step():
     numbers = Transition.of(SOLID, 2.0, 0.25)
-    assert numbers.elements == (Element(1.0, 0.5), Element(1.5, 0.0625))
     assert numbers.modulus == pytest.approx(
         0.5 + (1 - np.exp(-0.5)) / 0.5 + 1.5 * (1 - np.exp(-0.0625)) / 0.0625
     )
-    # Under a uniform strain from rest, the mean pressure is that of many small steps.
-    strain, pulls, mean = 0.0, (0.0, 0.0), 0.0
+    # A pressure after which the strain has grown by 1, uniformly from rest, beside many small steps.
     small = Transition.of(SOLID, 2.0, 0.25 / 1000)
-    for _ in range(1000):
-        mean += small.mean_pressure(strain, pulls, 1e-3) / 1000
-        pulls = tuple(
-            e.kept * p + e.modulus * e.taken * 1e-3 for e, p in zip(small.elements, pulls, strict=True)
-        )
-        strain += 1e-3
-    assert numbers.mean_pressure(0.0, (0.0, 0.0), 1.0) == pytest.approx(mean, rel=1e-9)
-    ends = numbers.after((Pair(0.0, 0.0),) * 2, Pair(1.0, 1.0))
-    assert [end.pressure for end in ends] == pytest.approx(pulls, rel=1e-9)
+    state, mean, lost, middle = np.zeros(3), 0.0, 0.0, 0.0
+    for k in range(1000):
+        pressure = 1e-3 + state[0] - small.past @ state  # over the modulus of the step
+        every = np.append(state, pressure)
+        mean += small.mean_force(every) / 1000
+        lost += small.dissipated(np.outer(every, every))
+        state = small.matrix @ every
+        middle = pressure * small.modulus if k == 499 else middle
+    every = np.array([0.0, 0.0, 0.0, 1.0])
+    assert numbers.matrix @ every == pytest.approx(state, rel=1e-9)
+    assert numbers.mean_force(every) == pytest.approx(mean, rel=1e-9)
+    assert numbers.dissipated(np.outer(every, every)) == pytest.approx(lost, rel=1e-9)
+    assert numbers.middle @ every == pytest.approx(middle, rel=1e-9)
+    work = mean
+    assert numbers.stored(np.outer(state, state)) + lost == pytest.approx(work, rel=1e-9)
     # Series and closed form of the dissipation agree where they meet.
-    assert Element(1.0, 0.0099999).damped == pytest.approx(Element(1.0, 0.0100001).damped, rel=3e-5)
+    near = [Transition(np.ones(1), np.array([x]), 0.0, 0.0) for x in (0.0099999, 0.0100001)]
+    squared = np.diag([0.0, 0.0, 1.0])
+    assert near[0].dissipated(squared) == pytest.approx(near[1].dissipated(squared), rel=3e-5)
 
 
 def test_the_dynamic_stiffness_lies_between_relaxed_and_instantaneous():

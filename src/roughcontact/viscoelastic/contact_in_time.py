@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import max_abs
+from roughcontact.arrays import as_like, max_abs
 from roughcontact.contact.continuation import settled, tangent_of
 from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
@@ -16,17 +17,17 @@ from roughcontact.solver.control import Control, Depth, Force, Solver, Start, St
 from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
 from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
-from roughcontact.viscoelastic.relaxation_step import Pair, Transition, combined
+from roughcontact.viscoelastic.relaxation_step import Transition
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["ContactInTime", "Guess", "Memory", "Trial"]
+__all__ = ["ContactInTime", "Guess", "BodyState", "Trial"]
 
 Guess = tuple[Array, float]
 """A pressure [Pa] and a depth [m] to start from."""
 
 
 @dataclass(frozen=True, eq=False)
-class Memory:
+class BodyState:
     """All that the future of a contact depends on, and the sums so far.
 
     Attributes
@@ -35,10 +36,12 @@ class Memory:
         [s], [m], [N].
     pressure : array
         [Pa]
-    strain : Pair
-        X and the displacement.
-    elements : tuple of Pair
-        r_k of the material and the displacements that they would cause.
+    fields : array, shape (k + 1, 2, ...)
+        X and r_k of the material [Pa], each with the displacement that it causes [m].
+    products : array, shape (k + 1, k + 1)
+        Inner products of X and r_k with these displacements [J].
+    totals : array, shape (k + 1,)
+        Totals of X and r_k [N].
     work, stored, dissipated : float
         Energies [J].
     largest_force, largest_depth, largest_pressure, largest_strain, largest_energy : float
@@ -51,8 +54,9 @@ class Memory:
     time: float
     depth: float
     pressure: Array
-    strain: Pair
-    elements: tuple[Pair, ...]
+    fields: Any
+    products: Array
+    totals: Array
     force: float = 0.0
     work: float = 0.0
     stored: float = 0.0
@@ -81,12 +85,10 @@ class Trial:
 
     Attributes
     ----------
-    start : Memory
+    start : BodyState
     step : float
         [s]; 0 for a jump.
     transition : Transition
-    past : Pair
-        Strain at the end of the step without pressure.
     problem : ContactProblem
         The elastic contact of the step; its pressures are divided by the modulus of the transition.
     state : State
@@ -99,10 +101,9 @@ class Trial:
         Pressure at the end of the step [Pa].
     """
 
-    start: Memory
+    start: BodyState
     step: float
     transition: Transition
-    past: Pair
     problem: ContactProblem
     state: State
     subdomain: Subdomain
@@ -117,32 +118,40 @@ class Trial:
     @property
     def total_strain(self) -> float:
         """Total of the strain at the end of the step [N]."""
-        total = self.problem.measure.total
-        return total(self.past.pressure) + total(self.pressure) / self.transition.modulus
+        own = self.problem.measure.total(self.pressure) / self.transition.modulus
+        return float(self.transition.past @ self.start.totals) + own
 
-    def finished(self) -> Memory:
-        """Return the memory at the end of the step, by one product."""
+    def finished(self) -> BodyState:
+        """Return the body at the end of the step, by one product."""
         start, numbers, measure = self.start, self.transition, self.problem.measure
+        modulus, matrix, xp = numbers.modulus, numbers.matrix, measure.xp
         displacement = exact_of(self.problem.operator).apply(self.pressure)
-        strain = combined([(1.0, self.past), (1 / numbers.modulus, Pair(self.pressure, displacement))])
-        change = combined([(1.0, strain), (-1.0, start.strain)])
-        elements = numbers.after(start.elements, change)
-        stored = numbers.stored(strain, elements, measure)
+        fields = _summed(matrix[:, :-1], start.fields)
+        for factor, each in zip((matrix[:, -1] / modulus).tolist(), fields, strict=True):
+            each[0] += factor * self.pressure
+            each[1] += factor * displacement
         force, highest = measure.total(self.pressure), max(start.largest_pressure, max_abs(self.pressure))
-        if not self.step:  # the sudden motion is elastic
-            work, dissipated, residual = stored - start.stored, 0.0, 0.0
-        else:
-            totals = [measure.total(each.pressure) for each in start.elements]
-            before, moved = measure.total(start.strain.pressure), measure.total(change.pressure)
-            work = numbers.mean_pressure(before, totals, moved) * (self.depth - start.depth)
-            dissipated = numbers.dissipated(start.elements, change, measure)
-            residual = self._open_pressure(change) / highest if highest else 0.0
-        return Memory(
+        totals = np.append(start.totals, force / modulus)
+        mixed = [measure.dot(self.pressure, each[1]) / modulus for each in start.fields]
+        own = measure.dot(self.pressure, displacement) / modulus**2
+        every = np.block([[start.products, np.c_[mixed]], [np.array([*mixed, own])]])
+        products = matrix @ every @ matrix.T
+        stored = numbers.stored(products)
+        work, dissipated, residual = stored - start.stored, 0.0, 0.0  # a sudden motion is elastic
+        if self.step:
+            work = numbers.mean_force(totals) * (self.depth - start.depth)
+            dissipated = numbers.dissipated(every)
+            middle = _summed(numbers.middle[None, :-1], start.fields[:, 0])[0]
+            touched = (start.pressure > 0) | (self.pressure > 0)
+            residual = max_abs(xp.where(touched, 0.0, middle)) / highest if highest else 0.0
+        totals = matrix @ totals
+        return BodyState(
             time=start.time + self.step,
             depth=self.depth,
             pressure=self.pressure,
-            strain=strain,
-            elements=elements,
+            fields=fields,
+            products=products,
+            totals=totals,
             force=force,
             work=start.work + work,
             stored=stored,
@@ -150,18 +159,10 @@ class Trial:
             largest_force=max(start.largest_force, force),
             largest_depth=max(start.largest_depth, abs(self.depth)),
             largest_pressure=highest,
+            largest_strain=max(start.largest_strain, float(totals[0])),
             largest_energy=max(start.largest_energy, stored + start.dissipated + dissipated),
-            largest_strain=max(start.largest_strain, measure.total(strain.pressure)),
             time_residual=residual,
         )
-
-    def _open_pressure(self, change: Pair) -> float:
-        """Return the largest pressure in the middle of the step on cells that are open at both ends [Pa]."""
-        start, xp = self.start, self.problem.measure.xp
-        middle = self.transition.halved.pressure(
-            start.strain.pressure, [each.pressure for each in start.elements], 0.5 * change.pressure
-        )
-        return max_abs(xp.where((start.pressure > 0) | (self.pressure > 0), 0.0, middle))
 
 
 @dataclass(slots=True)
@@ -188,18 +189,18 @@ class ContactInTime:
     def __post_init__(self) -> None:
         self._subdomains = SubdomainSolver(self.problem.operator)
 
-    def untouched(self, time: float) -> Memory:
+    def untouched(self, time: float) -> BodyState:
         """Return the undeformed body."""
-        zero = self.problem.measure.xp.zeros_like(self.problem.separation)
-        rest = Pair(zero, zero)
-        return Memory(time, 0.0, zero, rest, (rest,) * len(self.material.moduli))
+        xp, count = self.problem.measure.xp, len(self.material.moduli) + 1
+        zero = xp.zeros_like(self.problem.separation)
+        fields = xp.stack([xp.stack([zero, zero])] * count)
+        return BodyState(time, 0.0, zero, fields, np.zeros((count, count)), np.zeros(count))
 
-    def attempt(self, start: Memory, step: float, load: float, guess: Guess | None) -> Trial:
+    def attempt(self, start: BodyState, step: float, load: float, guess: Guess | None) -> Trial:
         """Return a solved step [s] to a load: a force [N] or a depth [m]."""
         problem = self.problem
         numbers = Transition.of(self.material, problem.modulus, step)
-        past = numbers.past(start.strain, start.elements)
-        separation = problem.separation + past.displacement
+        separation = problem.separation + _summed(numbers.past[None], start.fields[:, 1])[0]
         touch = float(problem.measure.xp.min(separation))
         control: Control = Depth(0.0 if self.forced else max(load - touch, 0.0))
         if self.forced and load > 0:
@@ -210,24 +211,25 @@ class ContactInTime:
         pressure = prolong(state.pressure, subdomain, problem.grid.shape) * numbers.modulus
         lock(pressure)
         depth = touch + state.depth if self.forced else load
-        return Trial(start, step, numbers, past, problem, state, subdomain, depth, pressure)
+        return Trial(start, step, numbers, problem, state, subdomain, depth, pressure)
 
     def state(
-        self, trial: Trial, end: Memory, time_error: float, products: int, *, prescribed: bool
+        self, trial: Trial, end: BodyState, time_error: float, products: int, *, prescribed: bool
     ) -> ViscoelasticState:
         """Return the state at the end of a step, with its stiffness."""
         part = self._subdomains.operator_on(trial.subdomain)
         solution = settled(trial.problem, trial.state, trial.subdomain, part, self._tangent)
         self._tangent = tangent_of(solution)
-        # The elastic displacement is that of the strain less that of the past.
-        elastic = trial.transition.modulus * (end.strain.displacement - trial.past.displacement)
-        separation = self.problem.separation + (end.strain.displacement - elastic)
+        displacement = end.fields[0, 1]
+        # Its elastic part is that of the step, times the modulus of the step.
+        past = _summed(trial.transition.past[None], trial.start.fields[:, 1])[0]
+        separation = self.problem.separation + displacement - trial.transition.modulus * (displacement - past)
         control: Control = Force(end.force) if self.forced and end.force > 0 else Depth(max(end.depth, 0.0))
         true = self.problem.moved(separation, control=control)
         return ViscoelasticState(
             time=end.time,
             solution=replace(solution, problem=true, pressure=end.pressure, depth=end.depth),
-            displacement=end.strain.displacement,
+            displacement=displacement,
             material=self.material,
             work=end.work,
             stored_energy=end.stored,
@@ -238,7 +240,7 @@ class ContactInTime:
             prescribed=prescribed,
         )
 
-    def errors(self, coarse: Trial, fine: Trial, end: Memory) -> tuple[float, float]:
+    def errors(self, coarse: Trial, fine: Trial, end: BodyState) -> tuple[float, float]:
         """Return the estimated errors of the finer of two solutions at one time, with steps in the ratio of two.
 
         First the largest error of what is not prescribed, the force or the depth, of the total strain, which shows the
@@ -267,3 +269,9 @@ class ContactInTime:
 
 def _share(part: float, whole: float) -> float:
     return part / whole if whole > 0 else math.inf if part else 0.0
+
+
+def _summed(factors: Array, fields: Any) -> Any:
+    """Return sums of fields, shape (n, ...), with factors of shape (m, n); shape (m, ...)."""
+    count, *shape = fields.shape
+    return (as_like(factors, fields) @ fields.reshape(count, -1)).reshape(len(factors), *shape)

@@ -6,174 +6,116 @@ With A the product of the elastic operator, the strain-like field X and the elem
 
 in units of a reference modulus. Over a step dt, with x = dt/tau_k, e = exp(-x) and phi = (1 - e)/x,
 
-    r_k <- e r_k + m_k phi (X_new - X),    p = M (X_new - past),    M = m + sum m_k phi + c/dt.
+    r_k <- e r_k + m_k phi (X_new - X),    p = M q,    X_new = past + q,    M = m + sum m_k phi + c/dt.
 
-So a step is an elastic contact with the modulus M, whose separation is that of the surface displaced by A past.
+So a step is an elastic contact with the modulus M, whose separation is that of the surface displaced by A past. All
+fields are sums of the fields before and of q: a step is a matrix, which also gives their inner products.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
 
-from roughcontact.solver.inner_product import Measure
+import numpy as np
+
+from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
-__all__ = ["Element", "Pair", "Transition", "combined"]
+__all__ = ["Transition"]
 
 
-class Pair(NamedTuple):
-    """A field like a pressure [Pa], and the elastic displacement that it causes [m]."""
-
-    pressure: Any
-    displacement: Any
-
-
-def combined(terms: Iterable[tuple[float, Pair]]) -> Pair:
-    """Return a sum of pairs with factors; of one term at least."""
-    (factor, first), *others = terms
-    pressure, displacement = factor * first.pressure, factor * first.displacement
-    for factor, pair in others:
-        pressure = pressure + factor * pair.pressure
-        displacement = displacement + factor * pair.displacement
-    return Pair(pressure, displacement)
-
-
-@dataclass(frozen=True, slots=True)
-class Element:
-    """A Maxwell element over a step.
-
-    Attributes
-    ----------
-    modulus : float
-        m_k, in units of the reference modulus.
-    ratio : float
-        x, the step over the relaxation time.
-    """
-
-    modulus: float
-    ratio: float
-
-    @property
-    def kept(self) -> float:
-        """The factor e of the element's pressure over the step."""
-        return math.exp(-self.ratio)
-
-    @property
-    def taken(self) -> float:
-        """The mean phi of exp(-s) for s from 0 to x: what the element keeps of a uniform change of the strain."""
-        return -math.expm1(-self.ratio) / self.ratio if self.ratio > 0 else 1.0
-
-    @property
-    def averaged(self) -> float:
-        """The factor (1 - phi)/x of the change of the strain in the mean of the element's pressure."""
-        x = self.ratio
-        return 0.5 - x / 6 if x < 1e-4 else (1 - self.taken) / x
-
-    @property
-    def damped(self) -> float:
-        """The dissipation of an element that starts at rest, per m_k times the squared change of the strain."""
-        x = self.ratio
-        if x < 1e-2:
-            return x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x / 24)))
-        return (x + 2 * math.expm1(-x) - math.expm1(-2 * x) / 2) / x**2
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Transition:
     """The numbers of a step; moduli in units of the reference modulus.
 
     Attributes
     ----------
-    elements : tuple of Element
+    moduli, ratios : array, shape (k,)
+        m_k, and x, the step over the relaxation time.
     equilibrium : float
         m.
     viscous : float
         c/dt; 0 for a jump, under which only a body at rest has a dashpot.
     """
 
-    elements: tuple[Element, ...]
+    moduli: Array
+    ratios: Array
     equilibrium: float
     viscous: float
 
     @classmethod
     def of(cls, material: Viscoelastic, reference: float, step: float) -> Transition:
         """Return the numbers for a material and a step [s], 0 for a jump, with a reference modulus [Pa]."""
-        pairs = zip(material.moduli, material.times, strict=True)
         return cls(
-            tuple(Element(modulus / reference, step / time) for modulus, time in pairs),
+            np.array(material.moduli, np.float64) / reference,
+            step / np.array(material.times, np.float64),
             material.equilibrium / reference,
             material.dashpot / (reference * step) if step else 0.0,
         )
 
     @property
-    def modulus(self) -> float:
-        """M, the modulus of the step."""
-        return (
-            self.equilibrium + self.viscous + math.fsum(each.modulus * each.taken for each in self.elements)
-        )
+    def kept(self) -> Array:
+        """The factors e of the elements over the step, shape (k,)."""
+        return np.exp(-self.ratios)
 
     @property
-    def halved(self) -> Transition:
-        """The numbers of half the step."""
-        elements = tuple(Element(each.modulus, each.ratio / 2) for each in self.elements)
-        return Transition(elements, self.equilibrium, 2 * self.viscous)
+    def taken(self) -> Array:
+        """The factors phi, shape (k,): what an element keeps of a uniform change of the strain."""
+        positive = self.ratios > 0
+        return np.divide(-np.expm1(-self.ratios), self.ratios, out=np.ones_like(self.ratios), where=positive)
 
-    def past(self, strain: Pair, elements: tuple[Pair, ...]) -> Pair:
-        """Return the strain at the end of a step without pressure."""
-        pulls = zip(self.elements, elements, strict=True)
+    @property
+    def modulus(self) -> float:
+        """M, the modulus of the step."""
+        return self.equilibrium + self.viscous + float(self.moduli @ self.taken)
+
+    @property
+    def past(self) -> Array:
+        """Factors of X and r_k in the strain at the end of a step without pressure, shape (k + 1,)."""
         whole = self.modulus
-        return combined(
-            [
-                ((whole - self.equilibrium) / whole, strain),
-                *((-each.kept / whole, pressure) for each, pressure in pulls),
-            ]
-        )
+        return np.append((whole - self.equilibrium) / whole, -self.kept / whole)
 
-    def after(self, elements: tuple[Pair, ...], change: Pair) -> tuple[Pair, ...]:
-        """Return the elements after a change of the strain."""
-        return tuple(
-            combined([(each.kept, old), (each.modulus * each.taken, change)])
-            for each, old in zip(self.elements, elements, strict=True)
-        )
+    @property
+    def change(self) -> Array:
+        """Factors of X, r_k and q in the change of the strain, shape (k + 2,)."""
+        factors = np.append(self.past, 1.0)
+        factors[0] -= 1.0
+        return factors
 
-    def mean_pressure(self, strain: Any, elements: Iterable[Any], change: Any) -> Any:
-        """Return the pressure averaged over the step, of fields or of their totals."""
-        mean = self.equilibrium * strain + (0.5 * self.equilibrium + self.viscous) * change
-        for each, old in zip(self.elements, elements, strict=True):
-            mean = mean + each.taken * old + each.modulus * each.averaged * change
-        return mean
+    @property
+    def matrix(self) -> Array:
+        """Factors of X, r_k and q in X and r_k at the end of the step, shape (k + 1, k + 2)."""
+        gained = np.append(1.0, self.moduli * self.taken)
+        kept: Array = np.eye(len(gained), len(gained) + 1) * np.append(1.0, self.kept)[:, None]
+        return kept + np.outer(gained, self.change)
 
-    def pressure(self, strain: Any, elements: Iterable[Any], change: Any) -> Any:
-        """Return the pressure at the end of the step."""
-        end = self.equilibrium * strain + (self.equilibrium + self.viscous) * change
-        for each, old in zip(self.elements, elements, strict=True):
-            end = end + each.kept * old + each.modulus * each.taken * change
-        return end
+    @property
+    def middle(self) -> Array:
+        """Factors of X, r_k and q in the pressure in the middle of the step, shape (k + 2,)."""
+        half = Transition(self.moduli, self.ratios / 2, self.equilibrium, 2 * self.viscous)
+        return np.concatenate([[self.equilibrium], half.kept, [0.0]]) + 0.5 * half.modulus * self.change
 
-    def dissipated(self, elements: tuple[Pair, ...], change: Pair, measure: Measure) -> float:
-        """Return the energy that dashpots dissipate in the step [J]."""
-        squared = measure.dot(change.pressure, change.displacement)
-        total = self.viscous * squared
-        for each, old in zip(self.elements, elements, strict=True):
-            lost = -math.expm1(-each.ratio)
-            if not lost:
-                continue
-            own = measure.dot(old.pressure, old.displacement) / each.modulus
-            mixed = measure.dot(old.pressure, change.displacement)
-            total += (
-                own * lost * (1 - lost / 2)
-                + mixed * lost**2 / each.ratio
-                + squared * each.modulus * each.damped
-            )
-        return total
+    def mean_force(self, totals: Array) -> float:
+        """Return the force averaged over the step, from the totals of X, r_k and q, shape (k + 2,) [N]."""
+        x, taken = self.ratios, self.taken
+        averaged = np.where(x < 1e-4, 0.5 - x / 6, (1 - taken) / np.maximum(x, 1e-300))
+        own = self.equilibrium * totals[0] + float(taken @ totals[1:-1])
+        factor = 0.5 * self.equilibrium + self.viscous + float(self.moduli @ averaged)
+        return float(own + factor * (self.change @ totals))
 
-    def stored(self, strain: Pair, elements: tuple[Pair, ...], measure: Measure) -> float:
-        """Return the energy of the springs [J]."""
-        own = self.equilibrium * measure.dot(*strain)
-        parts = (
-            measure.dot(*pair) / each.modulus for each, pair in zip(self.elements, elements, strict=True)
-        )
-        return 0.5 * (own + math.fsum(parts))
+    def dissipated(self, products: Array) -> float:
+        """Return the energy that dashpots dissipate [J], from the inner products of X, r_k and q, shape (k + 2,) * 2."""
+        x, lost, change = self.ratios, -np.expm1(-self.ratios), self.change
+        squared = float(change @ products @ change)
+        # An element that starts at rest: a series where its terms would cancel.
+        series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x / 24)))
+        closed = (x - 2 * lost - np.expm1(-2 * x) / 2) / np.maximum(x, 1e-300) ** 2
+        damped = self.moduli * np.where(x < 1e-2, series, closed)
+        own = np.diag(products)[1:-1] / self.moduli * lost * (1 - lost / 2)
+        mixed = (products @ change)[1:-1] * lost * self.taken
+        return float(squared * (self.viscous + damped.sum()) + (own + mixed).sum())
+
+    def stored(self, products: Array) -> float:
+        """Return the energy of the springs [J], from the inner products of X and r_k, shape (k + 1, k + 1)."""
+        own = np.diag(products)
+        return 0.5 * float(self.equilibrium * own[0] + (own[1:] / self.moduli).sum())

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from roughcontact.validation import Array
-from roughcontact.viscoelastic.contact_in_time import ContactInTime, Memory, Trial
+from roughcontact.viscoelastic.contact_in_time import ContactInTime, BodyState, Trial
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
 __all__ = ["AdaptiveSteps", "FixedSteps", "states_along"]
@@ -42,7 +42,7 @@ class Done:
     """
 
     trial: Trial
-    end: Memory
+    end: BodyState
     error: float
     products: int
 
@@ -54,7 +54,7 @@ class FixedSteps:
     count: int
 
     def through(
-        self, contact: ContactInTime, memory: Memory, interval: Interval, left: float
+        self, contact: ContactInTime, memory: BodyState, interval: Interval, left: float
     ) -> Iterator[Done]:
         """Yield the steps of an interval."""
         length = (interval.end - interval.begin) / self.count
@@ -69,7 +69,8 @@ class FixedSteps:
 class AdaptiveSteps:
     """Steps whose estimated errors of force or depth, strain and energy add up to a tolerance at most.
 
-    Each may use up an equal part of what is left of the tolerance, by the number of steps that are left. The error of the fields, which fades, is below the tolerance at each step.
+    Each may use up an equal part of what is left of the tolerance, by the number of steps that are left. The error of
+    the fields, which fades, is below the tolerance at each step.
     """
 
     tolerance: float
@@ -77,7 +78,7 @@ class AdaptiveSteps:
     step: float = math.inf
 
     def through(
-        self, contact: ContactInTime, memory: Memory, interval: Interval, left: float
+        self, contact: ContactInTime, memory: BodyState, interval: Interval, left: float
     ) -> Iterator[Done]:
         """Yield the steps of an interval; `left` is the time from its begin to the end of the history [s]."""
         length = interval.end - interval.begin
