@@ -23,32 +23,27 @@ def rough(count, periodic, seed=3):
 
 
 def timed(path):
+    """Return the seconds, the products and the number of states of a path, whose fields are not kept."""
     start = time.perf_counter()
-    states = list(path)
-    return states, (time.perf_counter() - start) / len(states)
-
-
-def products(states):
-    return np.mean([getattr(state, "products", None) or state.solution.steps for state in states])
+    counts = [getattr(state, "products", None) or state.steps for state in path]
+    return (time.perf_counter() - start) / len(counts), np.mean(counts), len(counts)
 
 
 def cost(count):
     """Print the time of a step beside that of a load."""
     for periodic in (True, False):
         surface, most = rough(count, periodic), 0.02
-        elastic, load = timed(rc.loading_path(surface, 1.0, pressures=np.geomspace(most / 6, most, 100)))
-        print(f"periodic {periodic}: load {load:.3f} s, {np.mean([s.steps for s in elastic]):.1f} products")
-        times = np.r_[0, np.geomspace(0.01, 1e4, 100)]
-        given = {"times": times, "pressures": np.full(101, most)}
-        fixed, step = timed(rc.viscoelastic_path(surface, TERMS, **given, steps=1))
-        print(f"  fixed steps {step:.3f} s = {step / load:.2f} loads, {products(fixed):.1f} products")
-        del elastic, fixed
-        span = {"times": [0, 1e4], "pressures": [most, most], "time_tolerance": 1e-2}
-        adapted, step = timed(rc.viscoelastic_path(surface, TERMS, **span))
-        print(
-            f"  adapted {len(adapted)} steps, {step:.3f} s = {step / load:.2f} loads, "
-            f"{products(adapted):.1f} products"
+        load, count_of_load, _ = timed(
+            rc.loading_path(surface, 1.0, pressures=np.geomspace(most / 6, most, 100))
         )
+        print(f"periodic {periodic}: load {load:.3f} s, {count_of_load:.1f} products")
+        given = {"times": np.r_[0, np.geomspace(0.01, 1e4, 100)], "pressures": np.full(101, most), "steps": 1}
+        span = {"times": [0, 1e4], "pressures": [most, most], "time_tolerance": 1e-2}
+        for words, history in (("fixed", given), ("adapted", span)):
+            step, products, states = timed(rc.viscoelastic_path(surface, TERMS, **history))
+            print(
+                f"  {words}: {states} states, {step:.3f} s = {step / load:.2f} loads, {products:.1f} products"
+            )
     print(f"  memory of a term: {2 * 8 * count**2 / 1e6:.1f} MB")
 
 

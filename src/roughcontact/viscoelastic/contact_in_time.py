@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from roughcontact.arrays import as_like, max_abs
+from roughcontact.arrays import as_like, max_abs, multiply
 from roughcontact.contact.continuation import settled, tangent_of
 from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
@@ -36,8 +36,8 @@ class BodyState:
         [s], [m], [N].
     pressure : array
         [Pa]
-    fields : array, shape (k + 1, 2, ...)
-        X and r_k of the material [Pa], each with the displacement that it causes [m].
+    fields : tuple of two arrays, shape (k + 1, ...)
+        X and r_k of the material [Pa], and the displacements that they cause [m].
     products : array, shape (k + 1, k + 1)
         Inner products of X and r_k with these displacements [J].
     totals : array, shape (k + 1,)
@@ -49,12 +49,14 @@ class BodyState:
         or dissipated.
     time_residual : float
         Of the last step.
+    before : tuple of array and float, optional
+        Pressure and depth at its begin; None after a jump.
     """
 
     time: float
     depth: float
     pressure: Array
-    fields: Any
+    fields: tuple[Any, Any]
     products: Array
     totals: Array
     force: float = 0.0
@@ -67,6 +69,7 @@ class BodyState:
     largest_strain: float = 0.0
     largest_energy: float = 0.0
     time_residual: float = 0.0
+    before: Guess | None = None
 
     @property
     def leak(self) -> float:
@@ -75,8 +78,13 @@ class BodyState:
 
     @property
     def guess(self) -> Guess | None:
-        """Where the next step starts; None without contact."""
-        return (self.pressure, self.depth) if self.force > 0 else None
+        """Where the next step starts: its changes are those of the last step. None without contact."""
+        if not self.force > 0:
+            return None
+        if self.before is None:
+            return self.pressure, self.depth
+        pressure, depth = self.before
+        return (2 * self.pressure - pressure) * (self.pressure > 0), 2 * self.depth - depth
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +97,8 @@ class Trial:
     step : float
         [s]; 0 for a jump.
     transition : Transition
+    past : array
+        Displacement at the end of the step without pressure [m].
     problem : ContactProblem
         The elastic contact of the step; its pressures are divided by the modulus of the transition.
     state : State
@@ -104,6 +114,7 @@ class Trial:
     start: BodyState
     step: float
     transition: Transition
+    past: Array
     problem: ContactProblem
     state: State
     subdomain: Subdomain
@@ -126,13 +137,14 @@ class Trial:
         start, numbers, measure = self.start, self.transition, self.problem.measure
         modulus, matrix, xp = numbers.modulus, numbers.matrix, measure.xp
         displacement = exact_of(self.problem.operator).apply(self.pressure)
-        fields = _summed(matrix[:, :-1], start.fields)
-        for factor, each in zip((matrix[:, -1] / modulus).tolist(), fields, strict=True):
-            each[0] += factor * self.pressure
-            each[1] += factor * displacement
+        pressures, displacements = start.fields
+        past = _summed(numbers.past, pressures)
+        change = past + self.pressure / modulus - pressures[0]
+        moved = self.past + displacement / modulus - displacements[0]
+        fields = numbers.after(pressures, change), numbers.after(displacements, moved)
         force, highest = measure.total(self.pressure), max(start.largest_pressure, max_abs(self.pressure))
         totals = np.append(start.totals, force / modulus)
-        mixed = [measure.dot(self.pressure, each[1]) / modulus for each in start.fields]
+        mixed = [measure.dot(self.pressure, each) / modulus for each in displacements]
         own = measure.dot(self.pressure, displacement) / modulus**2
         every = np.block([[start.products, np.c_[mixed]], [np.array([*mixed, own])]])
         products = matrix @ every @ matrix.T
@@ -141,7 +153,7 @@ class Trial:
         if self.step:
             work = numbers.mean_force(totals) * (self.depth - start.depth)
             dissipated = numbers.dissipated(every)
-            middle = _summed(numbers.middle[None, :-1], start.fields[:, 0])[0]
+            middle = _summed(numbers.middle[:-1], pressures)
             touched = (start.pressure > 0) | (self.pressure > 0)
             residual = max_abs(xp.where(touched, 0.0, middle)) / highest if highest else 0.0
         totals = matrix @ totals
@@ -162,6 +174,7 @@ class Trial:
             largest_strain=max(start.largest_strain, float(totals[0])),
             largest_energy=max(start.largest_energy, stored + start.dissipated + dissipated),
             time_residual=residual,
+            before=(start.pressure, start.depth) if self.step and start.force > 0 else None,
         )
 
 
@@ -193,14 +206,15 @@ class ContactInTime:
         """Return the undeformed body."""
         xp, count = self.problem.measure.xp, len(self.material.moduli) + 1
         zero = xp.zeros_like(self.problem.separation)
-        fields = xp.stack([xp.stack([zero, zero])] * count)
-        return BodyState(time, 0.0, zero, fields, np.zeros((count, count)), np.zeros(count))
+        rest = xp.stack([zero] * count)
+        return BodyState(time, 0.0, zero, (rest, rest), np.zeros((count, count)), np.zeros(count))
 
     def attempt(self, start: BodyState, step: float, load: float, guess: Guess | None) -> Trial:
         """Return a solved step [s] to a load: a force [N] or a depth [m]."""
         problem = self.problem
         numbers = Transition.of(self.material, problem.modulus, step)
-        separation = problem.separation + _summed(numbers.past[None], start.fields[:, 1])[0]
+        past = _summed(numbers.past, start.fields[1])
+        separation = problem.separation + past
         touch = float(problem.measure.xp.min(separation))
         control: Control = Depth(0.0 if self.forced else max(load - touch, 0.0))
         if self.forced and load > 0:
@@ -211,7 +225,7 @@ class ContactInTime:
         pressure = prolong(state.pressure, subdomain, problem.grid.shape) * numbers.modulus
         lock(pressure)
         depth = touch + state.depth if self.forced else load
-        return Trial(start, step, numbers, problem, state, subdomain, depth, pressure)
+        return Trial(start, step, numbers, past, problem, state, subdomain, depth, pressure)
 
     def state(
         self, trial: Trial, end: BodyState, time_error: float, products: int, *, prescribed: bool
@@ -220,16 +234,16 @@ class ContactInTime:
         part = self._subdomains.operator_on(trial.subdomain)
         solution = settled(trial.problem, trial.state, trial.subdomain, part, self._tangent)
         self._tangent = tangent_of(solution)
-        displacement = end.fields[0, 1]
+        displacement = end.fields[1][0]
         # Its elastic part is that of the step, times the modulus of the step.
-        past = _summed(trial.transition.past[None], trial.start.fields[:, 1])[0]
-        separation = self.problem.separation + displacement - trial.transition.modulus * (displacement - past)
+        elastic = trial.transition.modulus * (displacement - trial.past)
+        separation = self.problem.separation + displacement - elastic
         control: Control = Force(end.force) if self.forced and end.force > 0 else Depth(max(end.depth, 0.0))
         true = self.problem.moved(separation, control=control)
         return ViscoelasticState(
             time=end.time,
             solution=replace(solution, problem=true, pressure=end.pressure, depth=end.depth),
-            displacement=displacement,
+            displacement=multiply(displacement, 1.0),  # a view would keep all fields
             material=self.material,
             work=end.work,
             stored_energy=end.stored,
@@ -272,6 +286,6 @@ def _share(part: float, whole: float) -> float:
 
 
 def _summed(factors: Array, fields: Any) -> Any:
-    """Return sums of fields, shape (n, ...), with factors of shape (m, n); shape (m, ...)."""
+    """Return the sum of fields, shape (n, ...), with factors of shape (n,)."""
     count, *shape = fields.shape
-    return (as_like(factors, fields) @ fields.reshape(count, -1)).reshape(len(factors), *shape)
+    return (as_like(factors, fields) @ fields.reshape(count, -1)).reshape(shape)

@@ -15,9 +15,12 @@ fields are sums of the fields before and of q: a step is a matrix, which also gi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from roughcontact.arrays import is_numpy, multiply, namespace
+from roughcontact.kernels import buffers
 from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
@@ -85,9 +88,26 @@ class Transition:
     @property
     def matrix(self) -> Array:
         """Factors of X, r_k and q in X and r_k at the end of the step, shape (k + 1, k + 2)."""
-        gained = np.append(1.0, self.moduli * self.taken)
-        kept: Array = np.eye(len(gained), len(gained) + 1) * np.append(1.0, self.kept)[:, None]
-        return kept + np.outer(gained, self.change)
+        kept, gained = self._kept_and_gained
+        own: Array = np.eye(len(kept), len(kept) + 1) * kept[:, None]
+        return own + np.outer(gained, self.change)
+
+    def after(self, fields: Any, change: Any) -> Any:
+        """Return X and r_k, shape (k + 1, ...), after a change of X."""
+        kept, gained = self._kept_and_gained
+        ended = (
+            buffers.empty(fields.shape, np.float64)
+            if is_numpy(fields)
+            else namespace(fields).empty_like(fields)
+        )
+        for place, (own, factor) in enumerate(zip(kept.tolist(), gained.tolist(), strict=True)):
+            ended[place] = multiply(fields[place], own)
+            ended[place] += multiply(change, factor)
+        return ended
+
+    @property
+    def _kept_and_gained(self) -> tuple[Array, Array]:
+        return np.append(1.0, self.kept), np.append(1.0, self.moduli * self.taken)
 
     @property
     def middle(self) -> Array:
