@@ -20,7 +20,7 @@ from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.relaxation_step import Transition
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["ContactInTime", "Guess", "BodyState", "Trial"]
+__all__ = ["BodyState", "ContactInTime", "Guess", "Trial"]
 
 Guess = tuple[Array, float]
 """A pressure [Pa] and a depth [m] to start from."""
@@ -257,8 +257,8 @@ class ContactInTime:
     def errors(self, coarse: Trial, fine: Trial, end: BodyState) -> tuple[float, float]:
         """Return the estimated errors of the finer of two solutions at one time, with steps in the ratio of two.
 
-        First the largest error of what is not prescribed, the force or the depth, of the total strain, which shows the
-        recovery of a free surface, and of the balance of energy, over the largest values so far. Then that of the
+        First the largest error of the force or the depth, whichever is not prescribed, of the total strain, which shows
+        the recovery of a free surface, and of the balance of energy, over the largest values so far. Then that of the
         fields: the absolute difference of the pressures over the largest force, or that of the areas, less one cell.
         """
         measure = self.problem.measure

@@ -124,7 +124,7 @@ class Transition:
         return float(own + factor * (self.change @ totals))
 
     def dissipated(self, products: Array) -> float:
-        """Return the energy that dashpots dissipate [J], from the inner products of X, r_k and q, shape (k + 2,) * 2."""
+        """Return the energy that dashpots dissipate [J], from inner products of X, r_k and q, shape (k + 2,) * 2."""
         x, lost, change = self.ratios, -np.expm1(-self.ratios), self.change
         squared = float(change @ products @ change)
         # An element that starts at rest: a series where its terms would cancel.

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from roughcontact.validation import Array
-from roughcontact.viscoelastic.contact_in_time import ContactInTime, BodyState, Trial
+from roughcontact.viscoelastic.contact_in_time import BodyState, ContactInTime, Trial
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
 __all__ = ["AdaptiveSteps", "FixedSteps", "states_along"]
@@ -82,6 +82,8 @@ class AdaptiveSteps:
     ) -> Iterator[Done]:
         """Yield the steps of an interval; `left` is the time from its begin to the end of the history [s]."""
         length = interval.end - interval.begin
+        if math.isinf(self.step):  # at the start and after a jump
+            self.step = min(contact.material.times, default=math.inf)
         self.step, products = min(self.step, FIRST * length), 0
         while memory.time < interval.end:
             rest = interval.end - memory.time
@@ -138,6 +140,8 @@ def states_along(
                 given = memory.time == end
                 yield contact.state(done.trial, memory, error, done.products, prescribed=given)
         elif first != last and sudden:
+            if isinstance(steps, AdaptiveSteps):
+                steps.step = math.inf
             trial = contact.attempt(memory, 0.0, last, memory.guess)
             memory = trial.finished()
             yield contact.state(trial, memory, error, trial.state.steps + 1, prescribed=True)
