@@ -52,6 +52,7 @@ SHAPES = {
     rc.shapes.power_law: {"exponent": 2.0, "coefficient": 3.0},
     rc.shapes.sphere: {"radius": 1e-3},
 }
+VISCO = rc.viscoelastic
 # What is called beside tests/test_bad_input.py, and good arguments.
 MORE = [
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
@@ -160,6 +161,28 @@ MORE = [
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
       for function in (rc.slide_path, rc.slide_curve) for name, value in (("forces", 1e-6), ("displacements", 1e-10))),
+    (VISCO.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
+    (VISCO.maxwell, {"modulus": 1e9, "relaxation_time": 1.0}),
+    (VISCO.prony, {"equilibrium": 1e9, "moduli": [1e8], "times": [1.0]}),
+    (VISCO.standard_solid, {"equilibrium": 1e9, "instantaneous": 2e9, "relaxation_time": 1.0}),
+    (VISCO.viscous, {"viscosity": 1e9}),
+    (VISCO.from_creep, {"instantaneous": 1e-9, "compliances": [1e-9], "times": [1.0], "fluidity": 1e-10}),
+    (VISCO.reduced, {"modulus": SOFT_MATERIAL, "kind": "shear", "bulk": 1e10}),
+    (VISCO.reduced, {"modulus": SOFT_MATERIAL, "kind": "shear", "poisson": 0.4}),
+    (VISCO.power_law, {"modulus": 1e6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2), "equilibrium": 1e5,
+                       "terms_per_decade": 1.0}),
+    (VISCO.creep_power_law, {"compliance": 1e-6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2),
+                             "instantaneous": 1e-7, "terms_per_decade": 1.0}),
+    *((VISCO.from_dma, {"storage": [1e6, 2e6, 3e6], "loss": [1e5, 2e5, 1e5], name: [1.0, 10.0, 100.0],
+                        "temperature": 300.0, "terms_per_decade": 1.0} | constant)
+      for name, constant in (("frequencies", {"bulk": 1e9}), ("angular_frequencies", {"poisson": 0.4}))),
+    (rc.Viscoelastic, {"equilibrium": 1e6, "moduli": (1e6, 2e6), "times": (0.1, 1.0), "dashpot": 1e3,
+                       "band": (1e-2, 10.0), "temperature": 300.0, "misfit": 0.01}),
+    (SOFT_MATERIAL.relaxation, {"time": 1.0}),
+    (SOFT_MATERIAL.complex_modulus, {"angular_frequency": 1.0}),
+    (SOFT_MATERIAL.shifted, {"factor": 10.0, "temperature": 300.0}),
+    *((VISCO.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], name: values})
+      for name, values in (("forces", [2e-2, 3e-2]), ("depths", [2.1e-6, 2.5e-6]))),
     (rc.plot.von_mises_section, {"solution": PRESSED, "solid": STEEL, "deepest": 5e-6}),
 ]  # fmt: skip
 # Units of parameters by their names, and where a name means something else.
@@ -168,7 +191,10 @@ UNITS = {
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
     " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
     " slip_length seal_width circumference",
-    "Pa": "young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure",
+    "s": "times time band relaxation_time retardation_time",
+    "rad/s": "angular_frequency angular_frequencies",
+    "Pa": "equilibrium instantaneous moduli storage loss bulk"
+    " young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",
     "J/m^2": "work",
@@ -177,6 +203,13 @@ UNITS = {
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
 UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
+UNIT |= {
+    "compliances": "1/Pa",
+    "compliance": "1/Pa",
+    "fluidity": "1/(Pa*s)",
+    "dashpot": "Pa*s",
+    "frequencies": "Hz",
+}
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
@@ -220,15 +253,8 @@ PLAIN_ONLY = [
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3, "force": 1e-5}),
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3,
                                    "displacement": 1e-10}),
-    (rc.viscoelastic.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
-    (rc.viscoelastic.maxwell, {"modulus": 1e9, "relaxation_time": 1.0}),
-    (rc.viscoelastic.prony, {"equilibrium": 1e9, "moduli": [1e8], "times": [1.0]}),
-    (rc.viscoelastic.standard_solid, {"equilibrium": 1e9, "instantaneous": 2e9, "relaxation_time": 1.0}),
-    (rc.viscoelastic.viscous, {"viscosity": 1e9}),
-    (SOFT_MATERIAL.relaxation, {"time": 1.0}),
     (MDR.viscoelastic_history.depth_history, SLOW | {"depths": [0.0, 1e-8]}),
     (MDR.viscoelastic_history.force_history, SLOW | {"forces": [0.0, 1e-4]}),
-    (MDR.lee_radok.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], "forces": [2e-2, 3e-2]}),
     (rc.statistics.force_window, {"lowest": 1e-4, "highest": 1e-2}),
     (rc.statistics.resolved_window, {"cell": 0.01, "full_contact_stiffness": 1.0, "highest": 1e-2}),
     (MDR.line_scan.scan_curves, {"scan": SCAN, "modulus": 1e9, "rng": None, "forces": [1e-3, 1e-2], "count": 2}),
@@ -246,6 +272,8 @@ def unit_of(call, name, good):
         return "Pa"
     if (call, name) == (rc.Liquid, "density"):
         return "kg/m^3"
+    if call in (VISCO.from_creep, VISCO.creep_power_law) and name == "instantaneous":
+        return "1/Pa"
     if call is rc.load_cycle:
         return None  # of forces or of displacements
     if call is rc.press and good.get("operator") is LINE_OPERATOR and name == "force":

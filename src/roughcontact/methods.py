@@ -95,6 +95,10 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
+    from roughcontact.recipe.material_file import (
+        read_material as read_material,
+        write_material as write_material,
+    )
     from roughcontact.surface.preparation.alignment import aligned as aligned
     from roughcontact.surface.preparation.despike import despiked as despiked
     from roughcontact.surface.preparation.filters import filtered as filtered
@@ -146,6 +150,7 @@ else:
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
         ),
+        "recipe.material_file": "read_material write_material",
         "surface.preparation.filters": "filtered",
         "surface.preparation.levelling": "levelled without_form",
         "surface.preparation.mask": "masked",

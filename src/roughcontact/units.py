@@ -18,7 +18,6 @@ PLAIN = frozenset({float, int, bool, str, bytes, NoneType, np.ndarray, np.float6
 # CF and UDUNITS write exponents behind the names: "N m-1", "m2".
 _EXPONENT = re.compile(r"(?<![\d.][eE])(?<=[^\W\d])(?=-?\d)")
 
-
 def in_si(value: Any, unit: str | None, what: str) -> Any:
     """Return a value that carries a unit as plain numbers in an SI `unit`, and any other value as it is.
 
@@ -133,6 +132,12 @@ def _converted(value: Any, carried: Any, unit: str | None, what: str) -> Any:
     except Exception as error:  # pint raises many classes for a bad unit, also those of its tokenizer
         wanted = f"plain numbers in {unit}" if unit else "plain numbers"
         raise about(what, f"carries the unit {stated!r}, which is not known", f"give {wanted}") from error
+    if (unit == "Hz" and "radian" in str(given.to_root_units().units)) or (
+        unit == "rad/s" and re.search("hz|hertz", stated, re.IGNORECASE)
+    ):  # pint converts one to the other without the factor 2 pi
+        raise about(
+            what, f"must be in {unit}, not in {stated}", "divide or multiply by 2 pi: 1 Hz is 2 pi rad/s"
+        )
     if given.is_compatible_with(unit or ""):
         return given.m_as(unit or "")
     if unit is not None:

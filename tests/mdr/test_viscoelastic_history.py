@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from roughcontact.mdr.bodies import indenter
 from roughcontact.mdr.bodies.indentation import indent, indentation_curve, indented
-from roughcontact.mdr.viscoelasticity.lee_radok import transfer
 from roughcontact.mdr.viscoelasticity.viscoelastic_history import depth_history, force_history
+from roughcontact.viscoelastic.elastic_transfer import transfer
 from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 

@@ -118,16 +118,14 @@ def test_how_a_history_is_cut_changes_nothing_beyond_the_tolerance():
     assert cut.depth == pytest.approx(whole.depth, rel=2e-3)  # the tolerance of each
 
 
-def test_a_term_of_little_weight_changes_little():
-    light = rc.viscoelastic.prony(1.0, [2.0, 3.0, 1e-12], [0.5, 4.0, 0.1])
-    for a, b in zip(
-        path(FREE, times=[0, 2], forces=[0.01, 0.02], steps=4),
-        path(FREE, light, times=[0, 2], forces=[0.01, 0.02], steps=4),
-        strict=True,
-    ):
+@pytest.mark.parametrize("weight", [0.0, 1e-12])
+def test_a_term_without_weight_changes_nothing(weight):
+    more = rc.viscoelastic.prony(1.0, [2.0, 3.0, weight], [0.5, 4.0, 0.1])
+    history = {"times": [0, 2], "forces": [0.01, 0.02], "steps": 4}
+    for a, b in zip(path(FREE, **history), path(FREE, more, **history), strict=True):
         assert a.depth == pytest.approx(b.depth, rel=1e-9)
-    with pytest.raises(rc.InputError, match="must be positive"):
-        rc.viscoelastic.prony(1.0, [2.0, 0.0], [0.5, 4.0])
+        assert a.stored_energy == pytest.approx(b.stored_energy, rel=1e-9)
+        assert a.dissipated_energy == pytest.approx(b.dissipated_energy, rel=1e-9)
 
 
 def test_the_residual_between_nodes_falls_with_the_step():
@@ -244,6 +242,7 @@ def test_a_curve_is_tabulated_and_written(tmp_path):
 
 
 DAMPED = rc.viscoelastic.kelvin_voigt(1.0, 1.0)
+MEASURED = rc.Viscoelastic(1.0, (2.0,), (1.0,), band=(1e-2, 1e2))
 
 
 @pytest.mark.parametrize(
@@ -266,6 +265,11 @@ DAMPED = rc.viscoelastic.kelvin_voigt(1.0, 1.0)
             {"material": DAMPED, "forces": None, "times": [0, 1, 2], "depths": [0, 0, 1e-3]},
         ),
         ("a viscoelastic material is needed", {"material": 1e6}, {}),
+        (
+            "contain an interval of 1000 s",
+            {"material": MEASURED, "times": [0, 1, 1000]},
+            {"material": MEASURED, "times": [0, 1, 100]},
+        ),
         ("steps must be a whole number", {"steps": 0}, {"steps": 1}),
         (
             "reduced modulus",

@@ -11,7 +11,6 @@ import numpy as np
 
 import roughcontact as rc
 from roughcontact import viscoelastic
-from roughcontact.mdr import lee_radok
 
 grid = rc.Grid((128, 128), 1e-6)
 surface = rc.self_affine(grid, hurst=0.8, rms=1e-6, rng=np.random.default_rng(1))
@@ -19,7 +18,7 @@ curve = rc.loading_curve(surface, 1e6, forces=np.geomspace(1e-7, 1e-3, 25))
 # Equilibrium and instantaneous E* [Pa], relaxation time [s]
 rubber = viscoelastic.standard_solid(1e6, 1e7, 0.5)
 times = np.linspace(0, 30, 60)
-history = lee_radok.transfer(curve, rubber, times, forces=np.full(60, 1e-4))
+history = viscoelastic.transfer(curve, rubber, times, forces=np.full(60, 1e-4))
 
 axes = plt.subplots()[1]
 axes.plot(times, history.contact_area * 1e12)

@@ -22,6 +22,7 @@ __all__ = [
     "RESISTIVITY",
     "STIFFNESS_PER_AREA",
     "TEMPERATURE",
+    "TIME",
     "VISCOSITY",
     "Kind",
     "has_unit",
@@ -67,6 +68,7 @@ ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")
 VISCOSITY = Kind("a viscosity", "Pa*s", "1mPa*s")
 DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
+TIME = Kind("a time", "s", "0.1s")
 TEMPERATURE = Kind("a temperature", "K", "20degC")
 
 

@@ -21,7 +21,6 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.mdr.tangential_loading import slip_history as slip_history, tangential as tangential
     from roughcontact.mdr.viscoelasticity import (
-        lee_radok as lee_radok,
         sliding_friction as sliding_friction,
         viscoelastic_history as viscoelastic_history,
     )

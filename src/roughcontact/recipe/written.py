@@ -39,7 +39,7 @@ __all__ = [
         "pinned",
         "read_job",
     ),
-    *("require_same_files", "to_plain", "toml_of", "with_files"),
+    *("require_same_files", "to_plain", "toml_in", "toml_of", "with_files"),
 ]
 
 J = TypeVar("J", bound=Job)
@@ -203,7 +203,7 @@ def read_job(path: Path) -> Job:
     plain = _result_in(path)
     if plain is None:
         with content(path) as (_, data):
-            plain = _toml(data)
+            plain = toml_in(data)
     elif plain.get("recipe") is None:
         raise ReadError(
             str(path),
@@ -248,7 +248,8 @@ def _record(text: str) -> dict[str, Any]:
     return found
 
 
-def _toml(data: bytes) -> dict[str, Any]:
+def toml_in(data: bytes) -> dict[str, Any]:
+    """Return the tables of a TOML file; an empty one is refused."""
     try:
         found = tomllib.loads(data.decode())
     except ValueError as error:

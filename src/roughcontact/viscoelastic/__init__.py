@@ -8,6 +8,21 @@ from roughcontact.late import late_names, open_name
 
 _LATE = late_names(__spec__)
 if TYPE_CHECKING or _LATE is None:
+    from roughcontact.viscoelastic.conversions import (
+        from_creep as from_creep,
+        in_series as in_series,
+        reduced as reduced,
+    )
+    from roughcontact.viscoelastic.elastic_transfer import (
+        ElasticCurve as ElasticCurve,
+        Transfer as Transfer,
+        transfer as transfer,
+    )
+    from roughcontact.viscoelastic.fitted import (
+        creep_power_law as creep_power_law,
+        from_dma as from_dma,
+        power_law as power_law,
+    )
     from roughcontact.viscoelastic.models import (
         kelvin_voigt as kelvin_voigt,
         maxwell as maxwell,

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from roughcontact.errors import InputError, about
-from roughcontact.validation import number, scalar, shown
+from roughcontact.errors import InputError
+from roughcontact.validation import numeric
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 __all__ = ["kelvin_voigt", "maxwell", "prony", "standard_solid", "viscous"]
 
 
+@numeric(viscosity="Pa*s")
 def viscous(viscosity: float) -> Viscoelastic:
     """Return an incompressible viscous fluid of `viscosity` eta [Pa s]: E* becomes 4 eta d/dt.
 
@@ -31,9 +30,10 @@ def viscous(viscosity: float) -> Viscoelastic:
     >>> viscoelastic.viscous(10.0).dashpot
     40.0
     """
-    return Viscoelastic(dashpot=4 * scalar(viscosity, "viscosity"))
+    return Viscoelastic(dashpot=4 * viscosity)
 
 
+@numeric(modulus="Pa", retardation_time="s")
 def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
     """Return spring and dashpot in parallel: ``J(t) = (1 - exp(-t/tau))/E``; modulus E* [Pa], time [s].
 
@@ -55,11 +55,10 @@ def kelvin_voigt(modulus: float, retardation_time: float) -> Viscoelastic:
     >>> round(float(creep(2.0)) * 1e8, 6)  # 1 - 1/e after the retardation time
     0.632121
     """
-    return Viscoelastic(
-        equilibrium=modulus, dashpot=scalar(modulus, "modulus") * scalar(retardation_time, "retardation time")
-    )
+    return Viscoelastic(equilibrium=modulus, dashpot=modulus * retardation_time)
 
 
+@numeric(modulus="Pa", relaxation_time="s")
 def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
     """Return spring and dashpot in series: ``E(t) = E exp(-t/tau)``; modulus E* [Pa], time [s].
 
@@ -83,6 +82,7 @@ def maxwell(modulus: float, relaxation_time: float) -> Viscoelastic:
     return Viscoelastic(moduli=(modulus,), times=(relaxation_time,))
 
 
+@numeric(equilibrium="Pa", instantaneous="Pa", relaxation_time="s")
 def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: float) -> Viscoelastic:
     """Return ``E(t) = E_inf + (E_0 - E_inf) exp(-t/tau)``.
 
@@ -104,7 +104,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     >>> [round(float(soft.relaxation(t)) / 1e8, 4) for t in (0.0, 1.0, 100.0)]
     [10.0, 4.3109, 1.0]
     """
-    if not 0 < scalar(equilibrium, "equilibrium modulus") < scalar(instantaneous, "instantaneous modulus"):
+    if not 0 < equilibrium < instantaneous:
         raise InputError(
             f"a standard solid softens from its instantaneous modulus {instantaneous} Pa to a lower one, "
             f"not to {equilibrium} Pa"
@@ -112,6 +112,7 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
     return Viscoelastic(equilibrium, (instantaneous - equilibrium,), (relaxation_time,))
 
 
+@numeric(equilibrium="Pa", moduli="Pa", times="s")
 def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
     """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s].
 
@@ -135,12 +136,4 @@ def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -
     >>> rubber.instantaneous
     10000000.0
     """
-    lists = [np.asarray(number(values, name)) for name, values in (("moduli", moduli), ("times", times))]
-    if any(values.ndim != 1 for values in lists):
-        raise about(
-            "moduli",
-            "and times must be two lists with an entry for each element, such as [1e8, 2e7] and [0.1, 1.0], "
-            f"not {shown(moduli)} and {shown(times)}",
-        )
-    E, tau = (tuple(values.tolist()) for values in lists)
-    return Viscoelastic(scalar(equilibrium, "equilibrium modulus"), E, tau)
+    return Viscoelastic(equilibrium, moduli, times)  # type: ignore[arg-type]  # which makes tuples of both

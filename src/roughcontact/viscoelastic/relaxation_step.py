@@ -131,11 +131,15 @@ class Transition:
         series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x / 24)))
         closed = (x - 2 * lost - np.expm1(-2 * x) / 2) / np.maximum(x, 1e-300) ** 2
         damped = self.moduli * np.where(x < 1e-2, series, closed)
-        own = np.diag(products)[1:-1] / self.moduli * lost * (1 - lost / 2)
+        own = self._over_moduli(np.diag(products)[1:-1]) * lost * (1 - lost / 2)
         mixed = (products @ change)[1:-1] * lost * self.taken
         return float(squared * (self.viscous + damped.sum()) + (own + mixed).sum())
 
     def stored(self, products: Array) -> float:
         """Return the energy of the springs [J], from the inner products of X and r_k, shape (k + 1, k + 1)."""
         own = np.diag(products)
-        return 0.5 * float(self.equilibrium * own[0] + (own[1:] / self.moduli).sum())
+        return 0.5 * float(self.equilibrium * own[0] + self._over_moduli(own[1:]).sum())
+
+    def _over_moduli(self, values: Array) -> Array:
+        """Return values of the elements over their moduli; 0 for an element without modulus."""
+        return np.divide(values, self.moduli, out=np.zeros_like(values), where=self.moduli > 0)

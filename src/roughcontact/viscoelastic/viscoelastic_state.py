@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.contact.solution import Solution
-from roughcontact.errors import about
 from roughcontact.guesses import hinted
 from roughcontact.labels.variables import unit_of
 from roughcontact.solver.control import Status
@@ -152,7 +151,7 @@ class ViscoelasticState:
         Raises
         ------
         ValueError
-            If the frequency is negative.
+            If the frequency is negative, or outside the band of the data of the material.
 
         Examples
         --------
@@ -164,14 +163,7 @@ class ViscoelasticState:
         >>> f"{stiffness.imag / stiffness.real:.3f}"  # the loss factor of the material
         '0.818'
         """
-        if not 0 <= frequency < math.inf:
-            raise about("the frequency", f"must be finite and not negative [rad/s], not {frequency}")
-        material = self.material
-        parts = (
-            modulus * 1j * frequency * time / (1 + 1j * frequency * time)
-            for modulus, time in zip(material.moduli, material.times, strict=True)
-        )
-        return self._unit_stiffness * (material.equilibrium + 1j * frequency * material.dashpot + sum(parts))
+        return self._unit_stiffness * complex(self.material.complex_modulus(frequency))
 
     @property
     def energy_leak(self) -> float:
