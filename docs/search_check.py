@@ -31,6 +31,7 @@ QUESTIONS = {
     "why unresolved": "how-to/unresolved",
     "leak": "how-to/leaks",
     "viscoelastic": "how-to/viscoelastic",
+    "viscoelastic contact in time": "concepts/time",
     "rubber": "how-to/viscoelastic",
     "mated": "reference/glossary",
     "K from ultrasound": "how-to/ultrasound",

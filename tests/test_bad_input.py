@@ -73,6 +73,8 @@ CALLS = {
     rc.slide: {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "force": 1e-5, "tolerance": 1e-8},
     rc.load_cycle: {"amplitude": 1e-5, "cycles": 1, "steps": 8},
     rc.press: {"surface": CUT, "modulus": 1e9, "force": 1e-4, "tolerance": 1e-8, "hardness": 1e12},
+    rc.viscoelastic_path: {"surface": CUT, "material": SOFT, "times": [0, 1], "forces": [0, 1], "time_tolerance": 0.1},
+    rc.viscoelastic_curve: {"surface": CUT, "material": SOFT, "times": [0, 1], "forces": [0, 1e-4], "steps": 1},
     rc.contact_stiffness: {"mask": MASK, "grid": FREE, "modulus": 1e9, "tolerance": 1e-7},
     rc.load_range: {"surface": CUT, "modulus": 1e9, "count": 5},
     DERIVATIVES.to_radius: {"radius": 1e-3},

@@ -123,6 +123,9 @@ MORE = [
     (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "depths": [0.0, -1e-8]}),
     (rc.detachment_path, {"solution": PRESSED, "work": 0.05, "pressures": [0.0, -1e3]}),
     (rc.detachment_curve, {"solution": PRESSED, "work": 0.05, "pressures": [0.0, -1e3]}),
+    *((function, {"surface": ROUGH, "material": SOFT_MATERIAL, "times": [0.0, 1.0], "steps": 1, name: [0.0, value]})
+      for function in (rc.viscoelastic_path, rc.viscoelastic_curve)
+      for name, value in (("forces", 1e-6), ("depths", 1e-9), ("pressures", 1e3))),
     (rc.below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.displacement_below, {"solution": PRESSED, "depth": 1e-6, "solid": STEEL}),
     (rc.error_budget, {"pressed": PRESSED, "short_cutoff": 5e-6}),

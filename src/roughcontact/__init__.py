@@ -218,6 +218,12 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.surface import Surface as Surface
     from roughcontact.viscoelastic.prony_series import Viscoelastic as Viscoelastic
+    from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve as ViscoelasticCurve
+    from roughcontact.viscoelastic.viscoelastic_loading import (
+        viscoelastic_curve as viscoelastic_curve,
+        viscoelastic_path as viscoelastic_path,
+    )
+    from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState as ViscoelasticState
 
 __all__ = ["__version__", *(_LATE or (name for name in globals() if not name.startswith("_")))]
 

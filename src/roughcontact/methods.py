@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         plot_state as plot_state,
         plot_surface as plot_surface,
     )
+    from roughcontact.plot.creep_plot import plot_creep as plot_creep
     from roughcontact.plot.detachment_plot import detachment_force as detachment_force
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
@@ -119,6 +120,10 @@ if TYPE_CHECKING:
     )
     from roughcontact.surface.preparation.tip import scanned as scanned
     from roughcontact.surface.preparation.windows import tapered as tapered
+    from roughcontact.viscoelastic.curve_dataset import (
+        viscoelastic_dataset as viscoelastic_dataset,
+        viscoelastic_record as viscoelastic_record,
+    )
 else:
     _HOMES = {
         "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
@@ -142,6 +147,7 @@ else:
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
+        "plot.creep_plot": "plot_creep",
         "plot.detachment_plot": "detachment_force",
         "plot.jumps": "jump_loop",
         "plot.notebook": (
@@ -158,6 +164,7 @@ else:
         "surface.preparation.despike": "despiked",
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
+        "viscoelastic.curve_dataset": "viscoelastic_dataset viscoelastic_record",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

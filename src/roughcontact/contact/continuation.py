@@ -11,10 +11,11 @@ from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import FrozenContact, elastic_contact, frozen_contact
-from roughcontact.solver.control import Control, Force, Solver, Start, Tangent
-from roughcontact.solver.subdomain import SubdomainSolver, prolong, restrict, restrict_hardness
+from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.solver.control import Control, Force, Solver, Start, State, Tangent
+from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong, restrict, restrict_hardness
 
-__all__ = ["follow"]
+__all__ = ["follow", "settled", "tangent_of"]
 
 
 def follow(
@@ -44,39 +45,39 @@ def follow(
     guess: Start | None = None
     last: Tangent | None = None
     if start is not None:
-        guess, last = _predicted(start, controls[0]), _tangent(start)
+        guess, last = _predicted(start, controls[0]), tangent_of(start)
     for control, following in zip(controls, [*controls[1:], None], strict=True):
         here, state, subdomain = solve_state(problem.under(control), solver, guess, subdomains)
-        shape = problem.grid.shape
-        frozen = frozen_contact(
-            subdomains.operator_on(subdomain),
-            elastic_contact(state.pressure, restrict_hardness(here.hardness, subdomain)),
-            tangent=state.tangent or (last and Tangent(restrict(last.pressure, subdomain), math.inf)),
-        )
-        pressure = prolong(state.pressure, subdomain, shape)
-        lock(pressure)
-        solution = Solution(
-            here,
-            pressure,
-            state.depth,
-            state.status,
-            state.residual,
-            state.steps,
-            FrozenContact(frozen.stiffness, frozen.residual, prolong(frozen.tangent, subdomain, shape)),
-        )
-        last = _tangent(solution)
+        solution = settled(here, state, subdomain, subdomains.operator_on(subdomain), last)
+        last = tangent_of(solution)
         yield solution
         if following is not None:
             advance = _advance(solution, following)
             if advance is None:
                 guess = None
             elif not advance:
-                guess = Start(pressure, state.depth)
+                guess = Start(solution.pressure, state.depth)
             else:  # only on the window: the plane is large
-                moved = state.pressure + advance * frozen.tangent
-                guess = Start(prolong(moved, subdomain, shape), state.depth + advance)
+                moved = state.pressure + advance * restrict(solution.frozen.tangent, subdomain)
+                guess = Start(prolong(moved, subdomain, problem.grid.shape), state.depth + advance)
                 del moved
-        del state, frozen, pressure, solution  # releases the memory before the next load
+        del state, solution  # releases the memory before the next load
+
+
+def settled(
+    problem: ContactProblem, state: State, subdomain: Subdomain, part: Operator, last: Tangent | None
+) -> Solution:
+    """Return the solution of a state on a window, with its stiffness, whose search starts from the `last` tangent."""
+    shape = problem.grid.shape
+    frozen = frozen_contact(
+        part,
+        elastic_contact(state.pressure, restrict_hardness(problem.hardness, subdomain)),
+        tangent=state.tangent or (last and Tangent(restrict(last.pressure, subdomain), math.inf)),
+    )
+    pressure = prolong(state.pressure, subdomain, shape)
+    lock(pressure)
+    whole = FrozenContact(frozen.stiffness, frozen.residual, prolong(frozen.tangent, subdomain, shape))
+    return Solution(problem, pressure, state.depth, state.status, state.residual, state.steps, whole)
 
 
 def _predicted(start: Solution, control: Control) -> Start | None:
@@ -88,7 +89,7 @@ def _predicted(start: Solution, control: Control) -> Start | None:
     return Start(pressure, start.depth + advance)
 
 
-def _tangent(solution: Solution) -> Tangent | None:
+def tangent_of(solution: Solution) -> Tangent | None:
     """Return the start of the search for the next tangent; None after a missed load or in full contact."""
     known = solution.status.converged and solution.stiffness < math.inf
     return Tangent(solution.frozen.tangent, math.inf) if known else None

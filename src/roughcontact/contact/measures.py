@@ -45,11 +45,11 @@ def measured_columns(points: Sequence[Mapping[str, float]]) -> dict[str, Array]:
     return {name: np.array([point[name] for point in points]) for name in names}
 
 
-def measured_variables(measured: Mapping[str, Array]) -> Variables:
-    """Return the columns as labelled data; a name that no table holds has no unit."""
+def measured_variables(measured: Mapping[str, Array], along: str = "load") -> Variables:
+    """Return the columns as labelled data along a dimension; a name that no table holds has no unit."""
     return {
         name: (
-            ("load",),
+            (along,),
             values,
             attributes_of(VARIABLES[name]) if name in VARIABLES else {"long_name": name},
         )

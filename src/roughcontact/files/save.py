@@ -41,6 +41,7 @@ from roughcontact.grid import AnyGrid, RadialGrid
 from roughcontact.slabs.slab_array import SlabArray
 from roughcontact.surface.in_memory import analysed_on_host
 from roughcontact.surface.surface import Surface
+from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
 
 if TYPE_CHECKING:
     pass
@@ -51,7 +52,7 @@ Field = npt.NDArray[np.generic]
 # Components by index, name and sign in a picture whose rows are reversed.
 _UPRIGHT = ((0, "x", 1.0), (1, "y", -1.0))
 Pressed = Solution | TangentialSolution | AdhesiveState | DetachmentState
-Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve
+Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve | ViscoelasticCurve
 Writable = Surface | Pressed | Curves | InterfaceTable | ContactFlux
 
 
@@ -144,7 +145,7 @@ def csv_of(curve: Curves | InterfaceTable | ContactFlux, path: str | os.PathLike
 
     Parameters
     ----------
-    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve, InterfaceTable or ContactFlux
+    curve : Curve, Loop, AdhesiveCurve, DetachmentCurve, SlipCurve, ViscoelasticCurve, InterfaceTable or ContactFlux
     path : str or path
         File to write, whatever its extension; an existing file is replaced.
 

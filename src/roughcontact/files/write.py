@@ -149,7 +149,7 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
     dataset : Dataset
     path : str or path
     dimension : str, optional
-        The dimension of the points; by default ``load``, or a single row if there is no such dimension.
+        The dimension of the points; by default ``load`` or ``time``, or a single row if there is no such dimension.
 
     Raises
     ------
@@ -158,14 +158,16 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
     WriteError
         If the file cannot be written.
     """
-    if dimension is None and "load" in dataset.sizes:
-        dimension = "load"
+    if dimension is None:
+        dimension = next((name for name in ("load", "time") if name in dataset.sizes), None)
     if dimension is not None and dimension not in dataset.sizes:
         raise InputError(
             f"nothing lies along {dimension!r}", f"choose one of {', '.join(map(str, dataset.sizes))}"
         )
     along = () if dimension is None else (dimension,)
     columns: dict[str, xarray.DataArray] = {}
+    if dimension == "time":  # its values are not equally spaced
+        columns["time"] = dataset["time"]
     for name, values in dataset.data_vars.items():
         if values.dims in (along, ()):
             columns[str(name)] = values
