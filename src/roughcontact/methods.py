@@ -84,6 +84,7 @@ if TYPE_CHECKING:
         plot_surface as plot_surface,
     )
     from roughcontact.plot.detachment_plot import detachment_force as detachment_force
+    from roughcontact.plot.friction_plot import friction_plot as friction_plot
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
         adhesive_curve_html as adhesive_curve_html,
@@ -112,6 +113,10 @@ if TYPE_CHECKING:
     )
     from roughcontact.surface.preparation.tip import scanned as scanned
     from roughcontact.surface.preparation.windows import tapered as tapered
+    from roughcontact.viscoelastic.sliding_dataset import (
+        friction_dataset as friction_dataset,
+        sliding_dataset as sliding_dataset,
+    )
 else:
     _HOMES = {
         "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
@@ -136,6 +141,7 @@ else:
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.detachment_plot": "detachment_force",
+        "plot.friction_plot": "friction_plot",
         "plot.jumps": "jump_loop",
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
@@ -150,6 +156,7 @@ else:
         "surface.preparation.despike": "despiked",
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
+        "viscoelastic.sliding_dataset": "friction_dataset sliding_dataset",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

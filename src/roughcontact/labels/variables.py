@@ -11,7 +11,14 @@ from typing import Any
 
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import geometry_of
-from roughcontact.labels import adhesive_columns, contact_columns, flow_columns, flux_columns, slip_columns
+from roughcontact.labels import (
+    adhesive_columns,
+    contact_columns,
+    flow_columns,
+    flux_columns,
+    sliding_columns,
+    slip_columns,
+)
 from roughcontact.labels.column import Column
 
 __all__ = ["VARIABLES", "force_unit", "unit_of"]
@@ -30,7 +37,9 @@ def _columns(value: Any) -> Iterator[Column]:
 VARIABLES: Mapping[str, Column] = MappingProxyType(
     {
         column.name: column
-        for tables in (flow_columns, slip_columns, adhesive_columns, flux_columns, contact_columns)
+        for tables in (
+            *(flow_columns, sliding_columns, slip_columns, adhesive_columns, flux_columns, contact_columns),
+        )
         for value in vars(tables).values()
         for column in _columns(value)
     }

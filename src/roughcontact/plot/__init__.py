@@ -36,6 +36,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
     from roughcontact.plot.flow_map import flow_map as flow_map
     from roughcontact.plot.flux_plot import flux_map as flux_map, spot_resistances as spot_resistances
+    from roughcontact.plot.friction_plot import friction_plot as friction_plot
     from roughcontact.plot.jumps import (
         jump_area as jump_area,
         jump_figure as jump_figure,
