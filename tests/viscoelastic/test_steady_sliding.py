@@ -170,7 +170,7 @@ def test_a_missed_tolerance_is_stated(monkeypatch):
     monkeypatch.setattr(sliding_solver, "MAX_SOLVES", 1)
     monkeypatch.setattr(sliding_solver, "IDLE", 0)
     monkeypatch.setattr(sliding_solver, "SWEEPS", 1)
-    with pytest.raises(rc.ConvergenceError, match="tolerance 1.0e-08") as error:
+    with pytest.raises(rc.ConvergenceError, match=r"tolerance 1\.0e-08") as error:
         rc.steady_sliding(ROUGH, SOLID, speed=0.1, pressure=0.02)
     assert "where 1e-08 was asked for" in error.value.solution.notes[0]
     curve = rc.friction_curve(ROUGH, SOLID, speeds=[0.1], pressure=0.02)

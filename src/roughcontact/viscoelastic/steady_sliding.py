@@ -182,7 +182,8 @@ class SlidingContact:
 
     def _mean_with_slope(self, field: Array) -> Array:
         """Return the mean of the pressure times the slope (x, y) of a field."""
-        waves, slopes = np.fft.rfft2(field), []
+        waves = np.fft.rfft2(field)
+        slopes: list[Array] = []
         for q, n in zip(wave_vectors(self._grid), self._grid.shape, strict=True):
             if n % 2 == 0:  # the slope of a Nyquist wave is zero in every cell
                 q.flat[n // 2] = 0

@@ -103,7 +103,8 @@ class WaveOperator:
 def wave_vectors(grid: Grid) -> tuple[Array, Array]:
     """Return qy and qx [rad/m] of the waves of a real field, shapes ``(ny, 1)`` and ``(1, nx//2 + 1)``."""
     (ny, nx), (dy, dx) = grid.shape, grid.spacing
-    return 2 * np.pi * np.fft.fftfreq(ny, dy)[:, None], 2 * np.pi * np.fft.rfftfreq(nx, dx)[None]
+    qy, qx = 2 * np.pi * np.fft.fftfreq(ny, dy), 2 * np.pi * np.fft.rfftfreq(nx, dx)
+    return np.asarray(qy[:, None]), np.asarray(qx[None])
 
 
 def passing(material: Viscoelastic, velocity: tuple[float, float]) -> Callable[[Grid], Waves]:
