@@ -217,6 +217,12 @@ PLAIN_ONLY = [
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3, "force": 1e-5}),
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3,
                                    "displacement": 1e-10}),
+    *(
+        (call, {"surface": rc.shapes.wave(rc.Grid((4, 16), 1e-6, periodic=True), 1e-7, 1.6e-5),
+                "material": SOFT_MATERIAL} | speed | load)
+        for call, speed in ((rc.steady_sliding, {"speed": 1e-6}), (rc.friction_curve, {"speeds": [1e-6]}))
+        for load in ({"pressure": 1e6}, {"force": 1e-5})
+    ),
     (rc.viscoelastic.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
     (rc.viscoelastic.maxwell, {"modulus": 1e9, "relaxation_time": 1.0}),
     (rc.viscoelastic.prony, {"equilibrium": 1e9, "moduli": [1e8], "times": [1.0]}),

@@ -21,7 +21,7 @@ from roughcontact.solver.optimality import Iterate, Optimality
 from roughcontact.validation import Array, Mask
 from roughcontact.viscoelastic.wave_operator import WaveOperator, Waves
 
-__all__ = ["SlidingState", "solve_sliding"]
+__all__ = ["SlidingIterate", "solve_sliding"]
 
 IDLE = 3  # solves by Newton's method without a smaller residual, after which it cycles
 SWEEPS = 4  # before the second attempt of Newton's method, twice as many before each further one
@@ -32,7 +32,7 @@ INNER = 0.1  # of the tolerance: residual of a linear solve, and of the contact 
 ROUNDING = 1e-14  # of the largest displacement: a smaller penetration frees no cell
 
 
-class SlidingState(NamedTuple):
+class SlidingIterate(NamedTuple):
     """An iterate.
 
     Attributes
@@ -58,7 +58,7 @@ class SlidingState(NamedTuple):
 
 def solve_sliding(
     operator: WaveOperator, separation: Array, spec: Specification, pressure: Array
-) -> SlidingState:
+) -> SlidingIterate:
     """Return the contact under a force from a pressure to start from; without convergence the best iterate."""
     run = _Run(operator, separation, spec)
     run.visit(pressure)
@@ -80,8 +80,8 @@ class _Run:
     conditions: Optimality = field(init=False)
     storage: WaveOperator = field(init=False)
     solves: int = 0
-    last: SlidingState = field(init=False)
-    best: SlidingState = field(init=False)
+    last: SlidingIterate = field(init=False)
+    best: SlidingIterate = field(init=False)
     swept: list[tuple[Array, Array]] = field(default_factory=list)  # arguments and images of sweeps
 
     def __post_init__(self) -> None:
@@ -94,7 +94,7 @@ class _Run:
         u = self.operator.apply(p)
         found = self.conditions.evaluate(Iterate(p, u, self.separation))
         status = Status.CONVERGED if found.residual <= self.spec.tolerance else Status.STAGNATED
-        self.last = SlidingState(p, u, found.depth, found.residual, self.solves, status)
+        self.last = SlidingIterate(p, u, found.depth, found.residual, self.solves, status)
         if self.solves == 0 or found.residual < self.best.residual:
             self.best = self.last
 

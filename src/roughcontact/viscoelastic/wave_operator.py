@@ -1,4 +1,4 @@
-"""Periodic bodies that answer each wave of pressure by a factor of its own, and a material that passes by."""
+"""Periodic bodies with a factor for each wave of pressure, and a material that passes by."""
 
 from __future__ import annotations
 

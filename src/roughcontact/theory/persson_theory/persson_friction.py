@@ -32,7 +32,7 @@ class DynamicModulus(Protocol):
         """Return storage + i loss of E* [Pa] at angular frequencies [rad/s]."""
 
 
-@numeric(pressure="Pa", speed="m/s", gamma="")
+@numeric
 def friction_coefficient(
     pressure: float, material: DynamicModulus, spectrum: Spectrum, speed: float, *, gamma: float = 1.0
 ) -> float:
@@ -78,7 +78,7 @@ def friction_coefficient(
     return float(each @ lost) / (4 * np.pi * positive_scalar(pressure, "pressure"))
 
 
-@numeric(pressure="Pa", speed="m/s")
+@numeric
 def contact_fraction(pressure: float, material: DynamicModulus, spectrum: Spectrum, speed: float) -> float:
     """Return the relative real contact area during sliding [-].
 
