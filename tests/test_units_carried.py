@@ -255,6 +255,8 @@ def unit_of(call, name, good):
         return "N/m"
     if call is rc.joint_conductance and name == "film" and "resistivities" in good:
         return "ohm*m^2"
+    if call in (rc.steady_sliding, rc.friction_curve) and name.startswith("speed"):
+        return "m/s"
     return UNIT.get(name)
 
 
