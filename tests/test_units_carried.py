@@ -54,6 +54,12 @@ SHAPES = {
 }
 # What is called beside tests/test_bad_input.py, and good arguments.
 MORE = [
+    *(
+        (call, {"surface": rc.shapes.wave(rc.Grid((4, 16), 1e-6, periodic=True), 1e-7, 1.6e-5),
+                "material": SOFT_MATERIAL} | speed | load)
+        for call, speed in ((rc.steady_sliding, {"speed": 1e-6}), (rc.friction_curve, {"speeds": [1e-6]}))
+        for load in ({"pressure": 1e6}, {"force": 1e-5})
+    ),
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
     (rc.Grid, {"shape": (4, 8), "spacing": 1e-6}),
@@ -217,12 +223,6 @@ PLAIN_ONLY = [
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3, "force": 1e-5}),
     (MDR.tangential.partial_slip, {"indentation": PRESSED_TIP, "shear_modulus": 1e9, "friction": 0.3,
                                    "displacement": 1e-10}),
-    *(
-        (call, {"surface": rc.shapes.wave(rc.Grid((4, 16), 1e-6, periodic=True), 1e-7, 1.6e-5),
-                "material": SOFT_MATERIAL} | speed | load)
-        for call, speed in ((rc.steady_sliding, {"speed": 1e-6}), (rc.friction_curve, {"speeds": [1e-6]}))
-        for load in ({"pressure": 1e6}, {"force": 1e-5})
-    ),
     (rc.viscoelastic.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
     (rc.viscoelastic.maxwell, {"modulus": 1e9, "relaxation_time": 1.0}),
     (rc.viscoelastic.prony, {"equilibrium": 1e9, "moduli": [1e8], "times": [1.0]}),

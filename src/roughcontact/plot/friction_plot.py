@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.plot.drawing.axes_for import axes_for
-from roughcontact.plot.drawing.ticks import label_axes
+from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:
@@ -52,7 +52,8 @@ def friction_plot(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
                 *(curve.speed[which], values[which]), mark, color=colour, markerfacecolor=face, markersize=4
             )
         on.set_ylim(0, 1.1 * float(values.max()) or 1.0)
-        on.set_ylabel(label, color=colour)
+        on.set_ylabel(label, color=colour, fontsize=LABEL)
+        on.tick_params(labelsize=TICK)
 
     label_axes(axes, "sliding speed [m/s]", "", grid=True)
     draw(axes, curve.friction_coefficient, _FRICTION, "o", "friction coefficient")
