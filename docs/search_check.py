@@ -16,6 +16,7 @@ from urllib.parse import urlencode
 QUESTIONS = {
     "stiffness per area": "concepts/joints",
     "thermal contact": "tutorials/thermal",
+    "hysteretic friction": "concepts/sliding-hysteresis",
     "current of each spot": "gallery/bodies/spot_currents",
     "read a .sur file": "how-to/files",
     "my curve is unresolved": "how-to/unresolved",

@@ -57,6 +57,12 @@ VISCO = rc.viscoelastic
 # What is called beside tests/test_bad_input.py, and good arguments.
 _LEAK = {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "axis": 0}
 MORE = [
+    *(
+        (call, {"surface": rc.shapes.wave(rc.Grid((4, 16), 1e-6, periodic=True), 1e-7, 1.6e-5),
+                "material": SOFT_MATERIAL} | speed | load)
+        for call, speed in ((rc.steady_sliding, {"speed": 1e-6}), (rc.friction_curve, {"speeds": [1e-6]}))
+        for load in ({"pressure": 1e6}, {"force": 1e-5})
+    ),
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
     (rc.Grid, {"shape": (4, 8), "spacing": 1e-6}),
@@ -288,6 +294,8 @@ def unit_of(call, name, good):
         return "N/m"
     if call is rc.joint_conductance and name == "film" and "resistivities" in good:
         return "ohm*m^2"
+    if call in (rc.steady_sliding, rc.friction_curve) and name.startswith("speed"):
+        return "m/s"
     return UNIT.get(name)
 
 

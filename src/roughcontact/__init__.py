@@ -217,7 +217,15 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.surface.preparation.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.surface import Surface as Surface
+    from roughcontact.viscoelastic.friction_curve import (
+        FrictionCurve as FrictionCurve,
+        friction_curve as friction_curve,
+    )
     from roughcontact.viscoelastic.prony_series import Viscoelastic as Viscoelastic
+    from roughcontact.viscoelastic.steady_sliding import (
+        SlidingContact as SlidingContact,
+        steady_sliding as steady_sliding,
+    )
     from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve as ViscoelasticCurve
     from roughcontact.viscoelastic.viscoelastic_loading import (
         viscoelastic_curve as viscoelastic_curve,

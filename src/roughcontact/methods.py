@@ -98,6 +98,7 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
+    from roughcontact.plot.sliding_plot import friction_plot as friction_plot
     from roughcontact.recipe.material_file import (
         read_material as read_material,
         write_material as write_material,
@@ -124,6 +125,10 @@ if TYPE_CHECKING:
         viscoelastic_dataset as viscoelastic_dataset,
         viscoelastic_record as viscoelastic_record,
     )
+    from roughcontact.viscoelastic.sliding_dataset import (
+        friction_dataset as friction_dataset,
+        sliding_dataset as sliding_dataset,
+    )
 else:
     _HOMES = {
         "adhesion.adhesive_curve_dataset": "adhesive_curve_dataset adhesive_curve_record",
@@ -149,6 +154,7 @@ else:
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "plot_creep",
         "plot.detachment_plot": "detachment_force",
+        "plot.sliding_plot": "friction_plot",
         "plot.jumps": "jump_loop",
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
@@ -165,6 +171,7 @@ else:
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
         "viscoelastic.curve_dataset": "viscoelastic_dataset viscoelastic_record",
+        "viscoelastic.sliding_dataset": "friction_dataset sliding_dataset",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

@@ -24,7 +24,7 @@ from roughcontact.theory.joints import (
     thermal,
     ultrasound,
 )
-from roughcontact.theory.persson_theory import persson, persson_plastic, persson_separation
+from roughcontact.theory.persson_theory import persson, persson_friction, persson_plastic, persson_separation
 from roughcontact.theory.plastic_asperities import (
     chang_etsion_bogy,
     kogut_etsion,
@@ -125,6 +125,7 @@ GOOD = {
         "law": SPHERE,
     },
     **{"decay": 1e-7, "turned": 2e-3},
+    **{"material": rc.viscoelastic.standard_solid(1e6, 1e8, 1e-3), "speed": 0.01},
     **{"frequency": 1e6, "impedances": (4e7, 2e7), "reflected": 0.6, "density": 7850.0, "slope": 1e6},
 }
 OTHERS = {
@@ -158,6 +159,7 @@ MODULES = {
     "pohrt_popov": pohrt_popov, "power_law_indenter": power_law_indenter, "rough_sphere": rough_sphere,
     "rough_square": rough_square,
     "two_cosines": two_cosines, "chang_etsion_bogy": chang_etsion_bogy, "kogut_etsion": kogut_etsion,
+    "persson_friction": persson_friction,
     "persson_plastic": persson_plastic, "pullen_williamson": pullen_williamson, "ultrasound": ultrasound,
 }  # fmt: skip
 BODIES = (

@@ -16,6 +16,7 @@ from roughcontact.labels import (
     contact_columns,
     flow_columns,
     flux_columns,
+    sliding_columns,
     slip_columns,
     viscoelastic_columns,
 )
@@ -38,7 +39,14 @@ VARIABLES: Mapping[str, Column] = MappingProxyType(
     {
         column.name: column
         for tables in (
-            *(flow_columns, viscoelastic_columns, slip_columns, adhesive_columns, flux_columns),
+            *(
+                flow_columns,
+                viscoelastic_columns,
+                sliding_columns,
+                slip_columns,
+                adhesive_columns,
+                flux_columns,
+            ),
             contact_columns,
         )
         for value in vars(tables).values()

@@ -60,6 +60,7 @@ if TYPE_CHECKING or _LATE is None:
         pressure_profile as pressure_profile,
         profile_curve as profile_curve,
     )
+    from roughcontact.plot.sliding_plot import friction_plot as friction_plot
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
     from roughcontact.plot.stress_map import von_mises_section as von_mises_section
     from roughcontact.plot.study_picture import study_figure as study_figure

@@ -37,6 +37,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.theory.persson_theory import (
         persson as persson,
+        persson_friction as persson_friction,
         persson_plastic as persson_plastic,
         persson_separation as persson_separation,
     )
