@@ -8,7 +8,7 @@ import pytest
 import house_sizes
 from roughcontact.kernels import loader
 
-CODE = 54_000  # lines of code under src, without docstrings and comments
+CODE = 55_500  # lines of code under src, without docstrings and comments
 PARAMETERS = {
     "roughcontact.self_affine": 13,
     "roughcontact.loading_curve": 11,

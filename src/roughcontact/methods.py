@@ -86,7 +86,7 @@ if TYPE_CHECKING:
         plot_state as plot_state,
         plot_surface as plot_surface,
     )
-    from roughcontact.plot.creep_plot import plot_creep as plot_creep
+    from roughcontact.plot.creep_plot import creep_curve as creep_curve
     from roughcontact.plot.detachment_plot import detachment_force as detachment_force
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
@@ -98,7 +98,7 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
-    from roughcontact.plot.sliding_plot import friction_plot as friction_plot
+    from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
     from roughcontact.recipe.material_file import (
         read_material as read_material,
         write_material as write_material,
@@ -152,9 +152,9 @@ else:
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
-        "plot.creep_plot": "plot_creep",
+        "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",
-        "plot.sliding_plot": "friction_plot",
+        "plot.sliding_plot": "friction_speeds",
         "plot.jumps": "jump_loop",
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"

@@ -7,7 +7,7 @@ import roughcontact as rc
 from roughcontact.evaluation.interface_text import abaqus_text
 from roughcontact.fluid.fluids import _GASES
 from roughcontact.labels.flux_columns import HEAT_PARTS_NAMES
-from roughcontact.recipe.heat_parts import GASES, gas_of
+from roughcontact.recipe.measured.heat_parts import GASES, gas_of
 
 OBLONG = rc.Grid((24, 40), (4e-6, 3e-6), periodic=True)
 SURFACE = rc.self_affine(OBLONG, hurst=0.8, rms=1e-6, rng=1, rolloff=60e-6, short_cutoff=24e-6)

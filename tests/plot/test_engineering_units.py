@@ -106,8 +106,11 @@ def test_every_unit_of_the_table_can_be_printed():
         {"S", "ohm", "W/K", "K/W", "A", "V", "W", "K"},
     )
     flows = {"m³/s", "kg/s", "Pa·m³/s"}
+    times = {"s", "m/s", "Hz"}
     per_area = {"J/m²", "Pa/m", "S/m²", "m²·ohm", "W/m²/K", "m²·K/W", "A/m²", "W/m²"}
-    assert {pretty(known.unit) for known in VARIABLES.values()} == mechanics | conductance | flows | per_area
+    assert {
+        pretty(known.unit) for known in VARIABLES.values()
+    } == mechanics | conductance | flows | times | per_area
 
 
 def test_a_stiffness_per_area_is_in_the_unit_of_machine_design():

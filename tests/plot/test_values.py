@@ -177,7 +177,9 @@ def test_a_curve_draws_the_quantity_that_is_named(curve, quantity):
 
 
 def test_a_curve_refuses_other_quantities_and_laws_of_them(curve):
-    with pytest.raises(ValueError, match=r"one of stiffness, .*, mean_gap, not 'spots'"):
+    with pytest.raises(
+        ValueError, match=r"one of stiffness, .*, mean_gap, hydraulic_gap, transmissivity, not 'spots'"
+    ):
         curve.plot(quantity="spots")
     with pytest.raises(ValueError, match="law applies only to the stiffness: leave it out with 'depth'"):
         curve.plot(quantity="depth", law=fitted(curve))

@@ -23,7 +23,7 @@ if TYPE_CHECKING or _LATE is None:
         solution_figure as solution_figure,
         surface_figure as surface_figure,
     )
-    from roughcontact.plot.conductance_plot import conductance_curve as conductance_curve
+    from roughcontact.plot.creep_plot import creep_curve as creep_curve
     from roughcontact.plot.curves import (
         areal_curve as areal_curve,
         force_curve as force_curve,
@@ -35,14 +35,15 @@ if TYPE_CHECKING or _LATE is None:
         pressure_distribution as pressure_distribution,
     )
     from roughcontact.plot.ensemble import fitted_values as fitted_values, mean_curves as mean_curves
-    from roughcontact.plot.flux_plot import flux_map as flux_map, spot_resistances as spot_resistances
-    from roughcontact.plot.gap_flow_map import flow_map as flow_map
+    from roughcontact.plot.flows.conductance_plot import conductance_curve as conductance_curve
+    from roughcontact.plot.flows.flux_plot import flux_map as flux_map, spot_resistances as spot_resistances
+    from roughcontact.plot.flows.gap_flow_map import flow_map as flow_map
+    from roughcontact.plot.flows.leak_plot import leak_curve as leak_curve
     from roughcontact.plot.jumps import (
         jump_area as jump_area,
         jump_figure as jump_figure,
         jump_loop as jump_loop,
     )
-    from roughcontact.plot.leak_plot import leak_curve as leak_curve
     from roughcontact.plot.loops import (
         bearing_curves as bearing_curves,
         depth_loop as depth_loop,
@@ -60,7 +61,7 @@ if TYPE_CHECKING or _LATE is None:
         pressure_profile as pressure_profile,
         profile_curve as profile_curve,
     )
-    from roughcontact.plot.sliding_plot import friction_plot as friction_plot
+    from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
     from roughcontact.plot.stress_map import von_mises_section as von_mises_section
     from roughcontact.plot.study_picture import study_figure as study_figure

@@ -16,9 +16,10 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import about
 from roughcontact.evaluation.contact_flux import ContactFlux
 from roughcontact.fluid.gap_flow import GapFlow
-from roughcontact.plot import curves, flux_plot, loops, maps, profile_plot
-from roughcontact.plot.gap_flow_map import flow_map
-from roughcontact.plot.leak_plot import LEAKS, leak_curve
+from roughcontact.plot import curves, loops, maps, profile_plot
+from roughcontact.plot.flows import flux_plot
+from roughcontact.plot.flows.gap_flow_map import flow_map
+from roughcontact.plot.flows.leak_plot import LEAKS, leak_curve
 from roughcontact.plot.tension import tension_map, tension_profile
 from roughcontact.statistics.power_law import PowerLaw
 from roughcontact.surface.preparation.spikes import Spikes

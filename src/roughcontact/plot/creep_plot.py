@@ -16,12 +16,12 @@ from roughcontact.plot.drawing.ticks import label_axes
 if TYPE_CHECKING:
     from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
 
-__all__ = ["plot_creep"]
+__all__ = ["creep_curve"]
 
 _COLOURS = ("#0072b2", "#d55e00")
 
 
-def plot_creep(
+def creep_curve(
     curve: ViscoelasticCurve,
     ax: Axes | None = None,
     *,

@@ -14,12 +14,12 @@ from roughcontact.validation import Array
 if TYPE_CHECKING:
     from roughcontact.viscoelastic.friction_curve import FrictionCurve
 
-__all__ = ["friction_plot"]
+__all__ = ["friction_speeds"]
 
 _FRICTION, _AREA = "#0072b2", "#d55e00"
 
 
-def friction_plot(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
+def friction_speeds(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
     """Draw the friction coefficient and the relative contact area against speed; speeds without convergence are open.
 
     Parameters

@@ -9,10 +9,10 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.bodies import Bodies, Conduction
 from roughcontact.recipe.contact import Contact, pressed
-from roughcontact.recipe.heat_parts import HeatParts
-from roughcontact.recipe.incident_wave import Ultrasound
 from roughcontact.recipe.job_calls import Call, Name
-from roughcontact.recipe.leak_along import LeakAlong
+from roughcontact.recipe.measured.heat_parts import HeatParts
+from roughcontact.recipe.measured.incident_wave import Ultrasound
+from roughcontact.recipe.measured.leak_along import LeakAlong
 from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory, Theories, Units
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation

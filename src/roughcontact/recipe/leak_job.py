@@ -11,8 +11,8 @@ from roughcontact.files.quantity import DENSITY, LENGTH, PRESSURE, VISCOSITY
 from roughcontact.recipe.bodies import Bodies
 from roughcontact.recipe.contact import Contact
 from roughcontact.recipe.elastic_jobs import PressJob
-from roughcontact.recipe.heat_parts import GASES
 from roughcontact.recipe.job_calls import Call, Name
+from roughcontact.recipe.measured.heat_parts import GASES
 from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad

@@ -20,8 +20,8 @@ from roughcontact.files.fingerprint import fingerprint
 from roughcontact.files.standard_streams import standard
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
-from roughcontact.recipe.incident_wave import Ultrasound
 from roughcontact.recipe.jobs import JOBS, Job
+from roughcontact.recipe.measured.incident_wave import Ultrasound
 from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused

@@ -91,7 +91,7 @@ class FrictionCurve:
             f"m/s, friction coefficients up to {self.friction_coefficient.max():.4g})"
         )
 
-    plot = methods.friction_plot
+    plot = methods.friction_speeds
     to_dataset = methods.friction_dataset
 
 

@@ -113,7 +113,7 @@ class ViscoelasticCurve:
     to_csv = methods.csv_of
     to_dataset = methods.viscoelastic_dataset
     to_record = methods.viscoelastic_record
-    plot = methods.plot_creep
+    plot = methods.creep_curve
 
 
 _POINTS = names_of(

@@ -248,8 +248,8 @@ class CurveAnswer:
 
         from roughcontact.files.write import write_csv, write_json, write_netcdf
         from roughcontact.plot.canvas import save
-        from roughcontact.plot.conductance_plot import conductance_curve
-        from roughcontact.plot.leak_plot import leak_curve
+        from roughcontact.plot.flows.conductance_plot import conductance_curve
+        from roughcontact.plot.flows.leak_plot import leak_curve
 
         drawn: dict[str, Any] = {}
         if self.job.leak.leak is not None:

@@ -50,7 +50,7 @@ def leak(job: LeakJob, *, answer: Answer) -> None:
     from roughcontact.fluid.leak import shape_factor
     from roughcontact.labels.engineering_units import written
     from roughcontact.plot.facts import leak_facts, rate_words
-    from roughcontact.plot.gap_flow_map import flow_figure
+    from roughcontact.plot.flows.gap_flow_map import flow_figure
     from roughcontact.theory import leakage
 
     hardness_of_job(job.pressed)

@@ -1,0 +1,1 @@
+"""Parts of a curve that add columns to it."""
