@@ -70,7 +70,7 @@ class PageRequest:
 
         def known(file: File) -> UploadedFile:
             if file.file not in files:
-                raise InputError("the server no longer has this file", "drop it again", "source.file")
+                raise InputError("the server no longer has this file", "drop it again", "file")
             return files[file.file]
 
         job = from_plain(plain)

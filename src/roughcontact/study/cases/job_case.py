@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
-from roughcontact.errors import InputError, every, placed, together
+from roughcontact.errors import InputError, every, together
 from roughcontact.files.fingerprint import fingerprint
 from roughcontact.recipe.job_calls import Call, Name, perform
 from roughcontact.recipe.jobs import Job, calls_of, known_names
@@ -61,8 +61,7 @@ class JobParameters(Parameters):
                 raise InputError(
                     "a study only supports jobs that press surfaces", "take press or curve", "job"
                 )
-            with placed("source"):
-                job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
+            job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
         except InputError as error:
             mistakes += every(error)
         if mistakes:
