@@ -106,6 +106,10 @@ def _part(kind: Any, values: Any) -> Any:
     made = {}
     for name, value in values.items():
         try:
+            if (apart := getattr(kind, "APART", {}).get(name)) is not None:
+                raise InputError(
+                    f"{apart} together with viscoelasticity is not modelled", "leave it out", name
+                )
             if name not in known:
                 near = difflib.get_close_matches(str(name), known, 1)
                 remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
@@ -338,5 +342,6 @@ def with_files(job: J, change: Callable[[File], File]) -> J:
     if isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
         with within("bodies"):
             file = change(File(file=body.material, sha256=body.sha256))
-        job = replace(job, bodies=replace(body, material=file.file, sha256=file.sha256))
+        found: Any = replace(body, material=file.file, sha256=file.sha256)
+        job = replace(job, bodies=found)
     return job
