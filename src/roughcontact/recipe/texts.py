@@ -34,9 +34,11 @@ __all__ = [
     "points",
     "ranges",
     "rising_loads",
+    "sha256",
     "size",
     "temperature",
     "whole",
+    "word",
 ]
 
 METALS = (
@@ -151,6 +153,23 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
         return int(text)
 
     return read
+
+
+def word(text: str) -> str:
+    """Return a name, which is not empty."""
+    if not text:
+        raise InputError("the name is empty", "write it, or leave the field out")
+    return text
+
+
+def sha256(text: str) -> str:
+    """Return a SHA-256 as files of checksums write it."""
+    if re.fullmatch("[0-9a-f]{64}", text) is None:
+        raise InputError(
+            f"{text!r} is not a SHA-256",
+            "write its 64 digits from 0 to f, as sha256sum prints them, or leave it out",
+        )
+    return text
 
 
 @dataclass(frozen=True, slots=True)

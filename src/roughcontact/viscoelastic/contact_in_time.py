@@ -14,16 +14,18 @@ from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.solver.control import Control, Depth, Force, Solver, Start, State, Tangent
-from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
+from roughcontact.solver.subdomain import Box, Subdomain, SubdomainSolver, prolong
 from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.relaxation_step import Transition
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["BodyState", "ContactInTime", "Guess", "Trial"]
+__all__ = ["BodyState", "ContactInTime", "Guess", "Search", "Trial"]
 
 Guess = tuple[Array, float]
 """A pressure [Pa] and a depth [m] to start from."""
+Search = tuple[Array | None, Box | None]
+"""The last tangent [Pa/m] and the last window, which set the last bits of the next state."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,6 +203,18 @@ class ContactInTime:
 
     def __post_init__(self) -> None:
         self._subdomains = SubdomainSolver(self.problem.operator)
+
+    @property
+    def search(self) -> Search:
+        """Where the searches of the next step start, beside its guess."""
+        return None if self._tangent is None else self._tangent.pressure, self._subdomains.box
+
+    @search.setter
+    def search(self, last: Search) -> None:
+        tangent, box = last
+        self._tangent = None if tangent is None else Tangent(tangent, math.inf)
+        if box is not None:
+            self._subdomains.operator_on(box)
 
     def untouched(self, time: float) -> BodyState:
         """Return the undeformed body."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -18,14 +20,16 @@ from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Depth, Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require, scalar, whole
+from roughcontact.viscoelastic.checkpoint import Checkpoint
 from roughcontact.viscoelastic.contact_in_time import ContactInTime
+from roughcontact.viscoelastic.growing_curve import GrowingCurve
 from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
 from roughcontact.viscoelastic.time_history import checked_history
-from roughcontact.viscoelastic.time_steps import AdaptiveSteps, FixedSteps, states_along
-from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve, collect
+from roughcontact.viscoelastic.time_steps import AdaptiveSteps, FixedSteps, History
+from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["viscoelastic_curve", "viscoelastic_path"]
+__all__ = ["growing_curve", "viscoelastic_curve", "viscoelastic_path"]
 
 TIME_TOLERANCE = 1e-3
 NOISE = 10  # least ratio of the tolerance of time to that of a solve, whose error a difference contains
@@ -94,6 +98,134 @@ def viscoelastic_path(
     >>> [f"{state.force * 1e6:.2f} uN at {state.time:g} s" for state in path if state.prescribed]
     ['0.00 uN at 0 s', '3.16 uN at 1 s', '0.44 uN at 9 s']
     """
+    history = _history(
+        surface,
+        material,
+        times=times,
+        forces=forces,
+        depths=depths,
+        pressures=pressures,
+        time_tolerance=time_tolerance,
+        steps=steps,
+        operator=operator,
+        solver=solver,
+        tolerance=tolerance,
+    )
+    return tracked((state for state, _ in history.states()), "Pressing", "steps")
+
+
+@numeric(times="s", forces=force_unit, depths="m", pressures="Pa")
+def viscoelastic_curve(
+    surface: Body,
+    material: Viscoelastic,
+    *,
+    times: Sequence[float] | Array,
+    forces: Sequence[float] | Array | None = None,
+    depths: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
+    time_tolerance: float = TIME_TOLERANCE,
+    steps: int | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+    measures: Sequence[StateMeasure] = (),
+    checkpoint: str | os.PathLike[str] | None = None,
+) -> ViscoelasticCurve:
+    """Return force, depth, contact area, stiffness and energies of a viscoelastic contact against time.
+
+    Parameters
+    ----------
+    surface : Surface or RadialProfile
+        Heights [m], see `viscoelastic_path`.
+    material : Viscoelastic
+        See `viscoelastic_path`.
+    times : array, shape (n,)
+        Times that do not decrease [s]; two equal times are a jump.
+    forces, depths, pressures : array, shape (n,)
+        Exactly one: forces [N], depths [m] or nominal pressures [Pa], linear between the times.
+    time_tolerance : float
+        Largest estimated error of time, see `viscoelastic_path`.
+    steps : int, optional
+        Number of equal steps in each interval instead, without an estimate.
+    operator : Operator, optional
+        A body other than the half-space on the surface's grid, see `viscoelastic_path`.
+    solver : Solver, optional
+        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
+    tolerance : float
+        Largest residual of each step.
+    measures : sequence of functions
+        Each returns numbers of a `Solution` by name, which become columns of the curve, see `loading_curve`.
+    checkpoint : path, optional
+        File (.npz) to which the computation is written once a minute, at its end, and when it is interrupted. If it
+        holds a part of the same computation, the rest is computed, with the same numbers to the last bit.
+
+    Returns
+    -------
+    ViscoelasticCurve
+        One point for each step; fields are not kept, see `viscoelastic_path`.
+
+    Raises
+    ------
+    ValueError
+        If the input makes no sense.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.viscoelastic.standard_solid(1e6, 1e7, 1.0)
+    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
+    >>> curve = rc.viscoelastic_curve(ball, rubber, times=[0, 100], forces=[1e-4, 1e-4])
+    >>> f"{(curve.depth[-1] / curve.depth[0]) ** 1.5:.1f}"  # by Hertz J(100 s)/J(0), which is 10
+    '10.3'
+    """
+    growing = growing_curve(
+        surface,
+        material,
+        times=times,
+        forces=forces,
+        depths=depths,
+        pressures=pressures,
+        time_tolerance=time_tolerance,
+        steps=steps,
+        operator=operator,
+        solver=solver,
+        tolerance=tolerance,
+        measures=measures,
+        checkpoint=checkpoint,
+    )
+    growing.grow()
+    return growing.curve()
+
+
+def growing_curve(
+    surface: Body,
+    material: Viscoelastic,
+    *,
+    measures: Sequence[StateMeasure] = (),
+    checkpoint: str | os.PathLike[str] | None = None,
+    **given: Any,
+) -> GrowingCurve:
+    """Return the curve of `viscoelastic_curve` before it is computed; it holds what the checkpoint holds."""
+    history = _history(surface, material, **given)
+    file = None if checkpoint is None else Checkpoint.of(checkpoint, history, measures)
+    return GrowingCurve(history, measures, file)
+
+
+def _history(
+    surface: Body,
+    material: Viscoelastic,
+    *,
+    times: Sequence[float] | Array,
+    forces: Sequence[float] | Array | None = None,
+    depths: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
+    time_tolerance: float = TIME_TOLERANCE,
+    steps: int | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> History:
+    """Return a history whose arguments are checked, see `viscoelastic_path`."""
     checked_material(material)
     loads = Loads.of(forces=forces, depths=depths, pressures=pressures)
     t, values = checked_history(times, loads.values)
@@ -122,83 +254,7 @@ def viscoelastic_path(
         _require_depths(problem, material, t, values)
     rule = AdaptiveSteps(accuracy) if steps is None else FixedSteps(whole(steps, "steps"))
     contact = ContactInTime(problem, material, forced, solver or ActiveSet())
-    return tracked(states_along(contact, t, values, rule), "Pressing", "steps")
-
-
-@numeric(times="s", forces=force_unit, depths="m", pressures="Pa")
-def viscoelastic_curve(
-    surface: Body,
-    material: Viscoelastic,
-    *,
-    times: Sequence[float] | Array,
-    forces: Sequence[float] | Array | None = None,
-    depths: Sequence[float] | Array | None = None,
-    pressures: Sequence[float] | Array | None = None,
-    time_tolerance: float = TIME_TOLERANCE,
-    steps: int | None = None,
-    operator: Operator | None = None,
-    solver: Solver | None = None,
-    tolerance: float = 1e-8,
-    measures: Sequence[StateMeasure] = (),
-) -> ViscoelasticCurve:
-    """Return force, depth, contact area, stiffness and energies of a viscoelastic contact against time.
-
-    Parameters
-    ----------
-    surface : Surface or RadialProfile
-        Heights [m], see `viscoelastic_path`.
-    material : Viscoelastic
-        See `viscoelastic_path`.
-    times : array, shape (n,)
-        Times that do not decrease [s]; two equal times are a jump.
-    forces, depths, pressures : array, shape (n,)
-        Exactly one: forces [N], depths [m] or nominal pressures [Pa], linear between the times.
-    time_tolerance : float
-        Largest estimated error of time, see `viscoelastic_path`.
-    steps : int, optional
-        Number of equal steps in each interval instead, without an estimate.
-    operator : Operator, optional
-        A body other than the half-space on the surface's grid, see `viscoelastic_path`.
-    solver : Solver, optional
-        Settings of the method: `ActiveSet` (default) or `PolonskyKeer`.
-    tolerance : float
-        Largest residual of each step.
-    measures : sequence of functions
-        Each returns numbers of a `Solution` by name, which become columns of the curve, see `loading_curve`.
-
-    Returns
-    -------
-    ViscoelasticCurve
-        One point for each step; fields are not kept, see `viscoelastic_path`.
-
-    Raises
-    ------
-    ValueError
-        If the input makes no sense.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> rubber = rc.viscoelastic.standard_solid(1e6, 1e7, 1.0)
-    >>> ball = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), radius=1e-4)
-    >>> curve = rc.viscoelastic_curve(ball, rubber, times=[0, 100], forces=[1e-4, 1e-4])
-    >>> f"{(curve.depth[-1] / curve.depth[0]) ** 1.5:.1f}"  # by Hertz J(100 s)/J(0), which is 10
-    '10.3'
-    """
-    path = viscoelastic_path(
-        surface,
-        material,
-        times=times,
-        forces=forces,
-        depths=depths,
-        pressures=pressures,
-        time_tolerance=time_tolerance,
-        steps=steps,
-        operator=operator,
-        solver=solver,
-        tolerance=tolerance,
-    )
-    return collect(path, measures)
+    return History(contact, t, values, rule)
 
 
 def _require_band(material: Viscoelastic, times: Array) -> None:

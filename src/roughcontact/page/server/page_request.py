@@ -12,6 +12,7 @@ from roughcontact.files.fingerprint import fingerprint
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
+from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
 from roughcontact.recipe.leak_job import LeakJob
@@ -70,11 +71,11 @@ class PageRequest:
 
         def known(file: File) -> UploadedFile:
             if file.file not in files:
-                raise InputError("the server no longer has this file", "drop it again", "source.file")
+                raise InputError("the server no longer has this file", "drop it again", "file")
             return files[file.file]
 
         job = from_plain(plain)
-        if isinstance(job, TheoryJob | LeakJob):
+        if isinstance(job, TheoryJob | LeakJob | CreepJob):
             raise InputError(
                 f"the page does not show the job {job.NAME!r}",
                 "use the command roughcontact run",
