@@ -184,8 +184,6 @@ MORE = [
     (VISCO.reduced, {"modulus": SOFT_MATERIAL, "kind": "shear", "poisson": 0.4}),
     (VISCO.power_law, {"modulus": 1e6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2), "equilibrium": 1e5,
                        "terms_per_decade": 1.0}),
-    (VISCO.creep_power_law, {"compliance": 1e-6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2),
-                             "instantaneous": 1e-7, "terms_per_decade": 1.0}),
     *((VISCO.from_dma, {"storage": [1e6, 2e6, 3e6], "loss": [1e5, 2e5, 1e5], name: [1.0, 10.0, 100.0],
                         "temperature": 300.0, "terms_per_decade": 1.0} | constant)
       for name, constant in (("frequencies", {"bulk": 1e9}), ("angular_frequencies", {"poisson": 0.4}))),
@@ -286,7 +284,7 @@ def unit_of(call, name, good):
         return "Pa"
     if name == "density" and call in (rc.Liquid, rc.Material):
         return "kg/m^3"
-    if call in (VISCO.from_creep, VISCO.creep_power_law) and name == "instantaneous":
+    if call is VISCO.from_creep and name == "instantaneous":
         return "1/Pa"
     if call is rc.load_cycle:
         return None  # of forces or of displacements

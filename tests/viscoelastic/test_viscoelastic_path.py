@@ -266,7 +266,7 @@ MEASURED = rc.Viscoelastic(1.0, (2.0,), (1.0,), band=(1e-2, 1e2))
         ),
         ("a viscoelastic material is needed", {"material": 1e6}, {}),
         (
-            "contain an interval of 1000 s",
+            "lasts 1000 s, and the data of the material end at 100 s",
             {"material": MEASURED, "times": [0, 1, 1000]},
             {"material": MEASURED, "times": [0, 1, 100]},
         ),
