@@ -165,6 +165,22 @@ def test_dashpots_are_of_first_order():
     assert abs(adapted[-1].energy_leak) < 0.1 * adapted[-1].work
 
 
+@pytest.mark.parametrize(
+    ("load", "other", "tolerance"), [("forces", "depth", 0.1), ("depths", "force", 0.05)]
+)
+def test_a_dashpot_meets_one_cell_after_another(load, other, tolerance):
+    """At each cell the pressure jumps, and at the start all is of the order of its error: steps pass over both."""
+    damped = rc.Viscoelastic(equilibrium=1.0, dashpot=1.0)
+    history = {"times": [0, 1, 2], load: [0, 0.02, 0.01]}
+    states = path(FREE, damped, **history, time_tolerance=tolerance)
+    assert len(states) < 100
+    fine = path(FREE, damped, **history, steps=60)
+    wanted = [getattr(state, other) for state in fine if state.prescribed]
+    found = [getattr(state, other) for state in states if state.prescribed]
+    assert found == pytest.approx(wanted, abs=tolerance * max(wanted))
+    assert 0 < states[-1].time_error <= tolerance
+
+
 def test_a_fluid_is_pressed_until_a_period_is_full():
     fluid = rc.viscoelastic.maxwell(1.0, 1.0)
     states = path(PERIODIC, fluid, times=[0, 1e3], pressures=[0.01, 0.01], time_tolerance=1e-2)

@@ -250,7 +250,7 @@ def _history(
     if not forced:
         _require_depths(problem, material, t, values)
     rule = AdaptiveSteps(accuracy) if steps is None else FixedSteps(whole(steps, "steps"))
-    contact = ContactInTime(problem, material, forced, solver or ActiveSet())
+    contact = ContactInTime(problem, material, forced, solver or ActiveSet(), float(np.abs(values).max()))
     return History(contact, t, values, rule)
 
 
