@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from roughcontact import viscoelastic
 from roughcontact.citing.bibliography import references
 
 MODULUS = ("--modulus", "1GPa")
@@ -11,6 +12,7 @@ LINES = {
     "press": ("--force", "1mN", *MODULUS),
     "curve": ("--forces", "0.1mN,1mN", *MODULUS, "--hardness", "1GPa", "--theory", "gw"),
     "leak": ("--force", "0.1N", *MODULUS, "--viscosity", "1mPa*s", "--drop", "1kPa"),
+    "creep": ("--history", "0s:0nm,1s:1nm", "--steps", "2", "--material", "rubber.toml"),
     "adhesion press": ("--depth", "1nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion curve": ("--depths", "1nm,2nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion detach": ("--force", "1mN", *MODULUS, "--work", "1mJ/m^2"),
@@ -21,6 +23,7 @@ PAPERS = {
     "press": "Love1929",
     "curve": "Greenwood1966",
     "leak": "Love1929",
+    "creep": "Love1929",
     "adhesion press": "Rey2017",
     "adhesion curve": "Rey2017",
     "adhesion detach": "Pohrt2015",
@@ -34,7 +37,9 @@ def text_of(key):
 
 
 @pytest.mark.parametrize("command", LINES)
-def test_references_follow_the_answer(command, invoke, rough, tmp_path):
+def test_references_follow_the_answer(command, invoke, rough, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    viscoelastic.standard_solid(1e9, 2e9, 1.0).write("rubber.toml")
     out = tmp_path / "out"
     answer = invoke(*command.split(), rough, *LINES[command], "--cite", "--out", out)
     assert answer.exit_code == 0, answer.stderr

@@ -8,6 +8,7 @@ import typer
 from typer.testing import CliRunner
 
 from every_field import smallest
+from roughcontact import viscoelastic
 from roughcontact.cli.commands import do
 from roughcontact.cli.option_groups import argument, grouped, option
 from roughcontact.cli.options import Answer
@@ -161,7 +162,11 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         if name == "theory"
         else {"job": name, "source": {"file": str(rough), "periodic": False}}
     )
-    if name != "surface":
+    if name == "creep":
+        viscoelastic.standard_solid(1e9, 2e9, 1.0).write(tmp_path / "rubber.toml")
+        plain["history"] = {"history": "0s:0nm,1s:1nm"}
+        plain["bodies"] = {"material": str(tmp_path / "rubber.toml")}
+    elif name != "surface":
         plain["bodies"] = {"modulus": "1GPa"}
     if name in ("press", "leak", "adhesion detach"):
         plain["load"] = {"depth": "10nm"}

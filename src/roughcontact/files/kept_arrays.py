@@ -25,7 +25,7 @@ def kept_arrays(path: str | os.PathLike[str]) -> dict[str, Array]:
     """
     target = require_target(path)
     try:
-        with np.load(target, allow_pickle=False) as file:
+        with target.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
             return dict(file)
     except (OSError, ValueError, EOFError, zipfile.BadZipFile):
         return {}

@@ -101,7 +101,7 @@ def creep_facts(curve: ViscoelasticCurve, history: History) -> list[tuple[str, s
             "reduced modulus",
             f"{sudden}, {moduli[1]} after a long time; {len(material.times)} relaxation times",
         ),
-        ("states", f"{len(curve)}, of which {curve.prescribed.sum()} at given times are shown below"),
+        ("states", f"{len(curve)}, of which {curve.prescribed.sum()} are at given times"),
         ("largest certificate", f"{curve.residual.max():.1e} (tolerance {problem.tolerance:.0e}: {met})"),
         ("largest residual of time", f"{curve.time_residual.max():.1e}"),
         ("error of time", "not estimated for fixed steps" if np.isnan(error) else f"{error:.1e}, estimated"),

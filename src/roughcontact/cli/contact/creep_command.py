@@ -49,6 +49,8 @@ def creep(job: CreepJob, *, answer: Answer) -> None:
         if growing.rows:
             seconds = growing.rows[-1]["time"]
             remark(f"{folder} holds the states up to {seconds:.6g} s: the computation goes on from there")
+        elif folder is not None and (folder / _CHECKPOINT).exists():
+            note(f"{folder / _CHECKPOINT} is of another computation and is replaced; another --out keeps it")
         try:
             growing.grow()
         except KeyboardInterrupt:
@@ -62,8 +64,10 @@ def creep(job: CreepJob, *, answer: Answer) -> None:
         emit(record)
     else:
         print_facts([("file", record["file"]), *creep_facts(curve, growing.history)])
+        shown = curve.prescribed.copy()
+        shown[-1] = True  # of a history that was stopped
         columns = CREEP_PER_AREA if "pressures" in job.history.named(job.profile) else CREEP_COLUMNS
-        print_table(*load_table(curve.to_dataset().isel(time=curve.prescribed), columns))
+        print_table(*load_table(curve.to_dataset().isel(time=shown), columns))
     for line in curve.notes:
         note(line)
     files = (f"{_STEM}.csv", f"{_STEM}.json", f"{_STEM}.nc", f"{_STEM}.{answer.ending}")
