@@ -56,6 +56,14 @@ def test_a_sphere_under_a_held_force_sinks_by_the_creep_function():
         assert np.array_equal(state.contact, elastic.contact)
 
 
+def test_a_small_tolerance_is_met_on_rings():
+    few = rings(24, 0.5)
+    for state in given(few, times=[0.0, 1.0, 3.0], forces=[0.1] * 3, time_tolerance=1e-5):
+        elastic = rc.press(few, 1 / float(CREEP(state.time)), force=0.1, tolerance=1e-10)
+        assert state.depth == pytest.approx(elastic.depth, rel=1e-5)
+        assert np.array_equal(state.contact, elastic.contact)
+
+
 def test_the_error_in_time_is_of_second_order():
     truth = rc.press(BALL, 1 / float(CREEP(1.0)), force=0.1)
     errors = [
@@ -178,7 +186,7 @@ def test_a_wave_under_a_held_pressure_closes():
     grid = rc.Grid((8, 256), (1 / 256, 1 / 256), periodic=True)
     wave = rc.Surface(0.01 * np.tile(np.cos(2 * np.pi * grid.coordinates[1]), (8, 1)), grid)
     most = np.pi * 0.01
-    times = [0.0, 1.0, 4.1, 4.3, 10.0]
+    times = [0.0, 1.0, 4.15, 4.165, 8.0]
     states = given(wave, times=times, pressures=[1.2 * most] * 5)
     widths = [state.contact_fraction / 2 for state in states]
     assert widths[:2] == pytest.approx(
@@ -187,6 +195,6 @@ def test_a_wave_under_a_held_pressure_closes():
     elastic = rc.press(wave, 1 / float(CREEP(1.0)), pressure=1.2 * most)
     assert np.array_equal(states[1].contact, elastic.contact)
     assert [fraction < 0.5 for fraction in widths] == [True, True, True, False, False]  # full at 4.1589
-    # In full contact the amplitude of the pressure relaxes to E_inf p*.
-    assert np.ptp(states[-1].pressure) / 2 < 1.02 * most
+    # In full contact the amplitude of the pressure relaxes to E_inf p*, of which 0.02 are left at 8 s.
+    assert np.ptp(states[-1].pressure) / 2 < 1.04 * most
     assert states[-1].stiffness == np.inf
