@@ -59,7 +59,7 @@ def test_a_jump_and_a_long_hold_are_elastic_contacts(surface, more):
 
 def test_a_held_squeeze_changes_no_gap_while_the_force_relaxes():
     depth = 0.5 * rc.press(PERIODIC, 1.0, force=0.02).depth
-    states = path(PERIODIC, times=[0, 1, 200], depths=[0, depth, depth], tolerance=1e-10)
+    states = path(PERIODIC, times=[0, 1, 200], depths=[0, depth, depth], tolerance=1e-10, **SOFT)
     held = [state for state in states if state.time >= 1]
     assert held[-1].force < 0.5 * held[0].force
     for state in held:
@@ -117,11 +117,11 @@ def test_the_leak_of_energy_is_of_second_order():
     [(FREE, "forces", 0.02, "depth"), (PERIODIC, "depths", 0.02, "force")],
 )
 def test_how_a_history_is_cut_changes_nothing_beyond_the_tolerance(surface, load, most, other):
-    given = {"time_tolerance": 2e-3}
+    given = {"time_tolerance": 5e-3}
     whole = path(surface, times=[0, 2], **{load: [0, most]}, **given)[-1]
     shares = np.array([0, 0.15, 0.15, 0.55, 1])
     cut = path(surface, times=2 * shares, **{load: most * shares}, **given)[-1]
-    assert getattr(cut, other) == pytest.approx(getattr(whole, other), rel=4e-3)  # the tolerance of each
+    assert getattr(cut, other) == pytest.approx(getattr(whole, other), rel=1e-2)  # the tolerance of each
 
 
 @pytest.mark.parametrize("weight", [0.0, 1e-12])
