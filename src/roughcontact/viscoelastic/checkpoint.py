@@ -108,7 +108,7 @@ class Checkpoint:
                 "box": box and [(part.start, part.stop) for part in box],
             }
             found = {
-                **{name: getattr(body, name) for name in ("pressure", "products", "totals")},
+                **{name: getattr(body, name) for name in ("pressure", "products", "totals", "largest")},
                 **dict(zip(("pressures", "displacements"), body.fields, strict=True)),
                 "before": body.before and body.before[0],
                 "tangent": tangent,
@@ -119,15 +119,14 @@ class Checkpoint:
 
 
 def _restart(record: dict[str, Any], arrays: dict[str, Array], history: History) -> Restart:
-    products, totals = arrays.pop("products"), arrays.pop("totals")
+    numbers: dict[str, Any] = {name: arrays.pop(name) for name in ("products", "totals", "largest")}
     like, depth, box = history.contact.problem.separation, record["before"], record["box"]
     found = {name: as_like(array, like) for name, array in arrays.items()}
     body = BodyState(
         **record["body"],
         pressure=found["pressure"],
         fields=(found["pressures"], found["displacements"]),
-        products=products,
-        totals=totals,
+        **numbers,
         before=None if depth is None else (found["before"], depth),
     )
     search = found.get("tangent"), box and tuple(slice(*part) for part in box)

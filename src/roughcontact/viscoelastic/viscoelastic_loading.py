@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -23,7 +22,7 @@ from roughcontact.validation import Array, numeric, require, scalar, whole
 from roughcontact.viscoelastic.checkpoint import Checkpoint
 from roughcontact.viscoelastic.contact_in_time import ContactInTime
 from roughcontact.viscoelastic.growing_curve import GrowingCurve
-from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.time_history import checked_history
 from roughcontact.viscoelastic.time_steps import AdaptiveSteps, FixedSteps, History
 from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
@@ -226,11 +225,9 @@ def _history(
     tolerance: float = 1e-8,
 ) -> History:
     """Return a history whose arguments are checked, see `viscoelastic_path`."""
-    checked_material(material)
     loads = Loads.of(forces=forces, depths=depths, pressures=pressures)
-    t, values = checked_history(times, loads.values)
+    t, values = checked_history(material, times, loads.values)
     grid = grid_of(surface)
-    _require_band(material, t)
     forced = loads.kind != "depth"
     if forced:
         require(
@@ -253,24 +250,8 @@ def _history(
     if not forced:
         _require_depths(problem, material, t, values)
     rule = AdaptiveSteps(accuracy) if steps is None else FixedSteps(whole(steps, "steps"))
-    contact = ContactInTime(problem, material, forced, solver or ActiveSet())
+    contact = ContactInTime(problem, material, forced, solver or ActiveSet(), float(np.abs(values).max()))
     return History(contact, t, values, rule)
-
-
-def _require_band(material: Viscoelastic, times: Array) -> None:
-    """Refuse intervals shorter or longer than the times that the data of the material cover."""
-    band = getattr(material, "band", None)
-    if band is None:
-        return
-    spans = np.diff(times)
-    shortest, longest = float(spans[spans > 0].min(initial=math.inf)), float(times[-1] - times[0])
-    if shortest < band[0] or longest > band[1]:
-        wrong = longest if longest > band[1] else shortest
-        raise about(
-            "times",
-            f"contain an interval of {wrong:g} s; the data of the material cover {band[0]:g} to {band[1]:g} s",
-            "choose times within the data, or measure the material over a wider band",
-        )
 
 
 def _require_depths(problem: ContactProblem, material: Viscoelastic, times: Array, depths: Array) -> None:
