@@ -46,6 +46,7 @@ _STEMS = {
     "press": "press",
     "leak": "leak",
     "curve": "curve",
+    "sliding": "sliding",
     "theory": "theory",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",

@@ -9,6 +9,7 @@ from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -24,7 +25,7 @@ def forms() -> dict[str, Any]:
     A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
     (``at_most``) is given.
     """
-    jobs = {name: job for name, job in JOBS.items() if job not in (TheoryJob, LeakJob)}
+    jobs = {name: job for name, job in JOBS.items() if job not in (TheoryJob, LeakJob, SlidingJob)}
     return {
         "sources": {
             source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)

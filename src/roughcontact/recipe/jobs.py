@@ -11,6 +11,7 @@ from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob,
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -28,6 +29,7 @@ JobOfHeights: TypeAlias = (
     | AdhesiveCurveJob
     | AdhesiveLoopJob
     | DetachJob
+    | SlidingJob
 )
 Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
@@ -41,6 +43,7 @@ JOBS: Mapping[str, type[Any]] = {
         AdhesiveCurveJob,
         AdhesiveLoopJob,
         DetachJob,
+        SlidingJob,
         TheoryJob,
     )
 }

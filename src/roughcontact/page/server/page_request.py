@@ -15,6 +15,7 @@ from roughcontact.recipe.command import command_of
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File
 from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
@@ -74,7 +75,7 @@ class PageRequest:
             return files[file.file]
 
         job = from_plain(plain)
-        if isinstance(job, TheoryJob | LeakJob):
+        if isinstance(job, TheoryJob | LeakJob | SlidingJob):
             raise InputError(
                 f"the page does not show the job {job.NAME!r}",
                 "use the command roughcontact run",
