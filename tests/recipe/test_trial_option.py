@@ -111,6 +111,7 @@ COMMANDS = [
     "adhesion curve",
     "adhesion loop",
     "adhesion detach",
+    "sliding",
 ]
 
 
