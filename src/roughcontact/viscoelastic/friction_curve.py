@@ -22,9 +22,6 @@ from roughcontact.viscoelastic.steady_sliding import SlidingContact, at_rest, mo
 
 __all__ = ["FrictionCurve", "along_speeds", "collect_speeds", "friction_curve"]
 
-CUTS = 2  # intermediate speeds on the way to one that does not converge from the one before
-DECADES = 2.0  # from rest to the first speed, to divide this way
-
 # Attributes of a state that become columns of the curve.
 _COLUMNS = (
     *("speed", "friction", "friction_coefficient", "friction_across", "friction_error", "dissipation"),
@@ -56,7 +53,7 @@ class FrictionCurve:
     mean_gap, depth : array, shape (n,)
         [m]
     residual, solves : array, shape (n,)
-        Violation of the conditions of contact, and the number of solves, with those of intermediate speeds.
+        Violation of the conditions of contact, and the number of solves, with those at speeds in between.
     status : tuple of Status
     nominal_pressure : float
         [Pa]
@@ -121,7 +118,7 @@ def friction_curve(
 ) -> FrictionCurve:
     """Return hysteretic friction and contact against speed; each speed starts from the contact at the one before.
 
-    If a speed does not converge, speeds between it and the one before are solved first, at most two on the way.
+    If a speed does not converge from the one before, one between them is solved first.
 
     Parameters
     ----------
@@ -185,11 +182,12 @@ def along_speeds(
         return moving(rest, material, speed, along, start)
 
     def states() -> Iterator[SlidingContact]:
-        start, cuts = None, CUTS
+        start, missed = None, False
         for speed in tracked(values.tolist(), "Sliding", "speeds"):
-            state = _reached(slide, speed, start, cuts)
             # After a miss the way is longer than the one that has failed.
-            start, cuts = (state, CUTS) if state.status.converged else (start, 0)
+            state = _reached(slide, speed, start, by_another=not missed)
+            missed = not state.status.converged
+            start = start if missed else state
             yield state
 
     return states()
@@ -221,16 +219,18 @@ def _reached(
     slide: Callable[[float, SlidingContact | None], SlidingContact],
     speed: float,
     start: SlidingContact | None,
-    cuts: int,
+    *,
+    by_another: bool,
 ) -> SlidingContact:
-    """Return the state at a speed, by way of intermediate speeds if it does not converge from `start`."""
+    """Return the state at a speed, `by_another` speed on the way if it does not converge from `start`."""
     state = slide(speed, start)
-    if state.status.converged or not speed or not cuts:
+    if state.status.converged or not speed or not by_another:
         return state
-    below = start.speed if start is not None and start.speed else speed / 10**DECADES
-    middle = _reached(slide, math.sqrt(below * speed), start, cuts - 1)
+    below = start.speed if start is not None and start.speed else speed / 100  # from rest: a decade below
+    middle = slide(math.sqrt(below * speed), start)
     found, solves = state, state.solves + middle.solves
     if middle.status.converged:
         again = slide(speed, middle)
-        found, solves = min(state, again, key=lambda each: each.residual), solves + again.solves
+        found = min(state, again, key=lambda each: (not each.status.converged, each.residual))
+        solves += again.solves
     return replace(found, solves=solves)
