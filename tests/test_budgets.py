@@ -26,6 +26,7 @@ OPTIONS = {
     "adhesion curve": 46,
     "adhesion detach": 45,
     "adhesion loop": 44,
+    "sliding": 37,
     "theory": 30,
     "surface prepare": 28,
     "surface specified": 20,

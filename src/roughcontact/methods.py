@@ -128,6 +128,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.viscoelastic.sliding_dataset import (
         friction_dataset as friction_dataset,
+        friction_record as friction_record,
         sliding_dataset as sliding_dataset,
     )
 else:
@@ -173,7 +174,7 @@ else:
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
         "viscoelastic.curve_dataset": "viscoelastic_dataset viscoelastic_record",
-        "viscoelastic.sliding_dataset": "friction_dataset sliding_dataset",
+        "viscoelastic.sliding_dataset": "friction_dataset friction_record sliding_dataset",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

@@ -4,7 +4,11 @@ import json
 
 import pytest
 
+<<<<<<< HEAD
 from roughcontact import viscoelastic
+=======
+import roughcontact as rc
+>>>>>>> facesliding
 from roughcontact.citing.bibliography import references
 
 MODULUS = ("--modulus", "1GPa")
@@ -16,6 +20,7 @@ LINES = {
     "adhesion press": ("--depth", "1nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion curve": ("--depths", "1nm,2nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion detach": ("--force", "1mN", *MODULUS, "--work", "1mJ/m^2"),
+    "sliding": ("--periodic", "--pressure", "1MPa", "--speeds", "1m/s"),
     "surface spectrum": (),
     "surface info": (),
 }
@@ -27,6 +32,7 @@ PAPERS = {
     "adhesion press": "Rey2017",
     "adhesion curve": "Rey2017",
     "adhesion detach": "Pohrt2015",
+    "sliding": "Persson2001",
     "surface spectrum": "Pohrt2013",
     "surface info": "roughcontact",
 }
@@ -41,7 +47,12 @@ def test_references_follow_the_answer(command, invoke, rough, tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     viscoelastic.standard_solid(1e9, 2e9, 1.0).write("rubber.toml")
     out = tmp_path / "out"
-    answer = invoke(*command.split(), rough, *LINES[command], "--cite", "--out", out)
+    if command == "sliding":
+        rc.viscoelastic.standard_solid(1e9, 2e9, 1e-3).write(tmp_path / "rubber.toml")
+        given = ("--material", tmp_path / "rubber.toml", *LINES[command])
+    else:
+        given = LINES[command]
+    answer = invoke(*command.split(), rough, *given, "--cite", "--out", out)
     assert answer.exit_code == 0, answer.stderr
     before, _, cited = answer.stdout.partition("\nTo cite:\n")
     assert before

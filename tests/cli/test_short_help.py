@@ -9,6 +9,7 @@ from roughcontact.cli.parsing.short_help import _first_sentence
 
 ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [
+<<<<<<< HEAD
     *(
         "press",
         "leak",
@@ -20,6 +21,10 @@ JOBS = [
         "adhesion detach",
     ),
     *("surface prepare", "surface make", "surface specified", "theory"),
+=======
+    *("press", "leak", "curve", "adhesion press", "adhesion curve", "adhesion loop", "adhesion detach"),
+    *("surface prepare", "surface make", "surface specified", "theory", "sliding"),
+>>>>>>> facesliding
 ]
 
 

@@ -109,6 +109,12 @@ OUT_OF_RANGE = {
     "ContactOverTime.steps": ("0", "2"),
     "LeakAlong.leak": ("y", "0", "1"),
     "LeakAlong.missing": ("shut", "closed", "open"),
+    "ViscoelasticBody.material": ("", "rubber.toml"),
+    "ViscoelasticBody.sha256": ("abc", None, "0" * 64),
+    "Sliding.pressure": ("0Pa", "1MPa"),
+    "Sliding.force": ("-1N", "10N"),
+    "Sliding.speeds": ("1m/s:1mm/s:3", "1mm/s:1m/s:100"),
+    "Sliding.direction": ("30", "x", "y", "30deg"),
     "File.file": ("", "part.x3p"),
     "File.channel": ("", None, "height"),
     "File.unit": ("parsnip", "um", "1e-6"),
@@ -167,6 +173,7 @@ INSTRUCTED = {
     *("Preparation.crop", "AfterLoad.after", "RisingLoads.pressures", "RisingLoads.depths"),
     *("AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
+    *("ViscoelasticBody.material", "ViscoelasticBody.sha256"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
     *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
 }
@@ -189,7 +196,11 @@ WRONG_KINDS = {
 }
 NUMBERS = {"zero", "nan", "infinity", "negative infinity"}
 # Fields in which any text is a name, and those in which 0 is a value.
+<<<<<<< HEAD
 NAMES = {"File.file", "File.channel", "InPython.history", "ViscoelasticBody.material"}
+=======
+NAMES = {"ViscoelasticBody.material", "File.file", "File.channel", "InPython.history"}
+>>>>>>> facesliding
 FROM_ZERO = {
     *("OneLoad.depth", "AdhesiveLoad.force", "AdhesiveLoad.pressure", "AdhesiveLoad.depth", "Turn.depth"),
     *("AdhesiveLoads.depths", "AdhesiveLoads.forces", "AdhesiveLoads.pressures"),

@@ -112,6 +112,7 @@ COMMANDS = [
     "adhesion curve",
     "adhesion loop",
     "adhesion detach",
+    "sliding",
 ]
 
 

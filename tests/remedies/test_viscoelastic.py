@@ -30,7 +30,54 @@ def transfer(times, depths, material=SOLID, lowest=1e-7):
     return viscoelastic.transfer(curve(lowest), material, times, depths=depths)
 
 
+ROUGH = rc.self_affine(
+    rc.Grid((16, 16), 1 / 16, periodic=True), hurst=0.8, rms=0.01, rng=3, rolloff=0.5, short_cutoff=0.25
+)
+HOLES = rc.Surface(np.where(ROUGH.heights == ROUGH.heights.max(), np.nan, ROUGH.heights), ROUGH.grid)
+
+
+def slide(surface=ROUGH, material=SOLID, **changed):
+    return rc.steady_sliding(surface, material, **({"speed": 0.1, "pressure": 0.02} | changed))
+
+
+def speeds(*given, **changed):
+    return rc.friction_curve(ROUGH, SOLID, **({"speeds": given, "pressure": 0.02} | changed))
+
+
 ROWS = [
+    row(
+        lambda: slide(rc.Surface(ROUGH.heights, rc.Grid((16, 16), 1 / 16))),
+        "if the surface repeats itself, make the grid with periodic=True",
+        lambda: slide(rc.Surface(ROUGH.heights, rc.Grid((16, 16), 1 / 16, periodic=True))),
+    ),
+    row(lambda: slide(HOLES), "fill them: surface.filled()", lambda: slide(HOLES.filled())),
+    row(
+        lambda: slide(material=viscoelastic.maxwell(1.0, 1.0)),
+        "give it an equilibrium modulus",
+        lambda: slide(material=dataclasses.replace(viscoelastic.maxwell(1.0, 1.0), equilibrium=0.1)),
+    ),
+    row(
+        lambda: slide(material=1e6),
+        "such as standard_solid(equilibrium, instantaneous, relaxation_time)",
+        slide,
+    ),
+    row(lambda: slide(speed=-1.0), "must be 0 or more and finite", lambda: slide(speed=0.0)),
+    row(lambda: speeds(-1.0, 0.1), "must be 0 or more and finite", lambda: speeds(0.0, 0.1)),
+    row(lambda: speeds(), "must hold at least one speed", lambda: speeds(0.1)),
+    row(
+        lambda: slide(direction=(0, 0)),
+        "must be a vector (x, y) that is not zero",
+        lambda: slide(direction=(0, 1)),
+    ),
+    row(lambda: slide(force=0.02), "give exactly one of pressure and force", slide),
+    row(lambda: slide(pressure=-1.0), "the pressure must be positive and finite", slide),
+    row(
+        lambda: slide(
+            start=rc.press(rc.shapes.wave(rc.Grid((8, 8), 1.0, periodic=True), 1.0, 8.0), 1.0, pressure=0.1)
+        ),
+        "must be a contact on the grid (16, 16)",
+        lambda: slide(start=rc.press(ROUGH, 1.0, pressure=0.02)),
+    ),
     row(
         lambda: transfer([*RISE, 3.0], [0.0, 1e-2, 5e-3, 6e-3]),
         "end the history before, or compute it in steps",

@@ -182,7 +182,7 @@ def note_materials(bodies: Bodies) -> None:
     """Print which grades of the handbook the names of materials refer to."""
     from roughcontact.materials import handbook
 
-    for name in dict.fromkeys(value_of(bodies, "materials") or ()):
+    for name in dict.fromkeys(value_of(bodies, "materials") or () if isinstance(bodies, Bodies) else ()):
         if name != RIGID:
             material = handbook(name)
             remark(

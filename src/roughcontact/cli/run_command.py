@@ -47,6 +47,7 @@ _STEMS = {
     "leak": "leak",
     "curve": "curve",
     "creep": "creep",
+    "sliding": "sliding",
     "theory": "theory",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",

@@ -12,6 +12,7 @@ from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -30,6 +31,7 @@ JobOfHeights: TypeAlias = (
     | AdhesiveCurveJob
     | AdhesiveLoopJob
     | DetachJob
+    | SlidingJob
 )
 Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
@@ -44,6 +46,7 @@ JOBS: Mapping[str, type[Any]] = {
         AdhesiveCurveJob,
         AdhesiveLoopJob,
         DetachJob,
+        SlidingJob,
         TheoryJob,
     )
 }

@@ -30,7 +30,7 @@ from roughcontact.study.nested_names import at, flat
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
 _ANSWERS = ("leak", "loop", "curve", "state", "solution")  # the first that exists is the answer
-_KEPT = {"load", "axis", "time"}  # dimensions of a record, without those of maps and spots
+_KEPT = {"load", "sliding_speed", "axis", "time"}  # dimensions of a record, without those of maps and spots
 
 
 class JobParameters(Parameters):
@@ -101,8 +101,9 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        The variables of ``to_dataset()`` of the answer without a dimension, along ``load``, and at the given times;
-        for a job with conductors also the conductance of the interface, with a frequency the reflection of ultrasound.
+        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` or ``sliding_speed``, and at
+        the given times; for a job with conductors also the conductance of the interface, with a frequency the
+        reflection of ultrasound.
     """
     job = located(parameters.recipe, Path(parameters.folder))
     require_same_files(job)
