@@ -67,12 +67,16 @@ BODIES = {
     "Solution": "a Solution, as rc.press returns it",
     "Solution | AdhesiveState": "a Solution, as rc.press returns it, or an AdhesiveState",
     "Curve": "a Curve, as rc.loading_curve returns it",
+    "MeasuredCurve": "a curve, as rc.loading_curve or rc.viscoelastic_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
 }
-KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one
+KINDS = {  # of which others are one
+    "Body": ("Surface", "RadialProfile"),
+    "MeasuredCurve": ("Curve", "ViscoelasticCurve"),
+}
 
 
 def number(value: Any, what: str) -> Array:
