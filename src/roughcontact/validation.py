@@ -56,8 +56,7 @@ OF_MATERIALS = {
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
 SMALLEST, LARGEST = 1e-50, 1e50
 
-# Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
-# whole ones.
+# Annotations as they are written in the modules: of arrays that are broadcast, of single numbers, of whole ones.
 ARRAYS = {"ArrayLike", "npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
 WHOLE = {"int"}
@@ -73,10 +72,8 @@ BODIES = {
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
 }
-KINDS = {  # of which others are one
-    "Body": ("Surface", "RadialProfile"),
-    "MeasuredCurve": ("Curve", "ViscoelasticCurve"),
-}
+# Of which others are one.
+KINDS = {"Body": ("Surface", "RadialProfile"), "MeasuredCurve": ("Curve", "ViscoelasticCurve")}
 
 
 def number(value: Any, what: str) -> Array:
