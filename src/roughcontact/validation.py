@@ -72,7 +72,7 @@ BODIES = {
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
 }
-# Of which others are one.
+# Classes that a name of `BODIES` stands for.
 KINDS = {"Body": ("Surface", "RadialProfile"), "MeasuredCurve": ("Curve", "ViscoelasticCurve")}
 
 
