@@ -9,22 +9,9 @@ from roughcontact.cli.parsing.short_help import _first_sentence
 
 ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [
-<<<<<<< HEAD
-    *(
-        "press",
-        "leak",
-        "curve",
-        "creep",
-        "adhesion press",
-        "adhesion curve",
-        "adhesion loop",
-        "adhesion detach",
-    ),
+    *("press", "leak", "curve", "creep", "sliding"),
+    *("adhesion press", "adhesion curve", "adhesion loop", "adhesion detach"),
     *("surface prepare", "surface make", "surface specified", "theory"),
-=======
-    *("press", "leak", "curve", "adhesion press", "adhesion curve", "adhesion loop", "adhesion detach"),
-    *("surface prepare", "surface make", "surface specified", "theory", "sliding"),
->>>>>>> facesliding
 ]
 
 

@@ -101,8 +101,6 @@ OUT_OF_RANGE = {
     "Seal.circumference": ("-1m", "5um"),
     "Seal.missing": ("shut", "closed", "open"),
     "LoadHistory.history": ("0s:0N,1s:1MPa", "0s:0N,1s:1N"),
-    "ViscoelasticBody.material": ("", "rubber.toml"),
-    "ViscoelasticBody.sha256": ("abc", None, "0" * 64),
     "ContactOverTime.profile": ("springs", "line", "winkler"),
     "ContactOverTime.tolerance": ("0.1", "1e-8"),
     "ContactOverTime.time_tolerance": ("1", "1e-3"),
@@ -173,7 +171,6 @@ INSTRUCTED = {
     *("Preparation.crop", "AfterLoad.after", "RisingLoads.pressures", "RisingLoads.depths"),
     *("AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
-    *("ViscoelasticBody.material", "ViscoelasticBody.sha256"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
     *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
 }
@@ -196,11 +193,7 @@ WRONG_KINDS = {
 }
 NUMBERS = {"zero", "nan", "infinity", "negative infinity"}
 # Fields in which any text is a name, and those in which 0 is a value.
-<<<<<<< HEAD
-NAMES = {"File.file", "File.channel", "InPython.history", "ViscoelasticBody.material"}
-=======
 NAMES = {"ViscoelasticBody.material", "File.file", "File.channel", "InPython.history"}
->>>>>>> facesliding
 FROM_ZERO = {
     *("OneLoad.depth", "AdhesiveLoad.force", "AdhesiveLoad.pressure", "AdhesiveLoad.depth", "Turn.depth"),
     *("AdhesiveLoads.depths", "AdhesiveLoads.forces", "AdhesiveLoads.pressures"),

@@ -34,11 +34,8 @@ KINDS = {
     "under a hardness": ("loop_shape", "press_after_example"),
     "sticking": ("adhesive_state", "adhesive_curve", "adhesive_loop", "detachment"),
     "leak": ("leak_liquid", "leak_gas"),
-<<<<<<< HEAD
     "in time": ("creep_force", "creep_squeeze"),
-=======
-    "rubber": ("sliding_angle", "sliding_force"),
->>>>>>> facesliding
+    "sliding": ("sliding_angle", "sliding_force"),
     "line": ("line_press", "line_curve"),
     "springs": ("winkler_press", "winkler_curve"),
 }
@@ -206,11 +203,7 @@ def on_the_page(name, home):
     return sent[-1][0], zipfile.ZipFile(BytesIO(packed[0])) if packed else None
 
 
-<<<<<<< HEAD
-@pytest.mark.parametrize("name", sorted(JOBS.keys() - {*KINDS["leak"], *KINDS["in time"]}))
-=======
-@pytest.mark.parametrize("name", sorted(JOBS.keys() - {*KINDS["leak"], *KINDS["rubber"]}))
->>>>>>> facesliding
+@pytest.mark.parametrize("name", sorted(JOBS.keys() - {*KINDS["leak"], *KINDS["in time"], *KINDS["sliding"]}))
 def test_the_page_gives_the_same_numbers(name, there):
     before = numbers(result_of(name, there))
     end, archive = on_the_page(name, there)

@@ -5,12 +5,18 @@ from __future__ import annotations
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
+from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.jobs import JOBS
+from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import SOURCES, Combined, InPython
+from roughcontact.recipe.theory_job import TheoryJob
 
-__all__ = ["forms", "label_of", "names_of_fields"]
+__all__ = ["WITHOUT_FORM", "forms", "label_of", "names_of_fields"]
+
+WITHOUT_FORM = (TheoryJob, LeakJob, CreepJob, SlidingJob)
 
 _LEFT_OUT = "file"  # it is dropped
 _SHOWN = Theories  # the only part of an answer with a form

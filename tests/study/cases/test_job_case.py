@@ -110,11 +110,6 @@ def test_each_sample_draws_phases_of_its_own_and_each_combination_is_what_the_li
 
 @pytest.mark.parametrize("name", JOBS)
 def test_every_job_has_a_record_of_numbers_with_units_and_without_maps(name, tmp_path, monkeypatch):
-<<<<<<< HEAD
-    monkeypatch.chdir(tmp_path)
-    rc.viscoelastic.standard_solid(1e6, 2e6, 1.0).write("rubber.toml")
-=======
->>>>>>> facesliding
     parameters, quantity, along = JOBS[name]
     monkeypatch.chdir(tmp_path)
     rc.viscoelastic.standard_solid(1e6, 1e7, 1e-3).write("rubber.toml")

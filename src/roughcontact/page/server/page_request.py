@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.errors import InputError
 from roughcontact.files.fingerprint import fingerprint
+from roughcontact.page.forms import WITHOUT_FORM
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
