@@ -111,8 +111,7 @@ def main() -> None:
         ("roughcontact, steps=10", lambda: ours(face, steps=10)),
     ]
     rows += [
-        (f"Tamaas, steps of 1/{each} s", lambda each=each: theirs(face, each, 1e-8))
-        for each in (10, 30, 100)
+        (f"Tamaas, steps of 1/{each} s", lambda each=each: theirs(face, each, 1e-8)) for each in (10, 30, 100)
     ]
     print("| program | steps | CPU [s] | area at 1 s | pressure at 1 s | pressure at 2 s |")
     print("|---|---|---|---|---|---|")
