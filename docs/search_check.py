@@ -17,6 +17,7 @@ QUESTIONS = {
     "stiffness per area": "concepts/joints",
     "thermal contact": "tutorials/thermal",
     "hysteretic friction": "concepts/sliding-hysteresis",
+    "friction against speed": "gallery/friction/rubber_friction",
     "current of each spot": "gallery/bodies/spot_currents",
     "read a .sur file": "how-to/files",
     "my curve is unresolved": "how-to/unresolved",

@@ -26,10 +26,15 @@ SMALLEST = {
         "seal": {"drop": "1bar"},
     },
     "curve": {"bodies": BODIES},
+    "creep": {"history": {"history": "0s:0um,1s:1um"}, "bodies": {"material": "rubber.toml"}},
     "adhesion press": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion curve": {"loads": {"depths": "0nm,5nm"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion loop": {"turn": {"depth": "5nm"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion detach": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": {"work": "10mJ/m^2"}},
+    "sliding": {
+        "bodies": {"material": "rubber.toml"},
+        "sliding": {"pressure": "1kPa", "speeds": "1mm/s"},
+    },
     "theory": {
         "source": {"sigma": "1um", "slope": "0.1"},
         "bodies": BODIES,
@@ -89,6 +94,7 @@ BESIDE = {
         for part in ("Specified", "SpecifiedJoint")
         for name, beside in _OF_JOINT.items()
     },
+    "Sliding.force": {"pressure": None},
     "Ultrasound.density": {"frequency": "5MHz"},
     **{f"Fluid.{name}": _GAS for name in ("gas", "temperature")},
     **{

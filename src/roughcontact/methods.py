@@ -49,6 +49,7 @@ if TYPE_CHECKING:
         flux_dataset as flux_dataset,
     )
     from roughcontact.evaluation.interface_dataset import interface_dataset as interface_dataset
+    from roughcontact.files.kept_arrays import keep_arrays as keep_arrays, kept_arrays as kept_arrays
     from roughcontact.files.save import csv_of as csv_of
     from roughcontact.files.surface_dataset import (
         surface_dataset as surface_dataset,
@@ -127,6 +128,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.viscoelastic.sliding_dataset import (
         friction_dataset as friction_dataset,
+        friction_record as friction_record,
         sliding_dataset as sliding_dataset,
     )
 else:
@@ -146,6 +148,7 @@ else:
         "evaluation.flux_dataset": "flux_dataframe flux_dataset",
         "evaluation.interface_dataset": "interface_dataset",
         "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",
+        "files.kept_arrays": "keep_arrays kept_arrays",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "fluid.leak_dataset": "flow_dataset flow_record",
@@ -171,7 +174,7 @@ else:
         "surface.preparation.tip": "scanned",
         "surface.preparation.windows": "tapered",
         "viscoelastic.curve_dataset": "viscoelastic_dataset viscoelastic_record",
-        "viscoelastic.sliding_dataset": "friction_dataset sliding_dataset",
+        "viscoelastic.sliding_dataset": "friction_dataset friction_record sliding_dataset",
     }
     for _home, _names in _HOMES.items():
         globals().update({name: LateMethod(f"roughcontact.{_home}", name) for name in _names.split()})

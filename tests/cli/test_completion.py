@@ -38,6 +38,8 @@ def proposed(line):
     [
         ("roughcontact pr", ["press"]),
         ("roughcontact ad", ["adhesion"]),
+        ("roughcontact sl", ["sliding"]),
+        ("roughcontact sliding tile.npz --mat", ["--material"]),
         ("roughcontact study st", ["status"]),
         ("roughcontact adhesion ", ["press", "curve", "loop", "detach"]),
         ("roughcontact --show", ["--show-completion"]),

@@ -7,7 +7,9 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+import roughcontact as rc
 from every_field import smallest
+from roughcontact import viscoelastic
 from roughcontact.cli.commands import do
 from roughcontact.cli.option_groups import argument, grouped, option
 from roughcontact.cli.options import Answer
@@ -161,7 +163,11 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         if name == "theory"
         else {"job": name, "source": {"file": str(rough), "periodic": False}}
     )
-    if name != "surface":
+    if name == "creep":
+        viscoelastic.standard_solid(1e9, 2e9, 1.0).write(tmp_path / "rubber.toml")
+        plain["history"] = {"history": "0s:0nm,1s:1nm"}
+        plain["bodies"] = {"material": str(tmp_path / "rubber.toml")}
+    elif name != "surface":
         plain["bodies"] = {"modulus": "1GPa"}
     if name in ("press", "leak", "adhesion detach"):
         plain["load"] = {"depth": "10nm"}
@@ -169,8 +175,14 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         plain["loads"] = {"depths": "10nm,20nm"}
     if name.startswith("adhesion"):
         plain["adhesion"] = {"work": "1mJ/m^2", **({} if name == "adhesion detach" else {"range": "100nm"})}
+    if name == "sliding":
+        rubber = tmp_path / "rubber.toml"
+        rc.viscoelastic.standard_solid(1e9, 2e9, 1e-6).write(rubber)
+        plain["source"]["periodic"] = True
+        plain["bodies"] = {"material": str(rubber)}
     plain |= {
         "leak": {"fluid": {"viscosity": "1mPa*s"}, "seal": {"drop": "1Pa"}},
+        "sliding": {"sliding": {"pressure": "1MPa", "speeds": "1m/s"}},
         "adhesion press": {"load": {"depth": "-2nm"}},
         "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},
         "adhesion loop": {"turn": {"depth": "1nm", "points": "2"}},

@@ -100,8 +100,21 @@ OUT_OF_RANGE = {
     "Seal.seal_width": ("0mm", "5um"),
     "Seal.circumference": ("-1m", "5um"),
     "Seal.missing": ("shut", "closed", "open"),
+    "LoadHistory.history": ("0s:0N,1s:1MPa", "0s:0N,1s:1N"),
+    "ViscoelasticBody.material": ("", "rubber.toml"),
+    "ViscoelasticBody.sha256": ("abc", None, "0" * 64),
+    "ContactOverTime.profile": ("springs", "line", "winkler"),
+    "ContactOverTime.tolerance": ("0.1", "1e-8"),
+    "ContactOverTime.time_tolerance": ("1", "1e-3"),
+    "ContactOverTime.steps": ("0", "2"),
     "LeakAlong.leak": ("y", "0", "1"),
     "LeakAlong.missing": ("shut", "closed", "open"),
+    "ViscoelasticBody.material": ("", "rubber.toml"),
+    "ViscoelasticBody.sha256": ("abc", None, "0" * 64),
+    "Sliding.pressure": ("0Pa", "1MPa"),
+    "Sliding.force": ("-1N", "10N"),
+    "Sliding.speeds": ("1m/s:1mm/s:3", "1mm/s:1m/s:100"),
+    "Sliding.direction": ("30", "x", "y", "30deg"),
     "File.file": ("", "part.x3p"),
     "File.channel": ("", None, "height"),
     "File.unit": ("parsnip", "um", "1e-6"),
@@ -160,7 +173,9 @@ INSTRUCTED = {
     *("Preparation.crop", "AfterLoad.after", "RisingLoads.pressures", "RisingLoads.depths"),
     *("AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
+    *("ViscoelasticBody.material", "ViscoelasticBody.sha256"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
+    *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
 }
 # What no field takes, but flags and names by their kind; TOML has all of them, except bytes and the last three.
 WRONG_KINDS = {
@@ -181,7 +196,11 @@ WRONG_KINDS = {
 }
 NUMBERS = {"zero", "nan", "infinity", "negative infinity"}
 # Fields in which any text is a name, and those in which 0 is a value.
-NAMES = {"File.file", "File.channel", "InPython.history"}
+<<<<<<< HEAD
+NAMES = {"File.file", "File.channel", "InPython.history", "ViscoelasticBody.material"}
+=======
+NAMES = {"ViscoelasticBody.material", "File.file", "File.channel", "InPython.history"}
+>>>>>>> facesliding
 FROM_ZERO = {
     *("OneLoad.depth", "AdhesiveLoad.force", "AdhesiveLoad.pressure", "AdhesiveLoad.depth", "Turn.depth"),
     *("AdhesiveLoads.depths", "AdhesiveLoads.forces", "AdhesiveLoads.pressures"),

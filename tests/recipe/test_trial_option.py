@@ -106,11 +106,13 @@ COMMANDS = [
     "press",
     "leak",
     "curve",
+    "creep",
     "surface prepare",
     "adhesion press",
     "adhesion curve",
     "adhesion loop",
     "adhesion detach",
+    "sliding",
 ]
 
 

@@ -1,10 +1,13 @@
 """Steady sliding over a viscoelastic plane: closed forms, limits, a march in time, and the method."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.viscoelastic import sliding_solver
+from roughcontact.solver.control import Status
+from roughcontact.viscoelastic import friction_curve, sliding_solver
 from roughcontact.viscoelastic.wave_operator import WaveOperator, passing
 
 SOLID = rc.viscoelastic.standard_solid(1.0, 3.0, 1.0)
@@ -151,6 +154,13 @@ def test_both_methods_give_the_same_contact(ratio, monkeypatch):
         assert swept.pressure == pytest.approx(found.pressure, abs=1e-6 * found.max_pressure)
 
 
+def test_a_term_without_weight_changes_nothing():
+    more = rc.viscoelastic.prony(1.0, [2.0, 0.0], [1.0, 30.0])
+    plain, other = (rc.steady_sliding(ROUGH, each, speed=0.1, pressure=0.02) for each in (SOLID, more))
+    assert np.array_equal(other.pressure, plain.pressure)
+    assert other.friction == pytest.approx(plain.friction, rel=1e-12, abs=1e-16)
+
+
 def test_a_start_saves_solves_and_the_operator_is_one_of_the_protocol():
     first = rc.steady_sliding(ROUGH, SOLID, speed=0.01, pressure=0.02)
     again = rc.steady_sliding(ROUGH, SOLID, speed=0.01, force=0.02, start=first)
@@ -177,6 +187,42 @@ def test_a_missed_tolerance_is_stated(monkeypatch):
     assert not curve.status[0].converged
     assert "0 of 1 speeds converged" in repr(curve)
     assert curve.plot().lines[-1].get_markerfacecolor() == "none"
+
+
+def test_eight_decades_of_speed_on_a_material_of_ten_take_few_solves():
+    gel = dataclasses.replace(
+        rc.viscoelastic.power_law(1.0, 1.0, 0.3, band=(1e-9, 1e2)), equilibrium=1.0, band=None
+    )
+    curve = rc.friction_curve(ROUGH, gel, speeds=np.geomspace(1e-6, 1e2, 17), pressure=0.02)
+    assert all(status.converged for status in curve.status)
+    assert curve.solves.max() <= 20
+    assert curve.solves.sum() <= 120
+    assert curve.friction_coefficient.argmax() not in (0, 16)
+
+
+def test_a_speed_that_does_not_converge_is_reached_by_way_of_others(monkeypatch):
+    moving, tried = friction_curve.moving, []
+
+    def short_steps(rest, material, speed, along, start):
+        """Miss unless the speed before is near."""
+        tried.append(speed)
+        state = moving(rest, material, speed, along, start)
+        near = start is not None and speed < 4 * max(start.speed, 1e-3)
+        return state if near or speed < 1e-2 else dataclasses.replace(state, status=Status.STAGNATED)
+
+    monkeypatch.setattr(friction_curve, "moving", short_steps)
+    curve = rc.friction_curve(ROUGH, SOLID, speeds=[5e-3, 0.05], pressure=0.02)
+    assert tried == pytest.approx([5e-3, 0.05, np.sqrt(5e-3 * 0.05), 0.05])
+    assert [status.converged for status in curve.status] == [True, True]
+    alone = rc.steady_sliding(ROUGH, SOLID, speed=0.05, pressure=0.02)
+    assert curve.friction[1] == pytest.approx(alone.friction, rel=1e-5, abs=1e-9)
+    assert curve.solves[1] > alone.solves
+    # If one on the way is not enough, this is stated, and the next speed is tried once only.
+    tried.clear()
+    curve = rc.friction_curve(ROUGH, SOLID, speeds=[5e-3, 50.0, 100.0], pressure=0.02)
+    assert tried == pytest.approx([5e-3, 50.0, 0.5, 100.0])
+    assert [status.converged for status in curve.status] == [True, False, False]
+    assert curve.notes[0].startswith("At 2 of 3 speeds, first at 50 m/s: The residual is")
 
 
 def test_what_limits_a_number_is_noted():

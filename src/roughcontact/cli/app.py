@@ -25,9 +25,11 @@ if TYPE_CHECKING:  # tools that bundle programs follow only imports that are wri
     )
     from roughcontact.cli.contact import (
         conductance_command as conductance_command,
+        creep_command as creep_command,
         curve_command as curve_command,
         leak_command as leak_command,
         press_command as press_command,
+        sliding_command as sliding_command,
         theory_command as theory_command,
     )
     from roughcontact.cli.study import (

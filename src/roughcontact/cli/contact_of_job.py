@@ -14,7 +14,7 @@ from roughcontact.cli.messages import UsageError, as_typed, note, plain, remark
 from roughcontact.cli.report import quantity
 from roughcontact.files.file_errors import ReadError, SurfaceWarning
 from roughcontact.progress.events import task
-from roughcontact.recipe.bodies import hardness_of
+from roughcontact.recipe.bodies import Bodies, hardness_of
 from roughcontact.recipe.elastic_jobs import SurfaceJob
 from roughcontact.recipe.job_calls import Call, perform
 from roughcontact.recipe.jobs import JobOfHeights, known_names, surface_calls
@@ -24,7 +24,6 @@ from roughcontact.recipe.source import File, Source
 from roughcontact.recipe.texts import RIGID
 
 if TYPE_CHECKING:
-    from roughcontact.recipe.bodies import Bodies
     from roughcontact.recipe.elastic_jobs import CurveJob, PressJob
     from roughcontact.surface.surface import Surface
 
@@ -60,7 +59,8 @@ def contact_of(job: Any) -> dict[str, Any]:
         If the surface cannot be read or prepared, or several processes cannot press it together.
     """
     known = prepared(job, _require_together)
-    note_materials(job.bodies)
+    if isinstance(job.bodies, Bodies):
+        note_materials(job.bodies)
     if job.contact.profile is not None:
         _note_profile(job.contact.profile, known["surface"])
     for call in (*job.bodies.calls(), *job.contact.calls()):
@@ -182,7 +182,7 @@ def note_materials(bodies: Bodies) -> None:
     """Print which grades of the handbook the names of materials refer to."""
     from roughcontact.materials import handbook
 
-    for name in dict.fromkeys(value_of(bodies, "materials") or ()):
+    for name in dict.fromkeys(value_of(bodies, "materials") or () if isinstance(bodies, Bodies) else ()):
         if name != RIGID:
             material = handbook(name)
             remark(

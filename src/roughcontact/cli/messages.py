@@ -40,6 +40,7 @@ _OPTIONS = (
     (re.compile(r"\brc\.Solid\(210e9, 0\.3\)"), "--young 210GPa --poisson 0.3"),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
     (re.compile(r"\b(despike|mask)e?d\(\)"), r"'surface prepare --\1'"),
+    (re.compile(r"\bsurface\.filled\(\)"), "--fill"),
     (re.compile(r"make the grid with periodic=True"), "give --periodic"),
     (re.compile(r"give the adhesion allow_unresolved=True"), "give --allow-unresolved"),
     (re.compile(r"\buse detachment_path\b"), "use 'roughcontact adhesion detach'"),

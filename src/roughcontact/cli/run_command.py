@@ -46,6 +46,8 @@ _STEMS = {
     "press": "press",
     "leak": "leak",
     "curve": "curve",
+    "creep": "creep",
+    "sliding": "sliding",
     "theory": "theory",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",

@@ -35,6 +35,7 @@ __all__ = [
 
 Attributes = Mapping[str, str | float]
 
+_UNEVEN = ("time", "sliding_speed")  # dimensions whose values are a column of a table
 CHUNK = 256  # rows and columns of the parts of a map in slabs, each compressed separately
 
 
@@ -149,7 +150,7 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
     dataset : Dataset
     path : str or path
     dimension : str, optional
-        The dimension of the points; by default ``load`` or ``time``, or a single row if there is no such dimension.
+        The dimension of the points; by default ``load``, ``time`` or ``sliding_speed``, or a single row if there is no such dimension.
 
     Raises
     ------
@@ -159,15 +160,15 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
         If the file cannot be written.
     """
     if dimension is None:
-        dimension = next((name for name in ("load", "time") if name in dataset.sizes), None)
+        dimension = next((name for name in ("load", *_UNEVEN) if name in dataset.sizes), None)
     if dimension is not None and dimension not in dataset.sizes:
         raise InputError(
             f"nothing lies along {dimension!r}", f"choose one of {', '.join(map(str, dataset.sizes))}"
         )
     along = () if dimension is None else (dimension,)
     columns: dict[str, xarray.DataArray] = {}
-    if dimension == "time":  # its values are not equally spaced
-        columns["time"] = dataset["time"]
+    if dimension in _UNEVEN:
+        columns[dimension] = dataset[dimension]
     for name, values in dataset.data_vars.items():
         if values.dims in (along, ()):
             columns[str(name)] = values

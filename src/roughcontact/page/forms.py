@@ -6,11 +6,9 @@ from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
 from roughcontact.recipe.jobs import JOBS
-from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
 from roughcontact.recipe.source import SOURCES, Combined, InPython
-from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = ["forms", "label_of", "names_of_fields"]
 
@@ -24,7 +22,7 @@ def forms() -> dict[str, Any]:
     A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
     (``at_most``) is given.
     """
-    jobs = {name: job for name, job in JOBS.items() if job not in (TheoryJob, LeakJob)}
+    jobs = {name: job for name, job in JOBS.items() if job not in WITHOUT_FORM}
     return {
         "sources": {
             source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)

@@ -7,19 +7,29 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.ticks import LABEL, TICK, label_axes
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughcontact.viscoelastic.friction_curve import FrictionCurve
 
 __all__ = ["friction_speeds"]
 
+_THEORIES = {
+    "persson_friction_coefficient": "--",
+    "persson_friction_coefficient_half": ":",
+    "persson_contact_fraction": "--",
+}
 _FRICTION, _AREA = "#0072b2", "#d55e00"
 
 
-def friction_speeds(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
+def friction_speeds(
+    curve: FrictionCurve, ax: Axes | None = None, *, theory: xarray.Dataset | None = None
+) -> Axes:
     """Draw the friction coefficient and the relative contact area against speed; speeds without convergence are open.
 
     Parameters
@@ -27,6 +37,8 @@ def friction_speeds(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
     curve : FrictionCurve
     ax : Axes, optional
         Axes to draw on; by default those of a new figure.
+    theory : Dataset, optional
+        A dataset with columns of Persson's theory, to be drawn as lines.
 
     Returns
     -------
@@ -57,7 +69,17 @@ def friction_speeds(curve: FrictionCurve, ax: Axes | None = None) -> Axes:
 
     label_axes(axes, "sliding speed [m/s]", "", grid=True)
     draw(axes, curve.friction_coefficient, _FRICTION, "o", "friction coefficient")
+    top = axes.get_ylim()[1]
+    for name, style in _THEORIES.items() if theory is not None and _THEORIES.keys() <= theory.keys() else ():
+        on, colour = (right, _AREA) if name.endswith("fraction") else (axes, _FRICTION)
+        values = theory[name].to_numpy()
+        on.plot(curve.speed, values, style, color=colour, linewidth=0.9, label=VARIABLES[name].label)
+        top = max(top, 1.1 * float(values.max())) if on is axes else top
     draw(right, curve.contact_fraction, _AREA, "s", "relative real contact area A/A0")
+    axes.set_ylim(0, top)
+    if theory is not None:
+        lines = [line for on in (axes, right) for line in on.lines if not line.get_label().startswith("_")]
+        right.legend(handles=lines, fontsize=TICK, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     if curve.speed[0] > 0:
         axes.set_xscale("log")
     return axes

@@ -8,9 +8,11 @@ from typing import Any, TypeAlias
 
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
+from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -24,10 +26,12 @@ JobOfHeights: TypeAlias = (
     | PressJob
     | LeakJob
     | CurveJob
+    | CreepJob
     | AdhesivePressJob
     | AdhesiveCurveJob
     | AdhesiveLoopJob
     | DetachJob
+    | SlidingJob
 )
 Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
@@ -37,10 +41,12 @@ JOBS: Mapping[str, type[Any]] = {
         PressJob,
         LeakJob,
         CurveJob,
+        CreepJob,
         AdhesivePressJob,
         AdhesiveCurveJob,
         AdhesiveLoopJob,
         DetachJob,
+        SlidingJob,
         TheoryJob,
     )
 }

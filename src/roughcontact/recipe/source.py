@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
@@ -14,7 +13,7 @@ from roughcontact.recipe.grid_of_source import PERIODIC, POINTS, SEED, SIZE, gri
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.specified import Specified
-from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, size
+from roughcontact.recipe.texts import Amount, Choice, PureNumber, band, sha256, size, word
 
 if TYPE_CHECKING:
     from roughcontact.surface.surface import Surface
@@ -34,23 +33,6 @@ def _unit(text: str) -> str | float:
     return unit
 
 
-def _word(text: str) -> str:
-    """Return a name, which is not empty."""
-    if not text:
-        raise InputError("the name is empty", "write it, or leave the field out")
-    return text
-
-
-def _fingerprint(text: str) -> str:
-    """Return a SHA-256 as files of checksums write it."""
-    if re.fullmatch("[0-9a-f]{64}", text) is None:
-        raise InputError(
-            f"{text!r} is not a SHA-256",
-            "write its 64 digits from 0 to f, as sha256sum prints them, or leave it out",
-        )
-    return text
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class File:
     """A measured file, and facts that the file may lack."""
@@ -60,12 +42,12 @@ class File:
     file: str = described(
         "Measured heights: X3P, NumPy, text, ... - is standard input, as .npz; x3p:- as X3P.",
         "FILE",
-        read=_word,
+        read=word,
         default=...,
         everyday=True,
         positional=True,
     )
-    channel: str | None = described("Channel of a file with several.", "NAME", read=_word)
+    channel: str | None = described("Channel of a file with several.", "NAME", read=word)
     unit: str | None = described(
         "Unit of the heights, or metres per unit; it overrides the unit in the file.",
         "um",
@@ -87,7 +69,7 @@ class File:
     sha256: str | None = described(
         "Fingerprint of the file: a different file of the same name is refused.",
         "HEX",
-        read=_fingerprint,
+        read=sha256,
         option=False,
     )
 
@@ -280,7 +262,7 @@ class InPython:
 
     KIND: ClassVar = "python"
     TITLE: ClassVar = "Made in Python"
-    surface_sha256: str = described("Fingerprint of heights and grid.", "HEX", read=_fingerprint, default=...)
+    surface_sha256: str = described("Fingerprint of heights and grid.", "HEX", read=sha256, default=...)
     history: tuple[str, ...] = described("History of the heights, line by line.", default=())
 
     def __post_init__(self) -> None:

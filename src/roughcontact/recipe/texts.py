@@ -34,9 +34,11 @@ __all__ = [
     "points",
     "ranges",
     "rising_loads",
+    "sha256",
     "size",
     "temperature",
     "whole",
+    "word",
 ]
 
 METALS = (
@@ -153,6 +155,23 @@ def whole(low: int, what: str, high: int = 10**30) -> Callable[[str], int]:
     return read
 
 
+def word(text: str) -> str:
+    """Return a name, which is not empty."""
+    if not text:
+        raise InputError("the name is empty", "write it, or leave the field out")
+    return text
+
+
+def sha256(text: str) -> str:
+    """Return a SHA-256 as files of checksums write it."""
+    if re.fullmatch("[0-9a-f]{64}", text) is None:
+        raise InputError(
+            f"{text!r} is not a SHA-256",
+            "write its 64 digits from 0 to f, as sha256sum prints them, or leave it out",
+        )
+    return text
+
+
 @dataclass(frozen=True, slots=True)
 class Likely:
     """Reads a quantity; an unusual number without a unit raises an error.
@@ -212,27 +231,27 @@ def known_material(text: str) -> Material | None:
     return handbook(word.lower()) if word[:1].isalpha() else None
 
 
-def rising_loads(text: str, kind: Kind) -> Call | list[float]:
-    """Return loads in SI, each above zero and above the one before: ``from:to:count`` (equal ratios), or a comma list.
+def rising_loads(text: str, kind: Kind, what: str = "load") -> Call | list[float]:
+    """Return loads, or other quantities, in SI, each above zero and above the one before: ``from:to:count`` (equal ratios), or a comma list.
 
     A range is returned as the call of NumPy that makes it.
     """
     example = f"1m{kind.unit}:1{kind.unit}:100"
     if ":" in text:
-        low, high, count = _range(text, kind, example)
+        low, high, count = _range(text, kind, example, what)
         if not 0 < low < high:
             raise InputError(
-                f"a range of loads must increase from a positive load, unlike {text!r}",
+                f"a range of {what}s must increase from a positive {what}, unlike {text!r}",
                 f"write one such as {example}",
             )
         return Call("np.geomspace", (low, high, count))
     loads = [_parsed(part, kind) for part in text.split(",") if part.strip()]
     if not loads:
-        raise InputError(f"{text!r} holds no load", f"write {example} or a comma list")
+        raise InputError(f"{text!r} holds no {what}", f"write {example} or a comma list")
     if min(loads) <= 0:
-        raise InputError(f"every load must be positive, not {min(loads):g} {kind.unit}", "leave it out")
+        raise InputError(f"every {what} must be positive, not {min(loads):g} {kind.unit}", "leave it out")
     if any(after <= before for before, after in pairwise(loads)):
-        raise InputError(f"the loads must increase from one to the next, unlike {text!r}", "sort them")
+        raise InputError(f"the {what}s must increase from one to the next, unlike {text!r}", "sort them")
     return loads
 
 
@@ -315,13 +334,13 @@ def ranges(text: str) -> tuple[slice, ...]:
     return tuple(slice(*ends) for ends in found)
 
 
-def _range(text: str, kind: Kind, example: str) -> tuple[float, float, int]:
+def _range(text: str, kind: Kind, example: str, what: str = "load") -> tuple[float, float, int]:
     ends = text.split(":")
     if len(ends) != 3 or re.fullmatch(r"\s*\d{1,30}\s*", ends[2]) is None:
         raise InputError(f"{text!r} is not a range", f"write from:to:count, such as {example}")
     low, high, count = _parsed(ends[0], kind), _parsed(ends[1], kind), int(ends[2])
     if not 2 <= count <= MOST_LOADS:
-        raise InputError(f"a range holds from 2 to {MOST_LOADS} loads, not {count}", "give another count")
+        raise InputError(f"a range holds from 2 to {MOST_LOADS} {what}s, not {count}", "give another count")
     return low, high, count
 
 

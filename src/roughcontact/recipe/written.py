@@ -27,6 +27,7 @@ from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 from roughcontact.recipe.theory_job import TheoryJob
+from roughcontact.recipe.viscoelastic_body import ViscoelasticBody
 
 __all__ = [
     *(
@@ -105,6 +106,10 @@ def _part(kind: Any, values: Any) -> Any:
     made = {}
     for name, value in values.items():
         try:
+            if (apart := getattr(kind, "APART", {}).get(name)) is not None:
+                raise InputError(
+                    f"{apart} together with viscoelasticity is not modelled", "leave it out", name
+                )
             if name not in known:
                 near = difflib.get_close_matches(str(name), known, 1)
                 remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
@@ -315,7 +320,7 @@ def require_same_files(job: Job) -> None:
             raise InputError(
                 f"{file.file} is not the file that the recipe was written for: its SHA-256 differs",
                 "give that file, or leave out sha256 to take this one",
-                "source.sha256",
+                "sha256",
             )
         return file
 
@@ -323,11 +328,20 @@ def require_same_files(job: Job) -> None:
 
 
 def with_files(job: J, change: Callable[[File], File]) -> J:
-    """Return a job with each of its files replaced by a function."""
+    """Return a job with each of its files, of heights and of a material, replaced by a function."""
 
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):
             return replace(source, lower=changed(source.lower), upper=changed(source.upper))
         return change(source) if isinstance(source, File) else source
 
-    return job if isinstance(job, TheoryJob) else replace(job, source=changed(job.source))
+    if isinstance(job, TheoryJob):
+        return job
+    with within("source"):
+        job = replace(job, source=changed(job.source))
+    if isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
+        with within("bodies"):
+            file = change(File(file=body.material, sha256=body.sha256))
+        found: Any = replace(body, material=file.file, sha256=file.sha256)
+        job = replace(job, bodies=found)
+    return job

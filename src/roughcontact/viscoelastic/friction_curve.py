@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughcontact import methods
 from roughcontact.errors import about
 from roughcontact.guesses import hinted
+from roughcontact.labels.note import Note, in_order
 from roughcontact.progress.events import tracked
 from roughcontact.solver.control import Status
 from roughcontact.surface.surface import Surface
@@ -17,12 +20,12 @@ from roughcontact.validation import Array, number, numeric
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.steady_sliding import SlidingContact, at_rest, moving, unit_vector
 
-__all__ = ["FrictionCurve", "friction_curve"]
+__all__ = ["FrictionCurve", "along_speeds", "collect_speeds", "friction_curve"]
 
 # Attributes of a state that become columns of the curve.
 _COLUMNS = (
-    *("speed", "friction", "friction_coefficient", "friction_error", "dissipation", "contact_fraction"),
-    *("max_pressure", "mean_gap", "depth", "residual", "solves"),
+    *("speed", "friction", "friction_coefficient", "friction_across", "friction_error", "dissipation"),
+    *("contact_fraction", "max_pressure", "mean_gap", "depth", "residual", "solves"),
 )
 
 
@@ -39,6 +42,8 @@ class FrictionCurve:
         Mean traction (x, y) by which the surface drags the half-space [Pa].
     friction_coefficient, friction_error : array, shape (n,)
         Friction along the direction over the nominal pressure, and the estimate of its error by the grid [-].
+    friction_across : array, shape (n,)
+        Friction across the direction, to the left, over the nominal pressure [-].
     dissipation : array, shape (n,)
         Power per nominal area [W/m^2].
     contact_fraction : array, shape (n,)
@@ -48,12 +53,14 @@ class FrictionCurve:
     mean_gap, depth : array, shape (n,)
         [m]
     residual, solves : array, shape (n,)
-        Violation of the conditions of contact, and the number of solves.
+        Violation of the conditions of contact, and the number of solves, with those at speeds in between.
     status : tuple of Status
     nominal_pressure : float
         [Pa]
     direction : array, shape (2,)
         Unit vector (x, y) along which the surface slides.
+    notes : tuple of str
+        Limits of these numbers: at how many speeds, and the first of them.
 
     Examples
     --------
@@ -68,6 +75,7 @@ class FrictionCurve:
     speed: Array
     friction: Array
     friction_coefficient: Array
+    friction_across: Array
     friction_error: Array
     dissipation: Array
     contact_fraction: Array
@@ -79,6 +87,7 @@ class FrictionCurve:
     status: tuple[Status, ...]
     nominal_pressure: float
     direction: Array
+    notes: tuple[str, ...]
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -93,6 +102,7 @@ class FrictionCurve:
 
     plot = methods.friction_speeds
     to_dataset = methods.friction_dataset
+    to_record = methods.friction_record
 
 
 @numeric(speeds="m/s", pressure="Pa", force="N")
@@ -107,6 +117,8 @@ def friction_curve(
     tolerance: float = 1e-8,
 ) -> FrictionCurve:
     """Return hysteretic friction and contact against speed; each speed starts from the contact at the one before.
+
+    If a speed does not converge from the one before, one between them is solved first.
 
     Parameters
     ----------
@@ -142,18 +154,83 @@ def friction_curve(
     >>> bool(curve.contact_fraction[0] > curve.contact_fraction[-1])  # faster, stiffer
     True
     """
+    states = along_speeds(
+        surface, material, speeds, direction, pressure=pressure, force=force, tolerance=tolerance
+    )
+    return collect_speeds(states)
+
+
+def along_speeds(
+    surface: Surface,
+    material: Viscoelastic,
+    speeds: Sequence[float] | Array,
+    direction: Sequence[float] = (1.0, 0.0),
+    *,
+    pressure: float | None = None,
+    force: float | None = None,
+    tolerance: float = 1e-8,
+) -> Iterator[SlidingContact]:
+    """Return the states of `friction_curve` one after the other, from the lowest speed; refuse what cannot slide."""
     values = np.sort(np.asarray(number(speeds, "speeds [m/s]")).ravel())
     if not values.size:
         raise about("speeds", "must hold at least one speed [m/s]")
+    if not (values[0] >= 0 and values[-1] < math.inf):
+        raise about("speeds", f"must be 0 or more and finite [m/s], not {values[0 if values[0] < 0 else -1]}")
     rest, along = at_rest(surface, material, pressure, force, tolerance), unit_vector(direction)
-    rows, status = [], []
-    start: SlidingContact | None = None
-    for speed in tracked(values.tolist(), "Sliding", "speeds"):
-        state = moving(rest, material, speed, along, start)
-        start = state if state.status.converged else start
+
+    def slide(speed: float, start: SlidingContact | None) -> SlidingContact:
+        return moving(rest, material, speed, along, start)
+
+    def states() -> Iterator[SlidingContact]:
+        start, missed = None, False
+        for speed in tracked(values.tolist(), "Sliding", "speeds"):
+            # After a miss the way is longer than the one that has failed.
+            state = _reached(slide, speed, start, by_another=not missed)
+            missed = not state.status.converged
+            start = start if missed else state
+            yield state
+
+    return states()
+
+
+def collect_speeds(states: Iterable[SlidingContact]) -> FrictionCurve:
+    """Return the curve of states, whose maps are not kept."""
+    rows, status, limits = [], [], []
+    for state in states:
         rows.append([getattr(state, name) for name in _COLUMNS])
         status.append(state.status)
+        limits += [(kind, state.speed, note) for kind, note in enumerate(state.limits()) if note]
+    counts, first = Counter(kind for kind, *_ in limits), {each[0]: each for each in reversed(limits)}
+    notes = (
+        Note(note.rank, f"At {counts[kind]} of {len(rows)} speeds, first at {speed:.3g} m/s: {note.text}")
+        for kind, speed, note in first.values()
+    )
     columns = {name: np.array(each) for name, each in zip(_COLUMNS, zip(*rows, strict=True), strict=True)}
     return FrictionCurve(
-        **columns, status=tuple(status), nominal_pressure=state.nominal_pressure, direction=along
+        **columns,
+        status=tuple(status),
+        nominal_pressure=state.nominal_pressure,
+        direction=state.direction,
+        notes=in_order(notes),
     )
+
+
+def _reached(
+    slide: Callable[[float, SlidingContact | None], SlidingContact],
+    speed: float,
+    start: SlidingContact | None,
+    *,
+    by_another: bool,
+) -> SlidingContact:
+    """Return the state at a speed, `by_another` speed on the way if it does not converge from `start`."""
+    state = slide(speed, start)
+    if state.status.converged or not speed or not by_another:
+        return state
+    below = start.speed if start is not None and start.speed else speed / 100  # from rest: a decade below
+    middle = slide(math.sqrt(below * speed), start)
+    found, solves = state, state.solves + middle.solves
+    if middle.status.converged:
+        again = slide(speed, middle)
+        found = min(state, again, key=lambda each: (not each.status.converged, each.residual))
+        solves += again.solves
+    return replace(found, solves=solves)

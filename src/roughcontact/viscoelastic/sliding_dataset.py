@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.labelled import centres, dataset_of, variable, variables_of
+from roughcontact.labels.labelled import centres, dataset_of, record_of, variable, variables_of
 from roughcontact.labels.sliding_columns import FRICTION_CURVE, SLIDING, SLIDING_NAMES
 from roughcontact.viscoelastic.friction_curve import FrictionCurve
 from roughcontact.viscoelastic.steady_sliding import SlidingContact
@@ -13,7 +13,7 @@ from roughcontact.viscoelastic.steady_sliding import SlidingContact
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["friction_dataset", "sliding_dataset"]
+__all__ = ["friction_dataset", "friction_record", "sliding_dataset"]
 
 _KIND = Geometry.SURFACE
 _COMPONENT = (("component",), ["x", "y"], {"long_name": "component of a tangential vector"})
@@ -69,7 +69,38 @@ def friction_dataset(curve: FrictionCurve) -> xarray.Dataset:
     >>> curve.to_dataset()["friction_coefficient"].dims
     ('sliding_speed',)
     """
-    data = variables_of(curve, FRICTION_CURVE, _KIND, SLIDING_NAMES)
-    speed = variable("sliding_speed", ("sliding_speed",), curve.speed)
+    data, speed = _columns(curve)
     coordinates = {"sliding_speed": speed, "component": _COMPONENT}
-    return dataset_of(data, coordinates, "hysteretic friction against speed", _KIND)
+    dataset = dataset_of(data, coordinates, "hysteretic friction against speed", _KIND)
+    return dataset.assign_attrs(notes="\n".join(curve.notes))
+
+
+def friction_record(curve: FrictionCurve) -> dict[str, Any]:
+    """Return hysteretic friction against speed as plain values, for JSON; units stand once, under ``"units"``.
+
+    Parameters
+    ----------
+    curve : FrictionCurve
+
+    Returns
+    -------
+    dict
+        Lists along the speeds; values that are not finite become None.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> rubber = rc.viscoelastic.standard_solid(1e6, 1e8, 1e-3)
+    >>> surface = rc.shapes.wave(rc.Grid((16, 64), 1e-5, periodic=True), 1e-5, 6.4e-4)
+    >>> curve = rc.friction_curve(surface, rubber, speeds=[0.01, 0.1], pressure=1e5)
+    >>> curve.to_record()["sliding_speed"], curve.to_record()["units"]["sliding_speed"]
+    ([0.01, 0.1], 'm s-1')
+    """
+    data, speed = _columns(curve)
+    return record_of(data | {"sliding_speed": speed}, _KIND, notes=list(curve.notes))
+
+
+def _columns(curve: FrictionCurve) -> tuple[dict[str, Any], Any]:
+    """Return the variables of a curve, and its speeds."""
+    data = dict(variables_of(curve, FRICTION_CURVE, _KIND, SLIDING_NAMES))
+    return data, variable("sliding_speed", ("sliding_speed",), curve.speed)

@@ -127,6 +127,12 @@ class SlidingContact:
         return float(self.friction @ self.direction) / self.nominal_pressure
 
     @property
+    def friction_across(self) -> float:
+        """Friction across `direction`, to the left in (x, y), over the nominal pressure [-]; it does no work."""
+        x, y = self.direction
+        return float(self.friction @ (-y, x)) / self.nominal_pressure
+
+    @property
     def dissipation(self) -> float:
         """Power that the plane dissipates per nominal area [W/m^2]: friction times speed."""
         return float(self.friction @ self.direction) * self.speed
@@ -144,41 +150,35 @@ class SlidingContact:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order(self._notes())
+        return in_order(filter(None, self.limits()))
 
-    def _notes(self) -> Iterator[Note]:
-        grid = self._grid
-        if not self.status.converged:
-            yield Note(
-                Rank.WRONG,
-                f"The residual is {self.residual:.1e}, where {self.problem.tolerance:.0e} was asked for.",
-            )
+    def limits(self) -> Iterator[Note | None]:
+        """Yield a note for each limit that is exceeded, and None for each of the others."""
+        grid, friction, error = self._grid, abs(self.friction_coefficient), self.friction_error
+        missed = f"The residual is {self.residual:.1e}, where {self.problem.tolerance:.0e} was asked for."
+        yield None if self.status.converged else Note(Rank.WRONG, missed)
         longest = max((*self.material.creep().times, 0.0)) * self.speed
         period = min(
             length / abs(part)
             for length, part in zip(grid.lengths[::-1], self.direction, strict=True)
             if abs(part) > 1e-12
         )
-        if longest > period:
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The surface moves by {longest:.3g} m in the longest retardation time, more than its period of "
-                f"{period:.3g} m: the plane meets the same summits before it has recovered.",
-            )
-        if self.speed and self.friction_error > COARSE * abs(self.friction_coefficient):
-            yield Note(
-                Rank.DOUBTFUL,
-                f"The grid may change the friction coefficient by {self.friction_error:.1e}: use smaller cells.",
-            )
-        if self.material.band is not None and self.speed:
-            highest = self.speed * float(np.hypot(*(np.abs(each).max() for each in wave_vectors(grid))))
-            lowest = 2 * math.pi * self.speed / period
-            if highest * self.material.band[0] > 1 or lowest * self.material.band[1] < 1:
-                yield Note(
-                    Rank.DOUBTFUL,
-                    f"Waves load the plane at {lowest:.1e} to {highest:.1e} rad/s, partly outside the band of the "
-                    "material's data.",
-                )
+        early = Note(
+            Rank.DOUBTFUL,
+            f"The surface moves by {longest:.3g} m in the longest retardation time, more than its period of "
+            f"{period:.3g} m: the plane meets the same summits before it has recovered.",
+        )
+        yield early if longest > period else None
+        coarse = f"The grid may change the friction coefficient by {error:.1e}: use smaller cells."
+        yield Note(Rank.DOUBTFUL, coarse) if self.speed and error > COARSE * friction else None
+        highest = self.speed * float(np.hypot(*(np.abs(each).max() for each in wave_vectors(grid))))
+        lowest, (short, long) = 2 * math.pi * self.speed / period, self.material.band or (0.0, math.inf)
+        outside = Note(
+            Rank.DOUBTFUL,
+            f"Waves load the plane at {lowest:.1e} to {highest:.1e} rad/s, partly outside the band of the "
+            "material's data.",
+        )
+        yield outside if self.speed and (highest * short > 1 or lowest * long < 1) else None
 
     def _mean_with_slope(self, field: Array) -> Array:
         """Return the mean of the pressure times the slope (x, y) of a field."""
@@ -279,7 +279,7 @@ def at_rest(
     if not isinstance(grid, Grid) or grid.ndim != 2 or not all(grid.periodic):
         raise InputError(
             "steady sliding needs a map that is periodic along both axes",
-            "make the surface periodic, such as rc.Surface(heights, rc.Grid(shape, spacing, periodic=True))",
+            "if the surface repeats itself, make the grid with periodic=True",
             "surface",
         )
     if not is_numpy(surface.heights) or not np.isfinite(surface.heights).all():

@@ -133,7 +133,7 @@ class ViscoelasticState:
         """Stiffness against a change of the depth after a long time [N/m], contact region held fixed."""
         return self._stiffness(self.material.equilibrium)
 
-    @numeric
+    @numeric(frequency="rad/s")
     def dynamic_stiffness(self, frequency: float) -> complex:
         """Return the complex stiffness of a small oscillation about this state, contact region held fixed.
 

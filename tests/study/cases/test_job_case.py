@@ -39,7 +39,22 @@ JOBS = {  # with what its record is sure to hold, and along what it lies
         "leak_rate",
         (),
     ),
+    "creep": (
+        {
+            **{"history": {"history": "0s:0N,1s:1mN,9s:1mN"}, "contact": {"time_tolerance": "0.1"}},
+            **{"source": MADE | {"points": "8"}, "bodies": {"material": "rubber.toml"}},
+        },
+        *("depth", ("time",)),
+    ),
     "curve": ({"loads": {"depths": "0.1um,0.2um"}, "source": MADE, "bodies": BODIES}, "stiffness", ("load",)),
+    "sliding": (
+        {
+            **{"source": MADE | {"periodic": True}, "bodies": {"material": "rubber.toml"}},
+            "sliding": {"pressure": "0.1MPa", "speeds": "1cm/s,1m/s"},
+        },
+        "friction_coefficient",
+        ("sliding_speed",),
+    ),
     "adhesion press": ({"load": {"depth": "1nm"}, **STICKY}, "force", ()),
     "adhesion curve": ({"loads": {"depths": "-10nm,10nm"}, **STICKY}, "force", ("load",)),
     "adhesion loop": ({"turn": {"depth": "10nm", "points": "3"}, **STICKY}, "pull_off_force", ()),
@@ -94,8 +109,15 @@ def test_each_sample_draws_phases_of_its_own_and_each_combination_is_what_the_li
 
 
 @pytest.mark.parametrize("name", JOBS)
-def test_every_job_has_a_record_of_numbers_with_units_and_without_maps(name, tmp_path):
+def test_every_job_has_a_record_of_numbers_with_units_and_without_maps(name, tmp_path, monkeypatch):
+<<<<<<< HEAD
+    monkeypatch.chdir(tmp_path)
+    rc.viscoelastic.standard_solid(1e6, 2e6, 1.0).write("rubber.toml")
+=======
+>>>>>>> facesliding
     parameters, quantity, along = JOBS[name]
+    monkeypatch.chdir(tmp_path)
+    rc.viscoelastic.standard_solid(1e6, 1e7, 1e-3).write("rubber.toml")
     found = exported(study({"job": name} | parameters, samples=2), tmp_path)
     assert found[quantity].dims == ("sample", *along)
     assert found[quantity].attrs["units"]

@@ -14,9 +14,7 @@ from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
-from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.source import File
-from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
@@ -70,11 +68,11 @@ class PageRequest:
 
         def known(file: File) -> UploadedFile:
             if file.file not in files:
-                raise InputError("the server no longer has this file", "drop it again", "source.file")
+                raise InputError("the server no longer has this file", "drop it again", "file")
             return files[file.file]
 
         job = from_plain(plain)
-        if isinstance(job, TheoryJob | LeakJob):
+        if isinstance(job, WITHOUT_FORM):
             raise InputError(
                 f"the page does not show the job {job.NAME!r}",
                 "use the command roughcontact run",

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
-from roughcontact.errors import InputError, every, placed, together
+from roughcontact.errors import InputError, every, together
 from roughcontact.files.fingerprint import fingerprint
 from roughcontact.recipe.job_calls import Call, Name, perform
 from roughcontact.recipe.jobs import Job, calls_of, known_names
@@ -30,7 +30,7 @@ from roughcontact.study.nested_names import at, flat
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
 _ANSWERS = ("leak", "loop", "curve", "state", "solution")  # the first that exists is the answer
-_KEPT = {"load", "axis"}  # dimensions of a record, without those of maps and spots
+_KEPT = {"load", "sliding_speed", "axis", "time"}  # dimensions of a record, without those of maps and spots
 
 
 class JobParameters(Parameters):
@@ -61,8 +61,7 @@ class JobParameters(Parameters):
                 raise InputError(
                     "a study only supports jobs that press surfaces", "take press or curve", "job"
                 )
-            with placed("source"):
-                job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
+            job = with_files(job, lambda file: _pinned(file, own.get("folder", ""), own.get("files", {})))
         except InputError as error:
             mistakes += every(error)
         if mistakes:
@@ -102,8 +101,9 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        The variables of ``to_dataset()`` of the answer without a dimension and along ``load``; for a job with
-        conductors also the conductance of the interface, with a frequency the reflection of ultrasound.
+        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` or ``sliding_speed``, and at
+        the given times; for a job with conductors also the conductance of the interface, with a frequency the
+        reflection of ultrasound.
     """
     job = located(parameters.recipe, Path(parameters.folder))
     require_same_files(job)
@@ -114,7 +114,10 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
             columns.append(replace(call, given=(Name("dataset"), *call.given[1:]), result="dataset"))
         else:
             perform(_drawing(call), known)
-    known["dataset"] = next(known[name] for name in _ANSWERS if name in known).to_dataset()
+    dataset = next(known[name] for name in _ANSWERS if name in known).to_dataset()
+    if "prescribed" in dataset:  # adapted steps differ from sample to sample
+        dataset = dataset.isel(time=dataset["prescribed"].to_numpy())
+    known["dataset"] = dataset
     for call in columns:
         perform(call, known)
     dataset = known["dataset"]
