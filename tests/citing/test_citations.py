@@ -174,7 +174,7 @@ def test_bodies_in_time():
     anderson = in_time | {"Anderson1965", "Westergaard1939"}
     assert keys(rc.steady_sliding(WAVE, rubber, **slides)) == anderson
     speeds = rc.friction_curve(WAVE, rubber, speeds=[1e-5], pressure=1e3)
-    assert keys(speeds) == anderson - {"Pohrt2013", "Westergaard1939"}
+    assert keys(speeds) == anderson - {"Pohrt2013", "Westergaard1939"} | {"Persson2001"}
 
 
 def test_what_crosses_the_gap():

@@ -1,6 +1,6 @@
 """
-A rough rubber block in time
-============================
+Creep and complex stiffness of a rough rubber contact
+=====================================================
 
 A rubber block is pressed by a constant pressure against a rough rigid face. The contact area and the depth grow over
 seven decades of time. The stiffness against a small oscillation, on the state after one hour, is complex: its
