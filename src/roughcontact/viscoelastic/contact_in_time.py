@@ -282,7 +282,7 @@ class ContactInTime:
         own = _share(abs(coarse.total_strain - fine.total_strain), strain)
         if self.forced:
             own = max(own, _share(abs(coarse.depth - fine.depth), depth))
-        elif not self.material.dashpot:  # whose force follows from the last step alone, as the fields
+        elif not self.material.dashpot:  # whose force, as the fields, follows from the last step
             own = max(own, _share(abs(measure.total(coarse.pressure) - end.force), force))
         pressure = _share(min(measure.total(abs(coarse.pressure - each)) for each in halves), force)
         area = measure.total(fine.pressure > 0)
