@@ -290,7 +290,7 @@ class CurveAnswer:
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             measured = [name for name in curve.measured if "joint" in VARIABLES[name].shown.split()]
-            reflected = names_of(shown_in("joint", REFLECTION))
+            reflected = names_of(shown_in("joint", REFLECTION))[curve.flow is None :]  # else K/A0 twice
             shown = (*columns, *measured, *shown_columns(self.dataset), *reflected)
             report.print_table(*report.load_table(self.dataset, shown))
             conducting = (
