@@ -86,9 +86,9 @@ class Leak:
     def reynolds(self) -> float:
         """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density."""
         place = self.constriction
-        if place is None:
-            return 0.0
         grid = self.flow.solution.problem.grid
+        if place is None or isinstance(grid, RadialGrid):
+            return 0.0
         length = grid.lengths[self.direction if self.flow.axis is None else self.flow.axis]
         drop = self.drop * (length / self.seal_width if self.seal_width is not None else 1.0)  # over the map
         flux = float(np.hypot(*self.flow.flux(self.direction))[cells_near(place, grid)].max())

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.fluid.fluids import Gas
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
@@ -157,7 +158,7 @@ def leak_facts(leak: Leak) -> list[tuple[str, str]]:
 def _fluid_words(leak: Leak) -> str:
     """Return the fluid and the pressures on both sides in words, so that a wrong unit is seen."""
     fluid, up, down = leak.fluid, written(leak.upstream, "Pa", 4), written(leak.downstream, "Pa", 4)
-    if math.isfinite(leak.throughput):
+    if isinstance(fluid, Gas):
         return f"{fluid.name} at {fluid.temperature:g} K, {up} to {down} absolute"
     pressures = f"{up} to {down}" if leak.downstream > 0 else f"drop {up}"
     return f"viscosity {written(fluid.viscosity, 'Pa s', 4)}, {pressures}"
@@ -173,7 +174,7 @@ def _seal_words(leak: Leak) -> str:
 
 def rate_words(leak: Leak) -> str:
     """Return the leak rate in the units in use: volume of a liquid, throughput of a gas, mass."""
-    of_gas = math.isfinite(leak.throughput)  # the volume of a gas depends on the pressure
+    of_gas = isinstance(leak.fluid, Gas)  # the volume of a gas depends on the pressure
     values = [
         (getattr(leak, name), factor, unit)
         for name, factor, unit in _RATES
