@@ -131,7 +131,7 @@ def test_fields_of_a_recipe_become_options(made):
         (("a.txt", "--length", "x"), "Error: --length: the length must be a whole number from 1 up, not 'x'"),
         (
             ("a.txt", "--width", "1", "--names", "ann"),
-            "Error: --names belongs to --length, which is not given",
+            "Error: --names needs --length, which is not given",
         ),
         (
             ("a.txt", "--length", "1", "--kind-of", "squar"),
