@@ -100,7 +100,7 @@ if TYPE_CHECKING:
         surface_html as surface_html,
     )
     from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
-    from roughcontact.recipe.material_file import (
+    from roughcontact.recipe.in_time.material_file import (
         read_material as read_material,
         write_material as write_material,
     )
@@ -162,7 +162,7 @@ else:
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"
         ),
-        "recipe.material_file": "read_material write_material",
+        "recipe.in_time.material_file": "read_material write_material",
         "surface.preparation.filters": "filtered",
         "surface.preparation.levelling": "levelled without_form",
         "surface.preparation.mask": "masked",

@@ -255,7 +255,7 @@ class ContactProblem:
         '10.0 nm nearer'
         """
         rise, lifting = in_si(rise, "m", "rise"), in_si(lifting, "J", "lifting")
-        return self.moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
+        return self._moved(self.separation - rise, rise=self.rise + rise, lifting=self.lifting + lifting)
 
     def after(self, flow: Flow) -> ContactProblem:
         """Return the elastic contact of the surface that a load has flattened; depths count as before.
@@ -281,30 +281,33 @@ class ContactProblem:
         """
         surface = None if self.surface is None else flow.flatten(self.surface)
         separation = self.separation + flow.depth
-        return self.moved(separation, surface=surface, hardness=math.inf, size_law=None, flow=flow)
+        return self._moved(separation, surface=surface, hardness=math.inf, size_law=None, flow=flow)
 
-    def moved(self, separation: Array, **changes: Any) -> ContactProblem:
-        """Return bodies with a changed surface: values that depend on the separation are computed again.
+    def moved(self, separation: Array, control: Control) -> ContactProblem:
+        """Return the same bodies with another separation, under another control.
 
         Parameters
         ----------
         separation : array, shape of the grid
             The new separation [m].
-        **changes : object
-            New values of other fields.
+        control : Force or Depth
+            The new control.
 
         Returns
         -------
         ContactProblem
-            It shares the other values of `once`.
 
         Examples
         --------
         >>> import roughcontact as rc
         >>> problem = rc.press(rc.shapes.paraboloid(rc.Grid((33, 33), 1e-6), radius=1e-4), 1e9, force=1e-3).problem
-        >>> problem.moved(2 * problem.separation, control=rc.Depth(1e-7)).mean_separation / problem.mean_separation
+        >>> problem.moved(2 * problem.separation, rc.Depth(1e-7)).mean_separation / problem.mean_separation
         2.0
         """
+        return self._moved(separation, control=control)
+
+    def _moved(self, separation: Array, **changes: Any) -> ContactProblem:
+        """Return bodies with a changed surface: values that depend on the separation are computed again."""
         if is_numpy(separation):
             separation.flags.writeable = False
         other = replace(self, separation=separation, **changes)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
-from roughcontact.recipe.creep_job import CreepJob
+from roughcontact.recipe.in_time.creep_job import CreepJob
+from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
-from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 from roughcontact.recipe.theory_job import TheoryJob
 

@@ -8,11 +8,11 @@ from typing import Any, TypeAlias
 
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
-from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
+from roughcontact.recipe.in_time.creep_job import CreepJob
+from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
-from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 

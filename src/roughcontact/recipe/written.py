@@ -20,6 +20,7 @@ from roughcontact.files.fingerprint import fingerprint
 from roughcontact.files.standard_streams import standard
 from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
+from roughcontact.recipe.in_time.viscoelastic_body import ViscoelasticBody
 from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.measured.incident_wave import Ultrasound
 from roughcontact.recipe.outputs import OUTPUTS
@@ -27,7 +28,6 @@ from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
 from roughcontact.recipe.source import Combined, File, Source
 from roughcontact.recipe.theory_job import TheoryJob
-from roughcontact.recipe.viscoelastic_body import ViscoelasticBody
 
 __all__ = [
     *(

@@ -15,7 +15,7 @@ from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, output, source_of, writing
 from roughcontact.cli.report import emit, load_table, print_facts, print_table
 from roughcontact.progress.events import task
-from roughcontact.recipe.creep_job import CreepJob
+from roughcontact.recipe.in_time.creep_job import CreepJob
 from roughcontact.recipe.job_calls import perform
 from roughcontact.recipe.written import carried
 

@@ -13,8 +13,8 @@ from roughcontact.cli.path_answer import collected
 from roughcontact.cli.report import emit, load_table, print_facts, print_table, quantity, size_of
 from roughcontact.errors import InputError
 from roughcontact.progress.events import task
+from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.recipe_fields import value_of
-from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.written import carried
 
 __all__ = ["EXAMPLES", "sliding"]
@@ -41,13 +41,13 @@ def sliding(job: SlidingJob, *, answer: Answer) -> None:
     """
     from matplotlib.figure import Figure
 
-    from roughcontact.evaluation.sliding_theory import DOMAIN, with_persson
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.labels.labelled import plain_values
     from roughcontact.labels.note import Note, Rank
     from roughcontact.plot.canvas import save
     from roughcontact.viscoelastic.friction_curve import along_speeds, collect_speeds
+    from roughcontact.viscoelastic.sliding_theory import DOMAIN, with_persson
 
     with output(answer.out) as folder:
         known = contact_of(job)

@@ -19,6 +19,7 @@ from roughcontact.files.quantity import (
     parse_number,
 )
 from roughcontact.recipe.contact import Contact, operator_call
+from roughcontact.recipe.in_time.viscoelastic_body import ViscoelasticBody
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.measured.leak_along import LeakAlong
 from roughcontact.recipe.preparation import Preparation
@@ -26,7 +27,6 @@ from roughcontact.recipe.prescribed_loads import kinds_of
 from roughcontact.recipe.recipe_fields import check, described, value_of, with_fields_of
 from roughcontact.recipe.source import Source
 from roughcontact.recipe.texts import Amount, PureNumber, whole
-from roughcontact.recipe.viscoelastic_body import ViscoelasticBody
 
 __all__ = ["ContactOverTime", "CreepJob", "LoadHistory"]
 

@@ -10,12 +10,12 @@ from typing import Any, ClassVar
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import FORCE, PRESSURE, SPEED, parse_number
 from roughcontact.recipe.contact import Contact
+from roughcontact.recipe.in_time.viscoelastic_body import ViscoelasticBody
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.recipe_fields import check, described, values_of
 from roughcontact.recipe.source import Source
 from roughcontact.recipe.texts import Amount, rising_loads
-from roughcontact.recipe.viscoelastic_body import ViscoelasticBody
 
 __all__ = ["Sliding", "SlidingJob"]
 
