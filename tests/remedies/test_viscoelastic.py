@@ -55,15 +55,25 @@ ROWS = [
         "give it an equilibrium modulus",
         lambda: slide(material=dataclasses.replace(viscoelastic.maxwell(1.0, 1.0), equilibrium=0.1)),
     ),
-    row(lambda: slide(material=1e6), "such as standard_solid(equilibrium, instantaneous, relaxation_time)", slide),
+    row(
+        lambda: slide(material=1e6),
+        "such as standard_solid(equilibrium, instantaneous, relaxation_time)",
+        slide,
+    ),
     row(lambda: slide(speed=-1.0), "must be 0 or more and finite", lambda: slide(speed=0.0)),
     row(lambda: speeds(-1.0, 0.1), "must be 0 or more and finite", lambda: speeds(0.0, 0.1)),
     row(lambda: speeds(), "must hold at least one speed", lambda: speeds(0.1)),
-    row(lambda: slide(direction=(0, 0)), "must be a vector (x, y) that is not zero", lambda: slide(direction=(0, 1))),
+    row(
+        lambda: slide(direction=(0, 0)),
+        "must be a vector (x, y) that is not zero",
+        lambda: slide(direction=(0, 1)),
+    ),
     row(lambda: slide(force=0.02), "give exactly one of pressure and force", slide),
     row(lambda: slide(pressure=-1.0), "the pressure must be positive and finite", slide),
     row(
-        lambda: slide(start=rc.press(rc.shapes.wave(rc.Grid((8, 8), 1.0, periodic=True), 1.0, 8.0), 1.0, pressure=0.1)),
+        lambda: slide(
+            start=rc.press(rc.shapes.wave(rc.Grid((8, 8), 1.0, periodic=True), 1.0, 8.0), 1.0, pressure=0.1)
+        ),
         "must be a contact on the grid (16, 16)",
         lambda: slide(start=rc.press(ROUGH, 1.0, pressure=0.02)),
     ),

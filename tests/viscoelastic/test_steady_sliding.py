@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.viscoelastic import friction_curve, sliding_solver
 from roughcontact.solver.control import Status
+from roughcontact.viscoelastic import friction_curve, sliding_solver
 from roughcontact.viscoelastic.wave_operator import WaveOperator, passing
 
 SOLID = rc.viscoelastic.standard_solid(1.0, 3.0, 1.0)

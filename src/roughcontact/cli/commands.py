@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["ADHESION", "ALONE", "STUDY", "SURFACE", "do"]
 
-ALONE = {name: f"contact.{name}_command" for name in ("press", "leak", "curve", "sliding", "conductance", "theory")}
+ALONE = {
+    name: f"contact.{name}_command" for name in ("press", "leak", "curve", "sliding", "conductance", "theory")
+}
 ALONE |= {name: f"{name}_command" for name in ("run", "serve", "doctor")}
 ADHESION = {
     "press": "adhesion.adhesive_press_command",

@@ -335,8 +335,9 @@ def with_files(job: J, change: Callable[[File], File]) -> J:
         return job
     with within("source"):
         job = replace(job, source=changed(job.source))
-    if isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
-        with within("bodies"):
-            file = change(File(file=body.material, sha256=body.sha256))
-        job = replace(job, bodies=replace(body, material=file.file, sha256=file.sha256))
-    return job
+    if not isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
+        return job
+    with within("bodies"):
+        file = change(File(file=body.material, sha256=body.sha256))
+    moved: Any = {"bodies": replace(body, material=file.file, sha256=file.sha256)}
+    return replace(job, **moved)

@@ -174,7 +174,7 @@ def along_speeds(
     values = np.sort(np.asarray(number(speeds, "speeds [m/s]")).ravel())
     if not values.size:
         raise about("speeds", "must hold at least one speed [m/s]")
-    if not (0 <= values[0] and values[-1] < math.inf):
+    if not (values[0] >= 0 and values[-1] < math.inf):
         raise about("speeds", f"must be 0 or more and finite [m/s], not {values[0 if values[0] < 0 else -1]}")
     rest, along = at_rest(surface, material, pressure, force, tolerance), unit_vector(direction)
 

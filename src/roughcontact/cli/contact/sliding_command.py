@@ -41,7 +41,7 @@ def sliding(job: SlidingJob, *, answer: Answer) -> None:
     """
     from matplotlib.figure import Figure
 
-    from roughcontact.evaluation.sliding_theory import DOMAIN, with_persson
+    from roughcontact.viscoelastic.sliding_theory import DOMAIN, with_persson
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.labels.labelled import plain_values

@@ -101,8 +101,9 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` and along ``sliding_speed``; for a job with
-        conductors also the conductance of the interface, with a frequency the reflection of ultrasound.
+        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` and along
+        ``sliding_speed``; for a job with conductors also the conductance of the interface, with a frequency the
+        reflection of ultrasound.
     """
     job = located(parameters.recipe, Path(parameters.folder))
     require_same_files(job)
