@@ -41,13 +41,13 @@ def sliding(job: SlidingJob, *, answer: Answer) -> None:
     """
     from matplotlib.figure import Figure
 
-    from roughcontact.viscoelastic.sliding_theory import DOMAIN, with_persson
     from roughcontact.files.provenance import provenance
     from roughcontact.files.write import write_csv, write_json, write_netcdf
     from roughcontact.labels.labelled import plain_values
     from roughcontact.labels.note import Note, Rank
     from roughcontact.plot.canvas import save
     from roughcontact.viscoelastic.friction_curve import along_speeds, collect_speeds
+    from roughcontact.viscoelastic.sliding_theory import DOMAIN, with_persson
 
     with output(answer.out) as folder:
         known = contact_of(job)
