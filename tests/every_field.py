@@ -26,6 +26,7 @@ SMALLEST = {
         "seal": {"drop": "1bar"},
     },
     "curve": {"bodies": BODIES},
+    "creep": {"history": {"history": "0s:0um,1s:1um"}, "bodies": {"material": "rubber.toml"}},
     "adhesion press": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion curve": {"loads": {"depths": "0nm,5nm"}, "bodies": BODIES, "adhesion": ADHESION},
     "adhesion loop": {"turn": {"depth": "5nm"}, "bodies": BODIES, "adhesion": ADHESION},

@@ -56,6 +56,7 @@ SHAPES = {
 VISCO = rc.viscoelastic
 # What is called beside tests/test_bad_input.py, and good arguments.
 _LEAK = {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "axis": 0}
+SOFT_STATE = next(rc.viscoelastic_path(ROUGH, SOFT_MATERIAL, times=[0.0], forces=[1e-6], steps=1))
 MORE = [
     *(
         (call, {"surface": rc.shapes.wave(rc.Grid((4, 16), 1e-6, periodic=True), 1e-7, 1.6e-5),
@@ -184,8 +185,6 @@ MORE = [
     (VISCO.reduced, {"modulus": SOFT_MATERIAL, "kind": "shear", "poisson": 0.4}),
     (VISCO.power_law, {"modulus": 1e6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2), "equilibrium": 1e5,
                        "terms_per_decade": 1.0}),
-    (VISCO.creep_power_law, {"compliance": 1e-6, "time": 1.0, "exponent": 0.3, "band": (1e-2, 1e2),
-                             "instantaneous": 1e-7, "terms_per_decade": 1.0}),
     *((VISCO.from_dma, {"storage": [1e6, 2e6, 3e6], "loss": [1e5, 2e5, 1e5], name: [1.0, 10.0, 100.0],
                         "temperature": 300.0, "terms_per_decade": 1.0} | constant)
       for name, constant in (("frequencies", {"bulk": 1e9}), ("angular_frequencies", {"poisson": 0.4}))),
@@ -193,6 +192,7 @@ MORE = [
                        "band": (1e-2, 10.0), "temperature": 300.0, "misfit": 0.01}),
     (SOFT_MATERIAL.relaxation, {"time": 1.0}),
     (SOFT_MATERIAL.complex_modulus, {"angular_frequency": 1.0}),
+    (SOFT_STATE.dynamic_stiffness, {"frequency": 1.0}),
     (SOFT_MATERIAL.shifted, {"factor": 10.0, "temperature": 300.0}),
     *((VISCO.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], name: values})
       for name, values in (("forces", [2e-2, 3e-2]), ("depths", [2.1e-6, 2.5e-6]))),
@@ -274,7 +274,7 @@ PLAIN_ONLY = [
     (MDR.line_scan.scan_curves, {"scan": SCAN, "modulus": 1e9, "rng": None, "forces": [1e-3, 1e-2], "count": 2}),
 ]  # fmt: skip
 # The numerical core takes arrays as its own border has left them.
-INSIDE = re.compile(r"(Capabilities|(Shear)?Operator|ActiveSet|PolonskyKeer)\b")
+INSIDE = re.compile(r"(Capabilities|(Shear)?Operator|ActiveSet|PolonskyKeer|ContactProblem)\b")
 
 
 def unit_of(call, name, good):
@@ -286,8 +286,10 @@ def unit_of(call, name, good):
         return "Pa"
     if name == "density" and call in (rc.Liquid, rc.Material):
         return "kg/m^3"
-    if call in (VISCO.from_creep, VISCO.creep_power_law) and name == "instantaneous":
+    if call is VISCO.from_creep and name == "instantaneous":
         return "1/Pa"
+    if call == SOFT_STATE.dynamic_stiffness:
+        return "rad/s"
     if call is rc.load_cycle:
         return None  # of forces or of displacements
     if call is rc.press and good.get("operator") is LINE_OPERATOR and name == "force":

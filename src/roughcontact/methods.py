@@ -49,6 +49,7 @@ if TYPE_CHECKING:
         flux_dataset as flux_dataset,
     )
     from roughcontact.evaluation.interface_dataset import interface_dataset as interface_dataset
+    from roughcontact.files.kept_arrays import keep_arrays as keep_arrays, kept_arrays as kept_arrays
     from roughcontact.files.save import csv_of as csv_of
     from roughcontact.files.surface_dataset import (
         surface_dataset as surface_dataset,
@@ -147,6 +148,7 @@ else:
         "evaluation.flux_dataset": "flux_dataframe flux_dataset",
         "evaluation.interface_dataset": "interface_dataset",
         "gradients.parameters": "to_hardness to_load to_modulus to_radius to_rms_height to_tilt",
+        "files.kept_arrays": "keep_arrays kept_arrays",
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "fluid.leak_dataset": "flow_dataset flow_record",

@@ -56,8 +56,7 @@ OF_MATERIALS = {
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
 SMALLEST, LARGEST = 1e-50, 1e50
 
-# Annotations as they are written, every module postponing them: of arrays that are broadcast, of single numbers, and of
-# whole ones.
+# Annotations as they are written in the modules: of arrays that are broadcast, of single numbers, of whole ones.
 ARRAYS = {"ArrayLike", "npt.ArrayLike", "float | Array"}
 NUMBERS = {"float"}
 WHOLE = {"int"}
@@ -67,12 +66,14 @@ BODIES = {
     "Solution": "a Solution, as rc.press returns it",
     "Solution | AdhesiveState": "a Solution, as rc.press returns it, or an AdhesiveState",
     "Curve": "a Curve, as rc.loading_curve returns it",
+    "MeasuredCurve": "a curve, as rc.loading_curve or rc.viscoelastic_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
 }
-KINDS = {"Body": ("Surface", "RadialProfile")}  # of which others are one
+# Classes that a name of `BODIES` stands for.
+KINDS = {"Body": ("Surface", "RadialProfile"), "MeasuredCurve": ("Curve", "ViscoelasticCurve")}
 
 
 def number(value: Any, what: str) -> Array:

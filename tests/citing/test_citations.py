@@ -158,6 +158,41 @@ def test_surfaces_that_slide():
     assert keys(curve) == SLIDING | {"roughcontact", "Pohrt2013"}
 
 
+def test_bodies_in_time():
+    rubber = rc.viscoelastic.standard_solid(1e6, 1e7, 1.0)
+    in_time = METHOD | {"Lee1960"}
+    history = {"times": [0, 1], "pressures": [1e3, 1e3], "steps": 2}
+    *_, state = rc.viscoelastic_path(WAVE, rubber, **history)
+    assert keys(state) == in_time | {"Westergaard1939"}
+    assert keys(rc.viscoelastic_curve(WAVE, rubber, **history)) == in_time
+    leaking = rc.viscoelastic_curve(WAVE, rubber, **history, measures=[rc.Transmissivity()])
+    assert keys(leaking) == in_time | {"Reynolds1886", "Patir1978"}
+    elastic = rc.loading_curve(WAVE, 1e7, pressures=[1e2, 3e2, 1e3, 3e3])
+    moved = rc.viscoelastic.transfer(elastic, rubber, [0, 1], forces=3e2 * WAVE.grid.area)
+    assert keys(moved) == {"roughcontact", "Lee1960", "Ting1966"}
+    slides = {"speed": 1e-5, "pressure": 1e3}
+    anderson = in_time | {"Anderson1965", "Westergaard1939"}
+    assert keys(rc.steady_sliding(WAVE, rubber, **slides)) == anderson
+    speeds = rc.friction_curve(WAVE, rubber, speeds=[1e-5], pressure=1e3)
+    assert keys(speeds) == anderson - {"Pohrt2013", "Westergaard1939"} | {"Persson2001"}
+
+
+def test_what_crosses_the_gap():
+    pressed, both = rc.press(WAVE, 1e9, pressure=1e5), (10.0, 10.0)
+    air = rc.Gas("air", pressure=1e5, temperature=300, accommodation=(0.9, 0.9))
+    periodic = METHOD | {"Westergaard1939"}
+    assert keys(rc.gap_flow(pressed)) == periodic | {"Reynolds1886"}
+    seal = {"drop": 1e4, "axis": 0, "seal_width": 1e-3, "circumference": 0.1}
+    assert keys(rc.leak(pressed, rc.Liquid(1e-3), **seal)) == periodic | {"Reynolds1886"}
+    joint = rc.joint_conductance(pressed, conductivities=both, gas=air)
+    assert keys(joint) == periodic | {"Yovanovich2005"}
+    parts = [rc.ConductanceParts(conductivities=both, gas=air)]
+    curve = rc.loading_curve(WAVE, 1e9, pressures=[1e4, 1e5], measures=parts)
+    assert keys(curve) == periodic | {"Yovanovich2005"}
+    heard = JOB | {"bodies": {"materials": "steel,aluminium"}, "ultrasound": {"frequency": "1MHz"}}
+    assert keys(from_plain(heard)) == METHOD | {"Love1929", "Westergaard1939", "Kendall1971"}
+
+
 def test_theories_by_their_law_and_in_a_job_are_the_same():
     for name, law in laws():
         of_job = keys(
@@ -209,6 +244,15 @@ def test_every_entry_is_cited_by_something():
     elsewhere = {  # in the tests above
         *("Love1929", "Westergaard1939", "Popov2015", "Brandt1990", "Almqvist2007", "Nix1998", "Maugis1992"),
         *("Johnson1971", "Pohrt2015", "Yastrebov2017", "Barber2003", "Saupe1988", "ISO16610", "Roettger2022"),
+        *(
+            "Lee1960",
+            "Ting1966",
+            "Anderson1965",
+            "Reynolds1886",
+            "Patir1978",
+            "Yovanovich2005",
+            "Kendall1971",
+        ),
     }
     assert {each.key for each in references()} == cited | elsewhere
 

@@ -128,7 +128,7 @@ PRESS_OPTIONS = {
         changed(modulus=None, young="1GPa", poisson="0.3", young2="1GPa"),
         "--poisson2: --young2 is given without --poisson2; give --poisson2",
     ),
-    "too many bodies": (changed(young2="1GPa"), "--young2 belongs to --young"),
+    "too many bodies": (changed(young2="1GPa"), "--young2 needs --young"),
     "zero Young's modulus": (
         changed(modulus=None, young="0", poisson="0.3"),
         "--young: Young's modulus must be positive",

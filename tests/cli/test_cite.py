@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-import roughcontact as rc
+from roughcontact import viscoelastic
 from roughcontact.citing.bibliography import references
 
 MODULUS = ("--modulus", "1GPa")
@@ -12,10 +12,11 @@ LINES = {
     "press": ("--force", "1mN", *MODULUS),
     "curve": ("--forces", "0.1mN,1mN", *MODULUS, "--hardness", "1GPa", "--theory", "gw"),
     "leak": ("--force", "0.1N", *MODULUS, "--viscosity", "1mPa*s", "--drop", "1kPa"),
+    "creep": ("--history", "0s:0nm,1s:1nm", "--steps", "2", "--material", "rubber.toml"),
     "adhesion press": ("--depth", "1nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion curve": ("--depths", "1nm,2nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion detach": ("--force", "1mN", *MODULUS, "--work", "1mJ/m^2"),
-    "sliding": ("--periodic", "--pressure", "1MPa", "--speeds", "1m/s"),
+    "sliding": ("--periodic", "--pressure", "1MPa", "--speeds", "1m/s", "--material", "rubber.toml"),
     "surface spectrum": (),
     "surface info": (),
 }
@@ -23,6 +24,7 @@ PAPERS = {
     "press": "Love1929",
     "curve": "Greenwood1966",
     "leak": "Love1929",
+    "creep": "Love1929",
     "adhesion press": "Rey2017",
     "adhesion curve": "Rey2017",
     "adhesion detach": "Pohrt2015",
@@ -37,14 +39,11 @@ def text_of(key):
 
 
 @pytest.mark.parametrize("command", LINES)
-def test_references_follow_the_answer(command, invoke, rough, tmp_path):
+def test_references_follow_the_answer(command, invoke, rough, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    viscoelastic.standard_solid(1e9, 2e9, 1.0).write("rubber.toml")
     out = tmp_path / "out"
-    if command == "sliding":
-        rc.viscoelastic.standard_solid(1e9, 2e9, 1e-3).write(tmp_path / "rubber.toml")
-        given = ("--material", tmp_path / "rubber.toml", *LINES[command])
-    else:
-        given = LINES[command]
-    answer = invoke(*command.split(), rough, *given, "--cite", "--out", out)
+    answer = invoke(*command.split(), rough, *LINES[command], "--cite", "--out", out)
     assert answer.exit_code == 0, answer.stderr
     before, _, cited = answer.stdout.partition("\nTo cite:\n")
     assert before

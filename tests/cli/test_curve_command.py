@@ -227,7 +227,7 @@ def test_theories_say_what_they_took_from_the_surface(invoke, rough, surface):
         (("--theory", "person"), "there is no theory 'person'; did you mean 'persson'? choose from persson"),
         (("--theory", "gw,gw"), "each theory once"),
         (("--theory", ","), "each theory once"),
-        (("--hurst", "0.8"), "--hurst belongs to --theory"),
+        (("--hurst", "0.8"), "--hurst needs --theory"),
         (("--theory", "hertz"), "give --radius"),
         (("--theory", "power-law", "--hurst", "5"), "between -1 and 3"),
         (("--theory", "power-law", "--hurst", "tall"), "not a number"),

@@ -78,6 +78,8 @@ def test_a_loop_has_the_reflection_of_first_loading_by_the_stiffness_on_unloadin
     assert found == pytest.approx(wanted(joint, hardness="aluminium")["reflection"].tolist(), rel=1e-7)
     told = invoke("curve", joint, *GIVEN, *SOUND, "--hardness", "aluminium").stdout
     assert "by the stiffness on unloading, because a small oscillation is elastic" in told
+    assert "K/A0 on unloading [N/µm/mm²]" in told
+    assert "K/A0 on unloading" not in invoke("curve", joint, *GIVEN, *SOUND).stdout
 
 
 def test_another_frequency_does_not_press_again(invoke, joint, tmp_path, monkeypatch):

@@ -73,7 +73,7 @@ def test_files_and_screen_hold_the_parts(invoke, joint, tmp_path):
     for name, value in expected.items():
         assert curve.measured[name][1] == pytest.approx(value, rel=1e-6), name  # both to their tolerance
     assert any("do not add" in note for note in json.loads((out / "curve.json").read_text())["notes"])
-    assert "do not add to the spots" in answer.stderr
+    assert "do not add up" in answer.stderr
     written = read_table(out / "curve.csv")["joint_conductance_per_area"].tolist()
     assert written == curve.measured["joint_conductance_per_area"].tolist()
     table = read_table(out / "interface.csv")

@@ -84,8 +84,8 @@ def test_a_gas_leaks_in_the_units_of_vacuum_engineers_with_missing_cells_open_an
     assert number(rate, "mbar l/s") == pytest.approx(10 * number(rate, "Pa m³/s"), rel=1e-3)
     air = rc.Gas("air", temperature=293.15)
     density = 1.5e5 / (air.gas_constant * 293.15)
-    volume = number(rate, "m³/s")
-    assert number(rate, "Pa m³/s") == pytest.approx(1.5e5 * volume, rel=1e-3)
+    assert "ml/min" not in rate  # the volume of a gas depends on the pressure
+    volume = number(rate, "Pa m³/s") / 1.5e5
     assert number(rate, "mg/s") == pytest.approx(density * volume * 1e6, rel=1e-3)
     opened = told["leak rate, missing cells open"]
     assert number(opened, "Pa m³/s") > number(rate, "Pa m³/s")
@@ -118,7 +118,7 @@ def test_full_contact_leaks_nothing_and_says_so(invoke, tile, tmp_path):
     [
         (
             (*AIR[:2], *AIR[4:], *SEAL),
-            "--gas belongs to --temperature, which is not given: give --temperature too",
+            "--gas needs --temperature, which is not given: give --temperature too",
             (*AIR, *SEAL),
         ),
         (
@@ -138,7 +138,7 @@ def test_full_contact_leaks_nothing_and_says_so(invoke, tile, tmp_path):
         ),
         (
             (*WATER, *SEAL[:2]),
-            "--seal-width belongs to --circumference, which is not given: give --circumference too",
+            "--seal-width needs --circumference, which is not given: give --circumference too",
             (*WATER, *SEAL),
         ),
         ((*WATER[:4], "--drop", "30MPa", *SEAL), "exceeds the nominal pressure", (*WATER, *SEAL)),

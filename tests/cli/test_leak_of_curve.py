@@ -108,10 +108,10 @@ def test_a_plastic_curve_has_a_flow_and_its_doubts(invoke, torn):
         (("--leak", "y"), "--leak: 'y' is not one of the choices; choose from 0, 1", ("--leak", "1")),
         (
             ("--leak", "0", "--loop", "--hardness", "1GPa"),
-            "--leak does not go with --loop: it is computed for increasing loads only",
+            "--leak does not go with --loop: the flow is computed for increasing loads only",
             ("--leak", "0", "--hardness", "1GPa"),
         ),
-        (("--missing", "open"), "--missing belongs to --leak", ("--leak", "0", "--missing", "open")),
+        (("--missing", "open"), "--missing needs --leak", ("--leak", "0", "--missing", "open")),
     ],
 )
 def test_what_is_refused_and_the_remedy(invoke, tile, words, message, right):
@@ -124,6 +124,6 @@ def test_what_is_refused_and_the_remedy(invoke, tile, words, message, right):
 def test_a_profile_has_no_flow(invoke, tile):
     refused = invoke("curve", tile, *BODIES, "--leak", "0", "--profile", "line")
     assert (
-        "--leak does not go with --profile: it needs a map of heights; leave out one of them"
+        "--leak does not go with --profile: the flow needs a map of heights; leave out one of them"
         in refused.stderr
     )

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from every_field import smallest
+from roughcontact import viscoelastic
 from roughcontact.cli.commands import do
 from roughcontact.cli.option_groups import argument, grouped, option
 from roughcontact.cli.options import Answer
@@ -130,7 +131,7 @@ def test_fields_of_a_recipe_become_options(made):
         (("a.txt", "--length", "x"), "Error: --length: the length must be a whole number from 1 up, not 'x'"),
         (
             ("a.txt", "--width", "1", "--names", "ann"),
-            "Error: --names belongs to --length, which is not given",
+            "Error: --names needs --length, which is not given",
         ),
         (
             ("a.txt", "--length", "1", "--kind-of", "squar"),
@@ -162,7 +163,11 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         if name == "theory"
         else {"job": name, "source": {"file": str(rough), "periodic": False}}
     )
-    if name != "surface":
+    if name == "creep":
+        viscoelastic.standard_solid(1e9, 2e9, 1.0).write(tmp_path / "rubber.toml")
+        plain["history"] = {"history": "0s:0nm,1s:1nm"}
+        plain["bodies"] = {"material": str(tmp_path / "rubber.toml")}
+    elif name != "surface":
         plain["bodies"] = {"modulus": "1GPa"}
     if name in ("press", "leak", "adhesion detach"):
         plain["load"] = {"depth": "10nm"}

@@ -296,7 +296,7 @@ def test_a_hardness_can_be_that_of_a_material(invoke, rough, surface):
         (("--materials", "steel,steel", "--modulus", "1GPa"), "exclude each other"),
         (
             ("--materials", "steel,steel", "--poisson", "0.3"),
-            "--poisson belongs to --young, which is not given",
+            "--poisson needs --young, which is not given",
         ),
         (("--modulus", "110"), "110 without a unit is 110 Pa, softer than foam; write 110GPa"),
         (("--young", "210", "--poisson", "0.3"), "--young: 210 without a unit"),
@@ -431,7 +431,7 @@ def test_what_other_maps_would_give_stands_in_table_picture_and_record(invoke, r
 
 def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):
     for words, message in (
-        (("--shortest-wave", "10um"), "--shortest-wave belongs to --errors"),
+        (("--shortest-wave", "10um"), "--shortest-wave needs --errors"),
         (("--errors", "--shortest-wave", "10"), "leaves nothing of a map"),
         (("--errors", "--shortest-wave", "1um"), "too short for cells"),
         (("--errors", "--shortest-wave", "-1um"), "a wavelength must be positive"),

@@ -68,7 +68,7 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
         (("--table", "ansys", "--out", "OUT"), "--table: there is no table 'ansys'; choose from csv, abaqus"),
         (("--table", "csv,csv", "--out", "OUT"), "name each table once"),
         (("--table", ",", "--out", "OUT"), "name each table once"),
-        (("--table-area", "1mm^2", "--out", "OUT"), "--table-area belongs to --table"),
+        (("--table-area", "1mm^2", "--out", "OUT"), "--table-area needs --table"),
         (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for the table lammps"),
         (("--table", "lammps", "--table-area", "1mm", "--out", "OUT"), "'1mm' is not an area"),
         (("--table", "lammps", "--table-area", "0mm^2", "--out", "OUT"), "the area must be positive"),

@@ -38,8 +38,8 @@ def test_each_load_has_the_parts_of_its_state(conductivities, tmp_path):
     if told:  # worked out from the parts of the last load, the heaviest
         most = joints[-1].interaction
         assert told == [
-            f"At 3 of 3 loads gas and radiation do not add to the spots (h l/k_s up to {most:.2g}): the conductance of "
-            "the joint is solved there, and differs from the sum of the parts."
+            f"At 3 of 3 loads the parts do not add up (h l/k_s up to {most:.2g}): the conductance of "
+            "the joint is solved as a whole there."
         ]
         assert all(joint.residual <= 1e-7 for joint in joints)
         # Where much of the area is in contact, the drop over the open cells is above the mean: more than the sum.

@@ -1,10 +1,14 @@
 """Flow through the gap of rough contacts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import roughcontact as rc
 from roughcontact.fluid import fluids
+from roughcontact.fluid.constriction import Constriction, cells_near
+from roughcontact.fluid.leak import Leak
 from roughcontact.recipe.leak_job import GASES
 
 GRID = 64
@@ -164,7 +168,7 @@ def test_gases_at_300_kelvin(name, path, jump):
     [
         ({"fluid": rc.Gas("air"), "drop": 1e5}, "give upstream= and downstream=, absolute"),
         ({"fluid": WATER}, "or only drop="),
-        ({"fluid": WATER, "drop": -1.0}, "must exceed the downstream pressure"),
+        ({"fluid": WATER, "drop": -1.0}, "exceed the downstream pressure"),
         ({"fluid": WATER, "drop": 1e9}, "exceeds the nominal pressure"),
         ({"fluid": WATER, "drop": 1e5, "seal_width": 1e-3}, "give both"),
         ({"fluid": "water", "drop": 1e5}, "must be an rc.Liquid or an rc.Gas"),
@@ -273,3 +277,26 @@ def test_a_film_has_the_unit_of_its_kind():
     assert found.film == pytest.approx(1e-9)
     with pytest.raises(ValueError, match="film must be in"):
         rc.joint_conductance(solution, conductivities=(50.0, 50.0), film=1e-3 * unit.ohm * unit.mm**2)
+
+
+def test_the_reynolds_number_is_that_of_the_constriction_and_of_the_drop_over_the_map():
+    """In a uniform gap h of length L, it is density times flux over viscosity, times h over the width of the map."""
+    grid = rc.Grid((16, 32), 1e-6)
+    flat = rc.Surface(np.zeros(grid.shape), grid)
+    flow = replace(rc.gap_flow(rc.press(flat, 1e9, depth=0.0), axis=0), gap=np.full(grid.shape, 2e-7))
+    found = [
+        Leak(flow, WATER, 1e5, 0.0, 0.0, seal_width=width, circumference=1e-3)
+        for width in (None, grid.lengths[0], 10 * grid.lengths[0])
+    ]
+    flux = 2e-7**3 / (12 * WATER.viscosity) * 1e5 / grid.lengths[0]
+    exact = WATER.density * flux / WATER.viscosity * 2e-7 / grid.lengths[1]
+    np.testing.assert_allclose([each.reynolds for each in found], [exact, exact, exact / 10], rtol=1e-9)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_cells_near_a_constriction_lie_across_the_border_of_a_period_only(periodic):
+    grid = rc.Grid((8, 8), 1.0, periodic=periodic)
+    place = Constriction(place=(0.5, 4.5), cells=4, width=5.0, gap=1.0, share=0.5)
+    rows, columns = np.nonzero(cells_near(place, grid))
+    assert set(rows) == ({0, 1, 2, 6, 7} if periodic else {0, 1, 2})
+    assert set(columns) == {2, 3, 4, 5, 6}

@@ -117,6 +117,29 @@ def test_leak_rates_are_those_of_each_load():
         rc.leak_rates(rc.loading_curve(PERIODIC, 1e9, pressures=[1e6]), WATER, **seal)
 
 
+def test_leak_rates_of_a_history_follow_its_gaps_and_end_with_its_pressure():
+    """At a held squeeze the pressure relaxes to a third, and falls below the drop of 0.6 of the first pressure."""
+    rubber = rc.viscoelastic.standard_solid(1e9, 3e9, 1.0)
+    depth = rc.press(PERIODIC, 3e9, pressure=3e6).depth
+    seal = {"drop": 1.8e6, "seal_width": 1e-3, "circumference": 0.1}
+    history = {"times": [0, 0, 20], "steps": 10, "measures": [rc.Transmissivity(axis=0)]}
+    squeeze = rc.viscoelastic_curve(PERIODIC, rubber, depths=[0, depth, depth], **history)
+    rates = rc.leak_rates(squeeze, WATER, **seal)
+    sealed = squeeze.nominal_pressure >= seal["drop"]
+    assert np.array_equal(np.isnan(rates), ~sealed)
+    assert np.isnan(rates[0])  # before the jump
+    assert np.isnan(rates[-1])
+    assert sealed.sum() >= 1
+    elastic = rc.leak(rc.press(PERIODIC, 3e9, pressure=3e6), WATER, axis=0, **seal).volume
+    assert rates[sealed] == pytest.approx(elastic, rel=1e-5)
+    force = rc.viscoelastic_curve(PERIODIC, rubber, pressures=[0, 3e6, 3e6], **history)
+    falling = rc.leak_rates(force, WATER, **seal)[1:]
+    assert falling[0] == pytest.approx(elastic, rel=1e-5)
+    assert np.all(np.diff(falling) < 0)
+    relaxed = rc.leak(rc.press(PERIODIC, 1e9, pressure=3e6), WATER, axis=0, **seal).volume
+    assert falling[-1] == pytest.approx(relaxed, rel=1e-2)  # ten steps of two relaxation times
+
+
 def test_a_flow_beyond_its_tolerance_and_a_narrow_constriction_are_noted():
     curve = curve_of()
     assert not any("bounds of the flow" in note or "critical constriction" in note for note in curve.notes)

@@ -39,7 +39,7 @@ def test_lines_hold_the_parts(units, labels, factors):
     assert (axes.get_xlabel(), axes.get_ylabel()) == labels
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
     named = axes.get_legend_handles_labels()[1]
-    assert named == ["spots", "gas", "radiation", "joint"]
+    assert named == ["spots", "gas", "joint"]  # without radiation, a millionth of the joint
     for whole, filled, name in zip(axes.lines[::2], axes.lines[1::2], named, strict=True):
         values = curve.measured[f"{name}_conductance_per_area"]
         np.testing.assert_allclose(whole.get_xdata(), curve.nominal_pressure * factors[0], rtol=1e-14)
@@ -50,6 +50,25 @@ def test_lines_hold_the_parts(units, labels, factors):
 def test_parts_that_are_zero_are_left_out():
     axes = rc.plot.conductance_curve(curve_of(), Figure().subplots())
     assert axes.get_legend_handles_labels()[1] == ["spots", "joint"]
+
+
+def test_parts_that_do_not_count_are_left_out():
+    """Radiation of 6 W/(m^2 K) counts beside a joint of 5 kW/(m^2 K), not beside one of 10."""
+    pressures = np.array([1e7, 2e7])
+    columns = {"spots": 0.0, "gas": 0.0, "radiation": 6.0}
+    for joint, drawn in ((5e3, ["radiation", "joint"]), (1e4, ["joint"])):
+        measured = {
+            f"{name}_conductance_per_area": np.full(2, value)
+            for name, value in (columns | {"joint": joint}).items()
+        }
+        curve = rc.loading_curve(
+            SURFACE,
+            1e10,
+            pressures=pressures,
+            measures=[lambda _, of=measured: {k: v[0] for k, v in of.items()}],
+        )
+        axes = rc.plot.conductance_curve(curve, Figure().subplots())
+        assert axes.get_legend_handles_labels()[1] == drawn
 
 
 def test_a_curve_without_parts_is_refused():

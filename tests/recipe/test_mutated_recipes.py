@@ -100,6 +100,11 @@ OUT_OF_RANGE = {
     "Seal.seal_width": ("0mm", "5um"),
     "Seal.circumference": ("-1m", "5um"),
     "Seal.missing": ("shut", "closed", "open"),
+    "LoadHistory.history": ("0s:0N,1s:1MPa", "0s:0N,1s:1N"),
+    "ContactOverTime.profile": ("springs", "line", "winkler"),
+    "ContactOverTime.tolerance": ("0.1", "1e-8"),
+    "ContactOverTime.time_tolerance": ("1", "1e-3"),
+    "ContactOverTime.steps": ("0", "2"),
     "LeakAlong.leak": ("y", "0", "1"),
     "LeakAlong.missing": ("shut", "closed", "open"),
     "ViscoelasticBody.material": ("", "rubber.toml"),
@@ -166,8 +171,8 @@ INSTRUCTED = {
     *("Preparation.crop", "AfterLoad.after", "RisingLoads.pressures", "RisingLoads.depths"),
     *("AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
-    *("ViscoelasticBody.material", "ViscoelasticBody.sha256"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
+    *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
 }
 # What no field takes, but flags and names by their kind; TOML has all of them, except bytes and the last three.
 WRONG_KINDS = {

@@ -106,6 +106,7 @@ COMMANDS = [
     "press",
     "leak",
     "curve",
+    "creep",
     "surface prepare",
     "adhesion press",
     "adhesion curve",

@@ -423,7 +423,7 @@ ANSWERS = [
         lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()]), rc.Gas("air")),
         "take rc.Liquid, or rc.leak at each load for a gas",
         lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()])),
-        lambda: rc.leak(pressed(), rc.Gas("air"), upstream=2e5, downstream=1e5),
+        lambda: rc.leak(pressed(), rc.Gas("air"), upstream=1.01e7, downstream=1.009e7, axis=0),
     ),
     row(
         lambda: curve(forces=RISING).plot(quantity="hydraulic_gap"),

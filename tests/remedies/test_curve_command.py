@@ -134,7 +134,7 @@ $ {TWO} --theory ceb
 > {TWO} --theory ceb --hardness aluminium
 
 $ {TWO} --hurst 0.8
-! --hurst belongs to --theory, which is not given: give --theory too
+! --hurst needs --theory, which is not given: give --theory too
 > {TWO} --hurst 0.8 --theory persson,gw
 
 $ {TWO} --theory power-law --hurst 8
@@ -185,7 +185,7 @@ $ {NAMED} --frequency 5MHz --density 7.85
 > {NAMED} --frequency 5MHz --density 7.85g/cm^3
 
 $ {NAMED} --density 7850kg/m^3
-! --density belongs to --frequency, which is not given: give --frequency too
+! --density needs --frequency, which is not given: give --frequency too
 > {NAMED} --density 7850kg/m^3 --frequency 5MHz
 
 $ {YOUNG} --poisson2 0.33 --frequency 5MHz

@@ -192,7 +192,7 @@ LEAKS = [
     ),
     row(
         lambda: leak(drop=-1.0),
-        "the upstream pressure must exceed the downstream pressure, -1 to 0 Pa",
+        "exchange or correct both pressures",
         lambda: leak(drop=1.0),
     ),
     row(
@@ -264,7 +264,7 @@ $ {LEAK} --viscosity 0Pa*s --drop 1kPa
 > {WET} --drop 1kPa
 
 $ {LEAK} --gas air --upstream 101bar --downstream 100.9bar
-! --gas belongs to --temperature, which is not given: give --temperature too
+! --gas needs --temperature, which is not given: give --temperature too
 > {GAS} --upstream 101bar --downstream 100.9bar
 
 $ {WET}
@@ -278,11 +278,11 @@ $ {WET} --drop 1bar --upstream 2bar --downstream 1bar
 > {WET} --upstream 2bar --downstream 1bar
 
 $ {WET} --upstream 2bar
-! --upstream belongs to --downstream, which is not given: give --downstream too
+! --upstream needs --downstream, which is not given: give --downstream too
 > {WET} --upstream 2bar --downstream 1bar
 
 $ {WET} --upstream 1bar --downstream 2bar
-! the upstream pressure must exceed the downstream pressure
+! the upstream pressure of 100000 Pa must be finite and exceed the downstream pressure of 200000 Pa
 > {WET} --upstream 2bar --downstream 1bar
 
 $ {GAS} --drop 1bar
@@ -298,7 +298,7 @@ $ {TILE}
 > {TILE} --seal-width 1mm --circumference 0.1m
 
 $ {TILE} --seal-width 1mm
-! --seal-width belongs to --circumference, which is not given: give --circumference too
+! --seal-width needs --circumference, which is not given: give --circumference too
 > {TILE} --seal-width 1mm --circumference 0.1m
 
 $ {WET} --drop 2MPa

@@ -101,7 +101,7 @@ $ {FORCE} --modulus 1N
 > {FORCE} --modulus 110GPa
 
 $ {FORCE} --modulus 1GPa --poisson 0.3
-! --poisson belongs to --young, which is not given: give --young too
+! --poisson needs --young, which is not given: give --young too
 > {FORCE} --young 1GPa --poisson 0.3
 > {FORCE} --modulus 1GPa
 
@@ -349,7 +349,7 @@ $ {PRESS} --force 1mN --out taken/inside
 > {PRESS} --force 1mN --out other/inside
 
 $ {PRESS} --force 1mN --shortest-wave 10um
-! --shortest-wave belongs to --errors, which is not given: give --errors too
+! --shortest-wave needs --errors, which is not given: give --errors too
 > {PRESS} --force 1mN --shortest-wave 10um --errors
 """
 

@@ -73,7 +73,7 @@ $ {PREPARE} --tip 2
 > {PREPARE} --tip 2um
 
 $ {PREPARE} --tip-shape sphere
-! --tip-shape belongs to --tip, which is not given: give --tip too
+! --tip-shape needs --tip, which is not given: give --tip too
 > {PREPARE} --tip-shape sphere --tip 2um
 
 $ {PREPARE} --short-cutoff 10
@@ -99,11 +99,11 @@ $ {PREPARE} --downsample 20
 > {PREPARE} --downsample 12
 
 $ {PREPARE} --alias
-! --alias belongs to --downsample, which is not given: give --downsample too
+! --alias needs --downsample, which is not given: give --downsample too
 > {PREPARE} --alias --downsample 2
 
 $ {PREPARE} --share 0.5
-! --share belongs to --window, which is not given: give --window too
+! --share needs --window, which is not given: give --window too
 > {PREPARE} --share 0.5 --window tukey
 
 $ {PREPARE} --window tukey --share 2

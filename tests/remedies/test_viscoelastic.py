@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from followed import follow, row
+from followed import each, follow, row
 from roughcontact import viscoelastic
 
 SOLID = viscoelastic.standard_solid(1.0, 3.0, 1.0)
 DAMPED = viscoelastic.kelvin_voigt(1.0, 1.0)
 GEL = viscoelastic.power_law(1.0, 1.0, 0.3, band=(1e-2, 10.0))
+LATE = viscoelastic.power_law(1.0, 1.0, 0.3, band=(20.0, 100.0))
 SHEAR = rc.Viscoelastic(1.0, dashpot=1.0)
 BALL = rc.mdr.indentation.indentation_curve
 RISE = [0.0, 1.0, 2.0]
@@ -132,6 +133,157 @@ ROWS = [
         lambda: SOLID.complex_modulus(-1.0),
         "give its absolute value",
         lambda: SOLID.complex_modulus(1.0),
+    ),
+    row(
+        lambda: SOLID.relaxation([1.0, -1.0]),
+        "times must not be negative [s], not -1: there is no response before the load",
+        lambda: SOLID.relaxation([1.0, 0.0]),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, 2.0, 1.0),
+        "moduli must be a list, such as [0.1, 1.0], not 2.0",
+        lambda: rc.Viscoelastic(1.0, [2.0], [1.0]),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, (2.0, 3.0), (1.0,)),
+        "each modulus needs its time: 2 moduli and 1 times are given",
+        lambda: rc.Viscoelastic(1.0, (2.0, 3.0), (1.0, 2.0)),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, (-2.0,), (1.0,)),
+        "moduli and viscosities must be finite and not negative: 1 Pa, (-2.0,), 0 Pa s",
+        lambda: rc.Viscoelastic(1.0, (0.0,), (1.0,)),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, (2.0,), (0.0,)),
+        "times of elements must be positive and finite [s], not (0.0,)",
+        lambda: rc.Viscoelastic(1.0, (2.0,), (1e-9,)),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, (2.0, 3.0), (1.0, 1.0)),
+        "add the moduli of equal times",
+        lambda: rc.Viscoelastic(1.0, (5.0,), (1.0,)),
+    ),
+    row(
+        lambda: rc.Viscoelastic(0.0, (0.0,), (1.0,)),
+        "a material needs a modulus or a viscosity",
+        lambda: rc.Viscoelastic(1.0, (0.0,), (1.0,)),
+        lambda: rc.Viscoelastic(0.0, (0.0,), (1.0,), dashpot=1.0),
+    ),
+    row(
+        lambda: rc.Viscoelastic(1.0, band=(2.0, 1.0)),
+        "band must be two positive times that rise [s], not (2.0, 1.0)",
+        lambda: rc.Viscoelastic(1.0, band=(1.0, 2.0)),
+    ),
+    row(
+        lambda: SOLID.shifted(0.0),
+        "factor must be positive",
+        lambda: SOLID.shifted(0.1),
+    ),
+    row(
+        lambda: viscoelastic.standard_solid(3.0, 1.0, 1.0),
+        "a standard solid softens from its instantaneous modulus 1.0 Pa to a lower one, not to 3.0 Pa",
+        lambda: viscoelastic.standard_solid(1.0, 3.0, 1.0),
+    ),
+    row(
+        lambda: viscoelastic.from_creep(1.0, [1.0, 2.0], [1.0]),
+        "compliances and times must be lists of one length, not (2,) and (1,)",
+        lambda: viscoelastic.from_creep(1.0, [1.0, 2.0], [1.0, 2.0]),
+    ),
+    row(
+        lambda: viscoelastic.from_creep(1.0, [-1.0], [1.0]),
+        "compliances must not be negative",
+        lambda: viscoelastic.from_creep(1.0, [0.0], [1.0]),
+    ),
+    row(
+        lambda: viscoelastic.from_creep(1.0, [1.0], [0.0]),
+        "retardation times must be positive [s]",
+        lambda: viscoelastic.from_creep(1.0, [1.0], [1e-9]),
+    ),
+    row(
+        lambda: viscoelastic.from_creep(1.0, [1.0, 2.0], [1.0, 1.0]),
+        "add the compliances of equal times",
+        lambda: viscoelastic.from_creep(1.0, [3.0], [1.0]),
+    ),
+    row(
+        lambda: viscoelastic.from_creep(0.0, [], []),
+        "a material needs a compliance",
+        lambda: viscoelastic.from_creep(1.0, [], []),
+    ),
+    row(
+        lambda: viscoelastic.in_series(GEL, LATE),
+        "extrapolate one with dataclasses.replace(material, band=None)",
+        lambda: viscoelastic.in_series(dataclasses.replace(GEL, band=None), LATE),
+        lambda: viscoelastic.in_series(GEL, dataclasses.replace(LATE, band=None)),
+    ),
+    row(
+        lambda: viscoelastic.in_series(1e6, SOLID),
+        "a viscoelastic material is needed, such as standard_solid(equilibrium, instantaneous, relaxation_time)",
+        lambda: viscoelastic.in_series(viscoelastic.standard_solid(1e6, 2e6, 1.0), SOLID),
+    ),
+    row(
+        lambda: viscoelastic.reduced(SOLID, "bulk", poisson=0.5),
+        "kind must be 'young', 'shear' or 'reduced'",
+        *each(lambda kind: viscoelastic.reduced(SOLID, kind, poisson=0.5), "young", "shear"),
+        lambda: viscoelastic.reduced(SOLID, "reduced"),
+    ),
+    row(
+        lambda: viscoelastic.reduced(SOLID, "reduced", poisson=0.5),
+        "a reduced modulus needs no ratio and no bulk modulus",
+        lambda: viscoelastic.reduced(SOLID, "reduced"),
+    ),
+    row(
+        lambda: viscoelastic.reduced(SOLID, "shear"),
+        "give exactly one of poisson and bulk",
+        lambda: viscoelastic.reduced(SOLID, "shear", poisson=0.5),
+        lambda: viscoelastic.reduced(SOLID, "shear", bulk=10.0),
+    ),
+    row(
+        lambda: viscoelastic.reduced(SOLID, "shear", poisson=0.6),
+        "poisson must be above -1 and at most 0.5, not 0.6",
+        lambda: viscoelastic.reduced(SOLID, "shear", poisson=0.5),
+    ),
+    row(
+        lambda: viscoelastic.reduced(SOLID, "young", bulk=0.3),
+        "bulk must be finite and above 0.333333 Pa",
+        lambda: viscoelastic.reduced(SOLID, "young", bulk=0.34),
+    ),
+    row(
+        lambda: viscoelastic.from_dma([1.0, 2.0], [0.1, 0.1], frequencies=[1.0, 2.0], poisson=0.5),
+        "a DMA table needs storage and loss at three or more frequencies",
+        lambda: dma(frequencies=[1.0, 2.0, 3.0]),
+    ),
+    row(
+        lambda: viscoelastic.power_law(1.0, 1.0, 1.0, band=(1.0, 2.0)),
+        "exponent must be between 0 and 1 (given: 1)",
+        lambda: viscoelastic.power_law(1.0, 1.0, 0.9, band=(1.0, 2.0)),
+    ),
+    row(
+        lambda: viscoelastic.power_law(1.0, 1.0, 0.5, band=(1.0, 2.0), terms_per_decade=50.0),
+        "terms_per_decade must lie between 0.1 and 20",
+        lambda: viscoelastic.power_law(1.0, 1.0, 0.5, band=(1.0, 2.0), terms_per_decade=20.0),
+    ),
+    row(
+        lambda: viscoelastic.transfer(1.0, SOLID, RISE, depths=[0.0, 1e-2, 1e-2]),
+        "an elastic loading curve is needed, for example from rc.loading_curve or indentation_curve",
+        lambda: transfer(RISE, [0.0, 1e-2, 1e-2]),
+    ),
+    row(
+        lambda: transfer(RISE, [0.0, 1e-2, -1e-2]),
+        "loads must not be negative, but the least is -0.01",
+        lambda: transfer(RISE, [0.0, 1e-2, 0.0]),
+    ),
+    row(
+        lambda: transfer(RISE, [0.0, 0.0, 0.0]),
+        "a history needs a positive load",
+        lambda: transfer(RISE, [0.0, 0.0, 1e-2]),
+    ),
+    row(
+        lambda: viscoelastic.transfer(
+            BALL(rc.mdr.indenter.paraboloid(1.0), 1.0, forces=[0.1]), SOLID, RISE, forces=0.1
+        ),
+        "compute the curve for more loads",
+        lambda: viscoelastic.transfer(curve(), SOLID, RISE, forces=0.02),
     ),
 ]
 

@@ -76,11 +76,11 @@ class TestDepthControl:
 
     def test_a_viscous_body_resists_speed(self):
         """F = 4 eta dPhi/dt = 4 eta 2 a d'."""
-        t = np.linspace(0, 2, 4001)
+        t = np.linspace(0, 2, 2001)
         history = transfer(CURVE, viscous(0.2), t, depths=0.1 * t)
         truth = 0.8 * 2 * np.sqrt(R * 0.1 * t) * 0.1
-        # Second differences: the third derivative of t^1.5 times the square of the step over 6, 1e-7 at t = 0.5.
-        np.testing.assert_allclose(history.force[1000:], truth[1000:], rtol=1e-6)
+        # Second differences: the third derivative of t^1.5 times the square of the step over 6, 4e-7 at t = 0.5.
+        np.testing.assert_allclose(history.force[500:], truth[500:], rtol=1e-6)
 
     def test_a_dashpot_admits_no_jump(self):
         with pytest.raises(ValueError, match="no jump"):
@@ -168,6 +168,12 @@ class TestRiseAndFall:
         np.testing.assert_allclose(found.depth, depth, rtol=1e-11)
         held = transfer(Hertz(), self.solid, [0.0, 1.0], depths=0.01)
         assert held.force[1] == pytest.approx(2.314345176457e-3, rel=1e-12)
+
+    def test_a_term_without_weight_changes_nothing(self):
+        more = prony(1.0, [2.0, 0.0], [1.0, 30.0])
+        given = {"times": [0.0, 1.0, 1.4], "depths": [0.0, 0.01, 0.006]}
+        plain, other = (transfer(Hertz(), each, **given) for each in (self.solid, more))
+        np.testing.assert_allclose(other.force, plain.force, rtol=1e-12)
 
     def test_a_punch(self):
         """A flat punch of radius 1: F = 2 E* d, and the area does not change."""

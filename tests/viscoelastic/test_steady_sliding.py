@@ -154,6 +154,13 @@ def test_both_methods_give_the_same_contact(ratio, monkeypatch):
         assert swept.pressure == pytest.approx(found.pressure, abs=1e-6 * found.max_pressure)
 
 
+def test_a_term_without_weight_changes_nothing():
+    more = rc.viscoelastic.prony(1.0, [2.0, 0.0], [1.0, 30.0])
+    plain, other = (rc.steady_sliding(ROUGH, each, speed=0.1, pressure=0.02) for each in (SOLID, more))
+    assert np.array_equal(other.pressure, plain.pressure)
+    assert other.friction == pytest.approx(plain.friction, rel=1e-12, abs=1e-16)
+
+
 def test_a_start_saves_solves_and_the_operator_is_one_of_the_protocol():
     first = rc.steady_sliding(ROUGH, SOLID, speed=0.01, pressure=0.02)
     again = rc.steady_sliding(ROUGH, SOLID, speed=0.01, force=0.02, start=first)

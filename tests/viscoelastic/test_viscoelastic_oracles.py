@@ -31,11 +31,7 @@ def last(surface, **history):
 
 
 def given(surface, **history):
-    return [
-        state
-        for state in rc.viscoelastic_path(surface, SOLID, tolerance=1e-10, **history)
-        if state.prescribed
-    ]
+    return [state for state in rc.viscoelastic_path(surface, SOLID, **history) if state.prescribed]
 
 
 def test_a_sphere_under_a_held_force_sinks_by_the_creep_function():
@@ -53,6 +49,14 @@ def test_a_sphere_under_a_held_force_sinks_by_the_creep_function():
             d, rel=3e-4
         )  # and that of the rings, at most one ring in ninety: squared
         assert state.max_pressure == pytest.approx(p, rel=1e-3)
+        assert np.array_equal(state.contact, elastic.contact)
+
+
+def test_a_small_tolerance_is_met_on_rings():
+    few = rings(24, 0.5)
+    for state in given(few, times=[0.0, 1.0, 3.0], forces=[0.1] * 3, time_tolerance=1e-5):
+        elastic = rc.press(few, 1 / float(CREEP(state.time)), force=0.1, tolerance=1e-10)
+        assert state.depth == pytest.approx(elastic.depth, rel=1e-5)
         assert np.array_equal(state.contact, elastic.contact)
 
 
@@ -130,8 +134,8 @@ ROUGH = wavy(64)
 
 def test_a_rough_surface_in_and_out_follows_from_its_elastic_curve():
     rate = 0.6 * ROUGH.heights.max()
-    depths = np.linspace(0, rate, 121)[1:]
-    curve = rc.loading_curve(ROUGH, 1.0, depths=depths, tolerance=1e-10)
+    depths = np.linspace(0, rate, 81)[1:]
+    curve = rc.loading_curve(ROUGH, 1.0, depths=depths)
     force = PchipInterpolator(np.r_[0, depths], np.r_[0, curve.force])
     states = given(
         ROUGH, times=[0, 1, 1.2, 1.4], depths=[0, rate, 0.8 * rate, 0.6 * rate], time_tolerance=5e-4
@@ -139,7 +143,7 @@ def test_a_rough_surface_in_and_out_follows_from_its_elastic_curve():
     for state in states[2:]:
         first, expected = ting(force, rate, rate, state.time)
         assert state.force == pytest.approx(float(expected), abs=1e-3 * float(force(rate)))
-        elastic = rc.press(ROUGH, 1.0, depth=rate * first, tolerance=1e-10)
+        elastic = rc.press(ROUGH, 1.0, depth=rate * first)
         assert np.array_equal(state.contact, elastic.contact)
     growing = rc.press(ROUGH, 1.0, depth=rate)
     assert np.array_equal(states[1].contact, growing.contact)
@@ -167,7 +171,7 @@ def test_a_punch_under_a_held_force():
 
 
 def test_a_held_depth():
-    states = given(SMALL, times=[0, 0, 1], depths=[0, 0.01, 0.01])
+    states = given(SMALL, times=[0, 0, 1], depths=[0, 0.01, 0.01], tolerance=1e-10)
     assert states[-1].force / states[1].force == pytest.approx(float(SOLID.relaxation(1.0)) / 3, rel=1e-8)
     assert states[-1].force == pytest.approx(2.314345176457e-3, rel=2e-3)  # rings
     assert np.array_equal(states[-1].contact, states[1].contact)
@@ -175,10 +179,10 @@ def test_a_held_depth():
 
 
 def test_a_wave_under_a_held_pressure_closes():
-    grid = rc.Grid((8, 256), (1 / 256, 1 / 256), periodic=True)
-    wave = rc.Surface(0.01 * np.tile(np.cos(2 * np.pi * grid.coordinates[1]), (8, 1)), grid)
+    grid = rc.Grid((2, 256), (1 / 256, 1 / 256), periodic=True)
+    wave = rc.Surface(0.01 * np.tile(np.cos(2 * np.pi * grid.coordinates[1]), (2, 1)), grid)
     most = np.pi * 0.01
-    times = [0.0, 1.0, 4.1, 4.3, 10.0]
+    times = [0.0, 1.0, 4.15, 4.165, 8.0]
     states = given(wave, times=times, pressures=[1.2 * most] * 5)
     widths = [state.contact_fraction / 2 for state in states]
     assert widths[:2] == pytest.approx(
@@ -187,6 +191,6 @@ def test_a_wave_under_a_held_pressure_closes():
     elastic = rc.press(wave, 1 / float(CREEP(1.0)), pressure=1.2 * most)
     assert np.array_equal(states[1].contact, elastic.contact)
     assert [fraction < 0.5 for fraction in widths] == [True, True, True, False, False]  # full at 4.1589
-    # In full contact the amplitude of the pressure relaxes to E_inf p*.
-    assert np.ptp(states[-1].pressure) / 2 < 1.02 * most
+    # In full contact the amplitude of the pressure relaxes to E_inf p*, of which 0.02 are left at 8 s.
+    assert np.ptp(states[-1].pressure) / 2 < 1.04 * most
     assert states[-1].stiffness == np.inf

@@ -20,6 +20,8 @@ _HISTORY = {
     "Gaussian filter": "filters",
     "by SurfaceTopography": "SurfaceTopography",
 }
+# Columns that a measure has added to a curve, and the files of the measures.
+_MEASURED = {"transmissivity": "transmissivity", "gas_conductance_per_area": "conductance_parts"}
 _UNKNOWN = "free or periodic"  # a job whose file states which
 
 
@@ -92,6 +94,8 @@ def _of_answer(answer: Any) -> Iterator[str]:
         yield "raised"
     if kind == "Adhesion":
         yield answer.law
+    if kind in ("Curve", "ViscoelasticCurve"):
+        yield from (name for column, name in _MEASURED.items() if column in answer.measured)
     if kind in ("LoadingLaw", "Comparison"):
         yield answer.name.lower()
     for each in fields(answer) if is_dataclass(answer) else ():

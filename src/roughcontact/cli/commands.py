@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 __all__ = ["ADHESION", "ALONE", "STUDY", "SURFACE", "do"]
 
 ALONE = {
-    name: f"contact.{name}_command" for name in ("press", "leak", "curve", "sliding", "conductance", "theory")
+    name: f"contact.{name}_command"
+    for name in ("press", "leak", "curve", "creep", "sliding", "conductance", "theory")
 }
 ALONE |= {name: f"{name}_command" for name in ("run", "serve", "doctor")}
 ADHESION = {

@@ -59,7 +59,8 @@ def contact_of(job: Any) -> dict[str, Any]:
         If the surface cannot be read or prepared, or several processes cannot press it together.
     """
     known = prepared(job, _require_together)
-    note_materials(job.bodies)
+    if isinstance(job.bodies, Bodies):
+        note_materials(job.bodies)
     if job.contact.profile is not None:
         _note_profile(job.contact.profile, known["surface"])
     for call in (*job.bodies.calls(), *job.contact.calls()):

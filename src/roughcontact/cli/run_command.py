@@ -46,6 +46,7 @@ _STEMS = {
     "press": "press",
     "leak": "leak",
     "curve": "curve",
+    "creep": "creep",
     "sliding": "sliding",
     "theory": "theory",
     "adhesion press": "adhesive_state",

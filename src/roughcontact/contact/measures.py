@@ -13,7 +13,7 @@ from roughcontact.labels.labelled import Variables, attributes_of
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.validation import Array
 
-__all__ = ["StateMeasure", "measured_at", "measured_columns", "measured_variables"]
+__all__ = ["MeasuredCurve", "StateMeasure", "measured_at", "measured_columns", "measured_variables"]
 
 
 class StateMeasure(Protocol):
@@ -22,6 +22,18 @@ class StateMeasure(Protocol):
     def __call__(self, solution: Solution, /) -> Mapping[str, float]:
         """Return the numbers of a state by name."""
         ...
+
+
+class MeasuredCurve(Protocol):
+    """A `Curve` or `ViscoelasticCurve`, with the columns of its measures."""
+
+    @property
+    def nominal_pressure(self) -> Array:
+        """Force over the nominal area [Pa], shape (n,)."""
+
+    @property
+    def measured(self) -> Mapping[str, Array]:
+        """Columns by name, shape (n,)."""
 
 
 def measured_at(

@@ -72,6 +72,7 @@ def reflection(
     dict of str to array, or Dataset
         Along the curve, or one value:
 
+        * ``reflecting_stiffness_per_area`` [Pa/m], the K/A0 that the reflection follows from;
         * ``reflection`` and ``transmission`` [-], the sizes of the amplitudes of displacement;
         * ``error_amplification`` [-], the relative error of a K/A0 that is inferred from a measured reflection, over
           that of this reflection;
@@ -107,6 +108,7 @@ def reflection(
     factor = np.where(joint, ultrasound.expected_amplification(held, frequency, impedances), math.inf)
     ratio = np.where(joint, min(speeds) / frequency / np.sqrt(area / spots), math.inf)
     values = {
+        "reflecting_stiffness_per_area": stiffness / area,
         "reflection": np.abs(ultrasound.reflection(held, frequency, impedances)),
         "transmission": np.abs(ultrasound.transmission(held, frequency, impedances)),
         "error_amplification": factor,

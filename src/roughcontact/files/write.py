@@ -150,8 +150,8 @@ def write_csv(dataset: xarray.Dataset, path: str | os.PathLike[str], *, dimensio
     dataset : Dataset
     path : str or path
     dimension : str, optional
-        The dimension of the points; by default ``load``, ``time`` or ``sliding_speed``, or a single row if there is no
-        such dimension.
+        The dimension of the points; by default ``load``, ``time`` or ``sliding_speed``, or a single row if there is
+        no such dimension.
 
     Raises
     ------

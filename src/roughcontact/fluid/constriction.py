@@ -8,9 +8,9 @@ import numpy as np
 
 from roughcontact.fluid.network import Network
 from roughcontact.grid import Grid
-from roughcontact.validation import Array
+from roughcontact.validation import Array, Mask
 
-__all__ = ["Constriction", "constriction_of", "is_resolved"]
+__all__ = ["Constriction", "cells_near", "constriction_of", "is_resolved"]
 
 FEWEST = 4  # cells across a constriction that is resolved
 
@@ -44,6 +44,18 @@ class Constriction:
     def resolved(self) -> bool:
         """Whether it is at least four cells wide and takes less than half of the drop."""
         return is_resolved(self.cells, self.share)
+
+
+def cells_near(place: Constriction, grid: Grid) -> Mask:
+    """Return which cells lie in a square of the constriction's width around it, three cells at least."""
+    near = []
+    for centre, x, step, length, periodic in zip(
+        place.place, grid.coordinates, grid.spacing, grid.lengths, grid.periodic, strict=True
+    ):
+        away = np.abs(x - centre)
+        away = np.minimum(away, length - away) if periodic else away
+        near.append(away <= max(0.5 * place.width, 1.5 * step))
+    return np.logical_and.outer(*near)
 
 
 def is_resolved(cells: int, share: float) -> bool:

@@ -46,7 +46,8 @@ def _flow(flow: GapFlow) -> Iterator[Note]:
     if flow.solution.missing:
         yield Note(
             Rank.LIMITED,
-            f"{flow.solution.missing} cells hold no height: compare the flows with missing='closed' and 'open'.",
+            f"{flow.solution.missing} cells hold no height: the flow lies between those with these cells closed and "
+            "open.",
         )
 
 

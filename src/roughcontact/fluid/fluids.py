@@ -117,7 +117,12 @@ class Gas:
         if self.name not in _GASES:
             raise about("the gas", f"must be one of {', '.join(_GASES)}, not {self.name!r}")
         if not 200 <= self.temperature <= 600:
-            raise about("the temperature", f"must be between 200 and 600 K, not {self.temperature:g}")
+            given = f"{self.temperature:g} K"
+            raise InputError(
+                f"the temperature must be between 200 and 600 K, not {given}",
+                "give kelvin, or degrees Celsius with their unit, such as 20degC",
+                "temperature",
+            )
         if self.pressure is not None and not 0 < self.pressure < math.inf:
             raise about("the pressure", f"must be positive and finite [Pa], not {self.pressure}")
         if self.accommodation is not None:

@@ -132,8 +132,7 @@ class JointConductance:
         if not self.additive:
             yield Note(
                 Rank.USUAL,
-                f"Gas and radiation do not add to the spots here (h l/k_s = {self.interaction:.2g}): the total is "
-                "solved, and differs from the sum of the parts.",
+                f"The parts do not add up (h l/k_s = {self.interaction:.2g}): the total is solved as a whole.",
             )
             if not self.residual <= TOLERANCE:
                 yield Note(
@@ -349,6 +348,8 @@ def coefficients(
     if not 0 <= film < np.inf:
         raise about("the film", f"must have a finite resistance of 0 or more, not {film}")
     if gas is not None:
+        if not isinstance(gas, Gas):
+            raise about("the gas", f"must be an rc.Gas, not {gas!r}")
         _ = gas.jump_distance  # raises an error without pressure and accommodation
         if temperature is not None:
             raise InputError("the gas has a temperature already", "leave temperature out", "temperature")

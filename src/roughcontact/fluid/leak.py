@@ -10,11 +10,12 @@ import numpy as np
 from roughcontact import methods
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
-from roughcontact.fluid.constriction import Constriction
+from roughcontact.fluid.constriction import Constriction, cells_near
 from roughcontact.fluid.fluids import Gas, Liquid
 from roughcontact.fluid.gap_flow import GapFlow, gap_flow
 from roughcontact.fluid.open_gap import Missing
 from roughcontact.grid import AnyGrid, RadialGrid
+from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import in_order
 from roughcontact.validation import Mask, numeric
 
@@ -38,6 +39,8 @@ class Leak:
         Volume flow [m^3/s]; of a gas, at the mean pressure.
     direction : int
         Axis of the mean drop on a periodic map; 0 otherwise.
+    seal_width, circumference : float or None
+        Length of the seal along the flow, and across it [m]; None if the map is the seal.
 
     Examples
     --------
@@ -56,6 +59,8 @@ class Leak:
     downstream: float
     volume: float
     direction: int = 0
+    seal_width: float | None = None
+    circumference: float | None = None
 
     @property
     def constriction(self) -> Constriction | None:
@@ -81,10 +86,13 @@ class Leak:
     def reynolds(self) -> float:
         """Reduced Reynolds number of the film in the critical constriction [1]; NaN without density."""
         place = self.constriction
-        if place is None:
+        grid = self.flow.solution.problem.grid
+        if place is None or isinstance(grid, RadialGrid):
             return 0.0
-        flux = float(np.hypot(*self.flow.flux(self.direction)).max())
-        return self._density * flux * self.drop / (12 * self.fluid.viscosity**2) * place.gap / place.width
+        length = grid.lengths[self.direction if self.flow.axis is None else self.flow.axis]
+        drop = self.drop * (length / self.seal_width if self.seal_width is not None else 1.0)  # over the map
+        flux = float(np.hypot(*self.flow.flux(self.direction))[cells_near(place, grid)].max())
+        return self._density * flux * drop / (12 * self.fluid.viscosity**2) * place.gap / place.width
 
     @property
     def rarefaction(self) -> float:
@@ -175,8 +183,8 @@ def leak(
     upstream, downstream = _pressures(fluid, drop, upstream, downstream)
     if upstream - downstream > solution.nominal_pressure:
         raise InputError(
-            f"the drop of {upstream - downstream:.3g} Pa exceeds the nominal pressure of "
-            f"{solution.nominal_pressure:.3g} Pa, so the fluid separates the bodies",
+            f"the drop of {written(upstream - downstream, 'Pa')} exceeds the nominal pressure of "
+            f"{written(solution.nominal_pressure, 'Pa')}, so the fluid separates the bodies",
             "press harder, or give a smaller drop",
             "drop",
         )
@@ -188,7 +196,8 @@ def leak(
     )
     direction = axis if is_periodic and axis is not None else 0
     conductance = flow.transmissivity[direction, direction] * shape / (12 * fluid.viscosity)
-    found = Leak(flow, fluid, upstream, downstream, conductance * (upstream - downstream), direction)
+    volume = float(conductance * (upstream - downstream))
+    found = Leak(flow, fluid, upstream, downstream, volume, direction, seal_width, circumference)
     if not found.rarefaction >= RAREFIED:
         raise InputError(
             f"the gas is too rarefied in the critical constriction for a slip length: its rarefaction parameter is "
@@ -211,8 +220,11 @@ def _pressures(
         )
         raise InputError("the pressures on both sides do not follow", remedy, "upstream, downstream")
     if not 0 <= downstream < upstream < math.inf:
-        raise about(
-            "the upstream pressure", f"must exceed the downstream pressure, {upstream:g} to {downstream:g} Pa"
+        raise InputError(
+            f"the upstream pressure of {upstream:g} Pa must be finite and exceed the downstream pressure of "
+            f"{downstream:g} Pa, which is 0 or more",
+            "exchange or correct both pressures",
+            "upstream, downstream",
         )
     return upstream, downstream
 

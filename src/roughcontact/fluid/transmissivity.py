@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from roughcontact.contact.curve import Curve
+from roughcontact.contact.measures import MeasuredCurve
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.fluids import Liquid
@@ -92,14 +92,16 @@ class Transmissivity:
 
 
 @numeric(drop="Pa", seal_width="m", circumference="m")
-def leak_rates(curve: Curve, fluid: Liquid, *, drop: float, seal_width: float, circumference: float) -> Array:
-    """Return the leak rate of a liquid at each load of a curve with the measure `Transmissivity`.
+def leak_rates(
+    curve: MeasuredCurve, fluid: Liquid, *, drop: float, seal_width: float, circumference: float
+) -> Array:
+    """Return the leak rate of a liquid at each load or time of a curve with the measure `Transmissivity`.
 
     A gas slips at the walls, which changes the transmissivity: use `leak` at each load.
 
     Parameters
     ----------
-    curve : Curve
+    curve : Curve or ViscoelasticCurve
         With the column ``transmissivity``, along an axis.
     fluid : Liquid
     drop : float

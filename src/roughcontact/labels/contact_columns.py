@@ -205,6 +205,9 @@ CONDUCTION_PER_AREA = columns("""
     thermal_resistance_per_area | m2 K W-1 | thermal resistance times the nominal area
 """)
 REFLECTION = columns("""
+    reflecting_stiffness_per_area | Pa m-1 | \
+        interfacial stiffness per area of a small oscillation, under a hardness that of unloading | joint | \
+        K/A0 on unloading
     reflection | 1 | size of the reflection of a normal longitudinal wave | joint patch page
     transmission | 1 | displacement of the transmitted wave over that of the incident wave | page
     error_amplification | 1 | relative error of an inferred K/A0 over that of the reflection | joint patch page

@@ -39,8 +39,8 @@ def scale(largest: float, unit: str) -> Scale:
 
     The prefix goes to the first unit of a product (``"N m-1"`` becomes kN/m) and is raised to the power of that unit
     (``"m2"`` becomes µm², a factor of 1e12, ``"m-2"`` 1/µm²). Neighbouring prefixes of areas differ by a factor of a
-    million: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length; only
-    energies go below pico. A stiffness per area is in N/µm/mm² (MPa/µm).
+    million: areas lie between 0.01 and 10 000, and higher powers likewise. Kilometres are the largest length, seconds
+    the largest time; only energies go below pico. A stiffness per area is in N/µm/mm² (MPa/µm).
     """
     if unit == "Pa m-1":  # always the unit of machine design
         return Scale(1e-12, "N/µm/mm²")
@@ -53,7 +53,7 @@ def scale(largest: float, unit: str) -> Scale:
         # The small factor keeps 1e-6 m, which rounding may put just below, at 1 µm.
         decades = math.log10(largest * (1 + 1e-9)) - lowest
         exponent = 3 * math.floor(decades / (3 * abs(power))) * (1 if power > 0 else -1)
-    highest = 3 if first.startswith("m") else 12
+    highest = 0 if unit == "s" else 3 if first.startswith("m") else 12
     smallest = -18 if first == "J" else -12
     exponent = min(max(exponent, smallest), highest)
     # A division by an exact power of ten rounds only once.

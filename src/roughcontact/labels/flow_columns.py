@@ -49,7 +49,7 @@ CONSTRICTION: Table = {
         constriction_share | 1 | part of the dissipation in the critical constriction | facts | constriction, share
     """),
     ("axis",): columns(
-        "constriction_place | m | place of the critical constriction | facts | constriction, y and x"
+        "constriction_place | m | place of the critical constriction | facts | constriction, place (y, x)"
     ),
 }
 LEAK = columns("""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any, get_type_hints
 
+from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
@@ -13,7 +14,9 @@ from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 from roughcontact.recipe.theory_job import TheoryJob
 
-__all__ = ["forms", "label_of", "names_of_fields"]
+__all__ = ["WITHOUT_FORM", "forms", "label_of", "names_of_fields"]
+
+WITHOUT_FORM = (TheoryJob, LeakJob, CreepJob, SlidingJob)
 
 _LEFT_OUT = "file"  # it is dropped
 _SHOWN = Theories  # the only part of an answer with a form
@@ -25,7 +28,7 @@ def forms() -> dict[str, Any]:
     A form has a title, its fields, and the names of those of which exactly one (``one_of``) or at most one
     (``at_most``) is given.
     """
-    jobs = {name: job for name, job in JOBS.items() if job not in (TheoryJob, LeakJob, SlidingJob)}
+    jobs = {name: job for name, job in JOBS.items() if job not in WITHOUT_FORM}
     return {
         "sources": {
             source.KIND: _form(source) for source in SOURCES if not issubclass(source, Combined | InPython)

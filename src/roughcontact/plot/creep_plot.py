@@ -1,4 +1,4 @@
-"""A viscoelastic contact in time: contact area and depth against logarithmic time."""
+"""A viscoelastic contact in time: area and depth against logarithmic time, and the main numbers in words."""
 
 from __future__ import annotations
 
@@ -8,17 +8,25 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughcontact.errors import InputError
+from roughcontact.labels.column import names_of, shown_in
 from roughcontact.labels.engineering_units import scale
+from roughcontact.labels.flow_columns import FLOW_OF_CURVE
 from roughcontact.labels.variables import VARIABLES, unit_of
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.ticks import label_axes
+from roughcontact.plot.facts import quantity, size_of
 
 if TYPE_CHECKING:
+    from roughcontact.viscoelastic.time_steps import History
     from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
 
-__all__ = ["creep_curve"]
+__all__ = ["CREEP_COLUMNS", "CREEP_PER_AREA", "creep_curve", "creep_facts"]
 
 _COLOURS = ("#0072b2", "#d55e00")
+_OF_FLOW = names_of(shown_in("joint", FLOW_OF_CURVE))
+CREEP_COLUMNS = ("time", "force", "depth", "contact_area", "stiffness", "mean_gap", *_OF_FLOW)
+CREEP_PER_AREA = ("time", "nominal_pressure", "depth", "contact_fraction", "stiffness", "mean_gap", *_OF_FLOW)
+"""The columns of a table of times, under forces or depths and under nominal pressures."""
 
 
 def creep_curve(
@@ -73,3 +81,30 @@ def creep_curve(
         place.yaxis.label.set_color(colour)
     axes.set_xscale("log")
     return axes
+
+
+def creep_facts(curve: ViscoelasticCurve, history: History) -> list[tuple[str, str]]:
+    """Return the main numbers of a history as a whole, line by line."""
+    problem, material, kind = history.contact.problem, history.contact.material, curve.geometry
+    met = "met" if all(status.converged for status in curve.status) else "MISSED"
+    error, leak = curve.time_error[-1], np.abs(curve.energy_leak).max()
+    largest = (curve.stored_energy + curve.dissipated_energy).max()
+    moduli = [quantity("modulus", modulus) for modulus in (material.instantaneous, material.equilibrium)]
+    sudden = "infinite at once (a dashpot)" if material.dashpot else f"{moduli[0]} at once"
+    work, stored, lost = (
+        quantity(name, float(getattr(curve, name)[-1]), kind)
+        for name in ("work", "stored_energy", "dissipated_energy")
+    )
+    return [
+        ("surface", size_of(problem.grid)),
+        (
+            "reduced modulus",
+            f"{sudden}, {moduli[1]} after a long time; {len(material.times)} relaxation times",
+        ),
+        ("states", f"{len(curve)}, of which {curve.prescribed.sum()} are at given times"),
+        ("largest certificate", f"{curve.residual.max():.1e} (tolerance {problem.tolerance:.0e}: {met})"),
+        ("largest residual of time", f"{curve.time_residual.max():.1e}"),
+        ("error of time", "not estimated for fixed steps" if np.isnan(error) else f"{error:.1e}, estimated"),
+        ("energy at the end", f"work {work}, stored {stored}, dissipated {lost}"),
+        ("energy balance", f"{leak / largest if largest else 0.0:.1e} of the largest energy"),
+    ]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughcontact.fluid.fluids import Gas
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.labels.column import Column, names_of, shown_in
 from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATE, STATE_NAMES, UNLOADED
@@ -148,13 +149,37 @@ def leak_facts(leak: Leak) -> list[tuple[str, str]]:
         ("certificate", f"{solution.residual:.1e} (tolerance {solution.problem.tolerance:.0e}: {met})"),
         ("an open path leads", path if leak.flow.percolates else "nowhere"),
         *numbers,
+        ("fluid", _fluid_words(leak)),
+        ("seal", _seal_words(leak)),
         ("leak rate", rate_words(leak)),
     ]
 
 
+def _fluid_words(leak: Leak) -> str:
+    """Return the fluid and the pressures on both sides in words, so that a wrong unit is seen."""
+    fluid, up, down = leak.fluid, written(leak.upstream, "Pa", 4), written(leak.downstream, "Pa", 4)
+    if isinstance(fluid, Gas):
+        return f"{fluid.name} at {fluid.temperature:g} K, {up} to {down} absolute"
+    pressures = f"{up} to {down}" if leak.downstream > 0 else f"drop {up}"
+    return f"viscosity {written(fluid.viscosity, 'Pa s', 4)}, {pressures}"
+
+
+def _seal_words(leak: Leak) -> str:
+    """Return the size of the seal in words."""
+    if leak.seal_width is None or leak.circumference is None:
+        return "the map, from side to side"
+    along, across = (written(length, "m", 4) for length in (leak.seal_width, leak.circumference))
+    return f"{along} along the flow, {across} across it"
+
+
 def rate_words(leak: Leak) -> str:
-    """Return the leak rate in the units in use: volume, of a gas at the mean pressure, throughput of a gas, mass."""
-    values = [(getattr(leak, name), factor, unit) for name, factor, unit in _RATES]
+    """Return the leak rate in the units in use: volume of a liquid, throughput of a gas, mass."""
+    of_gas = isinstance(leak.fluid, Gas)  # the volume of a gas depends on the pressure
+    values = [
+        (getattr(leak, name), factor, unit)
+        for name, factor, unit in _RATES
+        if not (of_gas and name == "volume")
+    ]
     return ", ".join(f"{value * factor:.4g} {unit}" for value, factor, unit in values if math.isfinite(value))
 
 
@@ -204,7 +229,7 @@ def curve_facts(curve: Curve, law: PowerLaw | None) -> list[tuple[str, str]]:
 
 
 def _open_paths(curve: Curve) -> list[tuple[str, str]]:
-    """Return between which loads the open cells stop to percolate, if their flow was measured."""
+    """Return between which loads the open cells cease to percolate, if their flow was measured."""
     if "percolates" not in curve.measured:
         return []
     order = np.argsort(curve.nominal_pressure, kind="stable")
@@ -219,7 +244,7 @@ def _open_paths(curve: Curve) -> list[tuple[str, str]]:
     elif last == len(loads) - 1:
         words = f"up to the largest load, {loads[last]}"
     else:
-        words = f"closes between {loads[last]} and {loads[last + 1]}: the open cells stop to percolate"
+        words = f"closes between {loads[last]} and {loads[last + 1]}: the open cells cease to percolate"
     return [("open path", words)]
 
 

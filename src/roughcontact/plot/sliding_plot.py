@@ -70,18 +70,19 @@ def friction_speeds(
     label_axes(axes, "sliding speed [m/s]", "", grid=True)
     draw(axes, curve.friction_coefficient, _FRICTION, "o", "friction coefficient")
     top = axes.get_ylim()[1]
-    columns = {} if theory is None else {name: theory[name] for name in _THEORIES if name in theory}
-    for name, column in columns.items():
+    for name, style in _THEORIES.items():
+        if theory is None or name not in theory:
+            continue
         on, colour = (right, _AREA) if name.endswith("fraction") else (axes, _FRICTION)
-        values = column.to_numpy()
-        on.plot(
-            curve.speed, values, _THEORIES[name], color=colour, linewidth=0.9, label=VARIABLES[name].label
-        )
+        values = theory[name].to_numpy()
+        on.plot(curve.speed, values, style, color=colour, linewidth=0.9, label=VARIABLES[name].label)
         top = max(top, 1.1 * float(values.max())) if on is axes else top
     draw(right, curve.contact_fraction, _AREA, "s", "relative real contact area A/A0")
     axes.set_ylim(0, top)
     if theory is not None:
-        lines = [line for on in (axes, right) for line in on.lines if str(line.get_label())[0] != "_"]
+        lines = [
+            line for on in (axes, right) for line in on.lines if not str(line.get_label()).startswith("_")
+        ]
         right.legend(handles=lines, fontsize=TICK, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     if curve.speed[0] > 0:
         axes.set_xscale("log")

@@ -10,7 +10,7 @@ from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Choice, PureNumber
 
-__all__ = ["Contact", "pressed"]
+__all__ = ["Contact", "operator_call", "pressed"]
 
 _TOLERANCE = "1e-8"
 
@@ -39,16 +39,21 @@ class Contact:
 
     def calls(self) -> Iterator[Call]:
         """Yield the call that makes the body under a profile."""
-        if self.profile is not None:
-            function = {"line": "rc.line", "winkler": "rc.foundation"}[self.profile]
-            yield Call(
-                function, (Name("surface.grid"), Name("modulus")), result="operator", place="contact.profile"
-            )
+        yield from operator_call(self.profile, "modulus")
 
     def named(self) -> dict[str, Any]:
         """Return its arguments, by name."""
         found: dict[str, Any] = {} if self.profile is None else {"operator": Name("operator")}
         return found if self.tolerance == _TOLERANCE else found | {"tolerance": value_of(self, "tolerance")}
+
+
+def operator_call(profile: str | None, modulus: str) -> Iterator[Call]:
+    """Yield the call that makes the body under a profile, of the modulus in a variable."""
+    if profile is not None:
+        function = {"line": "rc.line", "winkler": "rc.foundation"}[profile]
+        yield Call(
+            function, (Name("surface.grid"), Name(modulus)), result="operator", place="contact.profile"
+        )
 
 
 def pressed(function: str, named: Mapping[str, Any], result: str, place: str) -> Call:

@@ -140,11 +140,9 @@ class CurveJob:
             )
         if self.leak.leak is not None and (self.plastic.loop or self.contact.profile is not None):
             other = "loop" if self.plastic.loop else "profile"
-            why = (
-                "it is computed for increasing loads only" if other == "loop" else "it needs a map of heights"
-            )
+            why = "is computed for increasing loads only" if other == "loop" else "needs a map of heights"
             raise InputError(
-                f"`leak` does not go with `{other}`: {why}", "leave out one of them", "leak.leak"
+                f"`leak` does not go with `{other}`: the flow {why}", "leave out one of them", "leak.leak"
             )
         if self.heat.named():
             self._require_heat()

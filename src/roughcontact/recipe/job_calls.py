@@ -46,6 +46,8 @@ class Call:
         Part and field of the recipe behind the call, for errors.
     doing : str
         Its name in reports of progress: ``"Levelling"``.
+    fields : dict
+        The fields of arguments that have another name.
     """
 
     function: str
@@ -55,6 +57,7 @@ class Call:
     attribute: str = ""
     place: str = ""
     doing: str = ""
+    fields: Mapping[str, str] = field(default_factory=dict)
 
     def value(self, known: Mapping[str, Any]) -> Any:
         """Return the result of the function, from the variables `known`."""
@@ -90,7 +93,7 @@ def perform(call: Call, known: dict[str, Any]) -> None:
 def _place(call: Call, place: str | None) -> str | None:
     """Return the fields of a recipe that an error in a call concerns: its arguments, if these are fields."""
     part, _, field = call.place.partition(".")
-    names = place.split(", ") if place else []
+    names = [call.fields.get(name, name) for name in place.split(", ")] if place else []
     if field:  # a step: only its arguments by name are fields
         names = [name for name in names if name in call.named]
     return ", ".join(f"{part}.{name}" for name in names) or call.place

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from roughcontact.errors import InputError, within
 from roughcontact.recipe.adhesive_jobs import AdhesiveCurveJob, AdhesiveLoopJob, AdhesivePressJob, DetachJob
+from roughcontact.recipe.creep_job import CreepJob
 from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
@@ -25,6 +26,7 @@ JobOfHeights: TypeAlias = (
     | PressJob
     | LeakJob
     | CurveJob
+    | CreepJob
     | AdhesivePressJob
     | AdhesiveCurveJob
     | AdhesiveLoopJob
@@ -39,6 +41,7 @@ JOBS: Mapping[str, type[Any]] = {
         PressJob,
         LeakJob,
         CurveJob,
+        CreepJob,
         AdhesivePressJob,
         AdhesiveCurveJob,
         AdhesiveLoopJob,

@@ -183,7 +183,7 @@ def _check_field(part: Any, declared: Field[Any], hint: Any) -> None:
     wanted = True if spec.needs is None else getattr(part, spec.needs)
     if wanted is None or wanted is False:
         raise InputError(
-            f"`{name}` belongs to `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
+            f"`{name}` needs `{spec.needs}`, which is not given", f"give `{spec.needs}` too", name
         )
     with placed(name):
         object.__setattr__(part, name, _as_declared(value, hint, spec.example or "".join(spec.choices[:1])))

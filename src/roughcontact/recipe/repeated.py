@@ -18,6 +18,7 @@ _WORDS = {
     "doubtful",
     "errors",
     "file",
+    "material",
     "notes",
     "provenance",
     "recipe",

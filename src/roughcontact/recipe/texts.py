@@ -232,7 +232,9 @@ def known_material(text: str) -> Material | None:
 
 
 def rising_loads(text: str, kind: Kind, what: str = "load") -> Call | list[float]:
-    """Return loads, or `what`, in SI, each above zero and above the one before: ``from:to:count`` or a comma list.
+    """Return loads or other quantities in SI, each above zero and above the one before.
+
+    The text is ``from:to:count`` (equal ratios) or a comma list.
 
     A range is returned as the call of NumPy that makes it.
     """

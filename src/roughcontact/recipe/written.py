@@ -106,6 +106,10 @@ def _part(kind: Any, values: Any) -> Any:
     made = {}
     for name, value in values.items():
         try:
+            if (apart := getattr(kind, "APART", {}).get(name)) is not None:
+                raise InputError(
+                    f"{apart} together with viscoelasticity is not modelled", "leave it out", name
+                )
             if name not in known:
                 near = difflib.get_close_matches(str(name), known, 1)
                 remedy = f"did you mean {near[0]}?" if near else f"there are {_names(kind)}"
@@ -335,9 +339,9 @@ def with_files(job: J, change: Callable[[File], File]) -> J:
         return job
     with within("source"):
         job = replace(job, source=changed(job.source))
-    if not isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
-        return job
-    with within("bodies"):
-        file = change(File(file=body.material, sha256=body.sha256))
-    moved: Any = {"bodies": replace(body, material=file.file, sha256=file.sha256)}
-    return replace(job, **moved)
+    if isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
+        with within("bodies"):
+            file = change(File(file=body.material, sha256=body.sha256))
+        found: Any = replace(body, material=file.file, sha256=file.sha256)
+        job = replace(job, bodies=found)
+    return job

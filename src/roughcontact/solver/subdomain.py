@@ -20,7 +20,7 @@ from roughcontact.solver.control import Solver, Specification, Start, State
 from roughcontact.solver.inner_product import Measure
 from roughcontact.validation import Array, Mask
 
-__all__ = ["Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict", "restrict_hardness"]
+__all__ = ["Box", "Subdomain", "SubdomainSolver", "bounding_box", "prolong", "restrict", "restrict_hardness"]
 
 Box = tuple[slice, ...]
 Subdomain = Box | npt.NDArray[np.intp]
@@ -106,6 +106,11 @@ class SubdomainSolver:
                 return replace(state, steps=steps), subdomain
             start = Start(prolong(state.pressure, subdomain, separation.shape), state.depth)
             candidates |= overlap
+
+    @property
+    def box(self) -> Box | None:
+        """The box whose restricted operator is kept."""
+        return self._box and self._box[0]
 
     def operator_on(self, subdomain: Subdomain) -> Operator:
         """Return the operator between the cells of a subdomain."""

@@ -45,7 +45,9 @@ def job_study(job: Job, vary: Mapping[str, Sequence[Any]], *, samples: int, path
         )
     folder = path.parent
     table: dict[str, Any] = {
-        name: [_from(folder, each) for each in values] if name.endswith(".file") else values
+        name: [_from(folder, each) for each in values]
+        if name.endswith((".file", "bodies.material"))
+        else values
         for name, values in vary.items()
     }
     plain = to_plain(without_outputs(pinned(job, folder)))

@@ -18,11 +18,7 @@ if TYPE_CHECKING or _LATE is None:
         Transfer as Transfer,
         transfer as transfer,
     )
-    from roughcontact.viscoelastic.fitted import (
-        creep_power_law as creep_power_law,
-        from_dma as from_dma,
-        power_law as power_law,
-    )
+    from roughcontact.viscoelastic.fitted import from_dma as from_dma, power_law as power_law
     from roughcontact.viscoelastic.models import (
         kelvin_voigt as kelvin_voigt,
         maxwell as maxwell,

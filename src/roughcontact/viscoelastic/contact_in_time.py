@@ -14,16 +14,18 @@ from roughcontact.contact.press import lock, solve_state
 from roughcontact.contact.problem import ContactProblem
 from roughcontact.halfspace.operators.operator import exact_of
 from roughcontact.solver.control import Control, Depth, Force, Solver, Start, State, Tangent
-from roughcontact.solver.subdomain import Subdomain, SubdomainSolver, prolong
+from roughcontact.solver.subdomain import Box, Subdomain, SubdomainSolver, prolong
 from roughcontact.validation import Array
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.relaxation_step import Transition
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["BodyState", "ContactInTime", "Guess", "Trial"]
+__all__ = ["BodyState", "ContactInTime", "Guess", "Search", "Trial"]
 
 Guess = tuple[Array, float]
 """A pressure [Pa] and a depth [m] to start from."""
+Search = tuple[Array | None, Box | None]
+"""The last tangent [Pa/m] and the last window, which set the last bits of the next state."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +46,9 @@ class BodyState:
         Totals of X and r_k [N].
     work, stored, dissipated : float
         Energies [J].
-    largest_force, largest_depth, largest_pressure, largest_strain, largest_energy : float
-        Largest values so far, to which errors are related: of the strain its total, of the energy that which is stored
-        or dissipated.
+    largest : array, shape (5,)
+        Largest values so far, to which errors are related, of force [N], depth [m], pressure [Pa], total of the strain
+        [N], and stored and dissipated energy [J].
     time_residual : float
         Of the last step.
     before : tuple of array and float, optional
@@ -59,15 +61,11 @@ class BodyState:
     fields: tuple[Any, Any]
     products: Array
     totals: Array
+    largest: Array
     force: float = 0.0
     work: float = 0.0
     stored: float = 0.0
     dissipated: float = 0.0
-    largest_force: float = 0.0
-    largest_depth: float = 0.0
-    largest_pressure: float = 0.0
-    largest_strain: float = 0.0
-    largest_energy: float = 0.0
     time_residual: float = 0.0
     before: Guess | None = None
 
@@ -142,21 +140,23 @@ class Trial:
         change = past + self.pressure / modulus - pressures[0]
         moved = self.past + displacement / modulus - displacements[0]
         fields = numbers.after(pressures, change), numbers.after(displacements, moved)
-        force, highest = measure.total(self.pressure), max(start.largest_pressure, max_abs(self.pressure))
+        force = measure.total(self.pressure)
         totals = np.append(start.totals, force / modulus)
         mixed = [measure.dot(self.pressure, each) / modulus for each in displacements]
         own = measure.dot(self.pressure, displacement) / modulus**2
         every = np.block([[start.products, np.c_[mixed]], [np.array([*mixed, own])]])
         products = matrix @ every @ matrix.T
         stored = numbers.stored(products)
-        work, dissipated, residual = stored - start.stored, 0.0, 0.0  # a sudden motion is elastic
+        work, lost, residual = stored - start.stored, 0.0, 0.0  # a sudden motion is elastic
         if self.step:
             work = numbers.mean_force(totals) * (self.depth - start.depth)
-            dissipated = numbers.dissipated(every)
+            lost = numbers.dissipated(every)
             middle = _summed(numbers.middle[:-1], pressures)
             touched = (start.pressure > 0) | (self.pressure > 0)
-            residual = max_abs(xp.where(touched, 0.0, middle)) / highest if highest else 0.0
+            residual = max_abs(xp.where(touched, 0.0, middle))
         totals = matrix @ totals
+        sizes = force, abs(self.depth), max_abs(self.pressure), totals[0], stored + start.dissipated + lost
+        largest = np.maximum(start.largest, sizes)
         return BodyState(
             time=start.time + self.step,
             depth=self.depth,
@@ -164,16 +164,12 @@ class Trial:
             fields=fields,
             products=products,
             totals=totals,
+            largest=largest,
             force=force,
             work=start.work + work,
             stored=stored,
-            dissipated=start.dissipated + dissipated,
-            largest_force=max(start.largest_force, force),
-            largest_depth=max(start.largest_depth, abs(self.depth)),
-            largest_pressure=highest,
-            largest_strain=max(start.largest_strain, float(totals[0])),
-            largest_energy=max(start.largest_energy, stored + start.dissipated + dissipated),
-            time_residual=residual,
+            dissipated=start.dissipated + lost,
+            time_residual=_share(residual, float(largest[2])),
             before=(start.pressure, start.depth) if self.step and start.force > 0 else None,
         )
 
@@ -190,24 +186,40 @@ class ContactInTime:
     forced : bool
         Whether forces are prescribed, otherwise depths.
     solver : Solver
+    most : float
+        Largest load of the history.
     """
 
     problem: ContactProblem
     material: Viscoelastic
     forced: bool
     solver: Solver
+    most: float
     _subdomains: SubdomainSolver = field(init=False)
     _tangent: Tangent | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         self._subdomains = SubdomainSolver(self.problem.operator)
 
+    @property
+    def search(self) -> Search:
+        """Where the searches of the next step start, beside its guess."""
+        return None if self._tangent is None else self._tangent.pressure, self._subdomains.box
+
+    @search.setter
+    def search(self, last: Search) -> None:
+        tangent, box = last
+        self._tangent = None if tangent is None else Tangent(tangent, math.inf)
+        if box is not None:
+            self._subdomains.operator_on(box)
+
     def untouched(self, time: float) -> BodyState:
         """Return the undeformed body."""
         xp, count = self.problem.measure.xp, len(self.material.moduli) + 1
         zero = xp.zeros_like(self.problem.separation)
         rest = xp.stack([zero] * count)
-        return BodyState(time, 0.0, zero, (rest, rest), np.zeros((count, count)), np.zeros(count))
+        products, totals, largest = np.zeros((count, count)), np.zeros(count), np.zeros(5)
+        return BodyState(time, 0.0, zero, (rest, rest), products, totals, largest)
 
     def attempt(self, start: BodyState, step: float, load: float, guess: Guess | None) -> Trial:
         """Return a solved step [s] to a load: a force [N] or a depth [m]."""
@@ -261,19 +273,33 @@ class ContactInTime:
         the recovery of a free surface, and of the balance of energy, over the largest values so far. Then that of the
         fields: the absolute difference of the pressures over the largest force, or that of the areas, less one cell.
         """
-        measure = self.problem.measure
+        measure, halves = self.problem.measure, [fine.pressure]
+        force, depth, _, strain, energy = (end.largest * self._growth(end)).tolist()
+        if (
+            self.material.dashpot
+        ):  # pressures jump with the speed: those of the whole step are the mean of its halves
+            halves.append(0.5 * (fine.start.pressure + fine.pressure))
+        own = _share(abs(coarse.total_strain - fine.total_strain), strain)
         if self.forced:
-            own = _share(abs(coarse.depth - fine.depth), end.largest_depth)
-        else:
-            own = _share(abs(measure.total(coarse.pressure) - end.force), end.largest_force)
-        strain = _share(abs(coarse.total_strain - fine.total_strain), end.largest_strain)
-        pressure = _share(measure.total(abs(coarse.pressure - fine.pressure)), end.largest_force)
+            own = max(own, _share(abs(coarse.depth - fine.depth), depth))
+        elif not self.material.dashpot:  # whose force, as the fields, follows from the last step
+            own = max(own, _share(abs(measure.total(coarse.pressure) - end.force), force))
+        pressure = _share(min(measure.total(abs(coarse.pressure - each)) for each in halves), force)
         area = measure.total(fine.pressure > 0)
         more = abs(measure.total(coarse.pressure > 0) - area) - float(np.max(self.problem.operator.weights))
         parts = 2**self.order - 1
         leaks = [abs(each.leak - coarse.start.leak) for each in (fine.start, end)]
-        leak = _share(max(leaks), end.largest_energy)
-        return max(max(own, strain) / parts, leak), max(pressure, _share(max(more, 0.0), area)) / parts
+        leak = _share(max(leaks), energy)
+        return max(own / parts, leak), max(pressure, _share(max(more, 0.0), area)) / parts
+
+    def _growth(self, end: BodyState) -> float:
+        """Return the factor by which the largest values will grow with the load, at least.
+
+        With a dashpot the first moments of a contact have an error of the order of their values at any step, so that it
+        is related to the values to come.
+        """
+        reached = float(end.largest[0 if self.forced else 1])
+        return max(self.most / reached, 1.0) if self.material.dashpot and reached else 1.0
 
     @property
     def order(self) -> int:

@@ -73,7 +73,12 @@ def from_creep(
     require(
         (theta > 0) & (theta < np.inf), "retardation times must be positive [s]", place="times", value=theta
     )
-    require(len(set(theta.tolist())) == len(theta), "the retardation times must differ", place="times")
+    require(
+        len(set(theta.tolist())) == len(theta),
+        "the retardation times must differ",
+        "add the compliances of equal times",
+        place="times",
+    )
     return _from_creep(Creep(instantaneous, fluidity, tuple(J.tolist()), tuple(theta.tolist())))
 
 
@@ -107,7 +112,9 @@ def in_series(first: Viscoelastic, second: Viscoelastic | Modulus) -> Viscoelast
     band = (max(low for low, _ in bands), min(high for _, high in bands)) if bands else None
     if band is not None and band[0] >= band[1]:
         raise InputError(
-            f"the bands of the two materials do not overlap: {a.band} and {b.band} s", place="second"
+            f"the bands of the two materials do not overlap: {a.band} and {b.band} s",
+            "extrapolate one with dataclasses.replace(material, band=None)",
+            "second",
         )
     creep = Creep(
         a.instantaneous + b.instantaneous,

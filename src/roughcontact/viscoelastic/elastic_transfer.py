@@ -22,13 +22,11 @@ import numpy as np
 
 from roughcontact.errors import InputError
 from roughcontact.validation import Array, exactly_one, number, numeric, require, shown
-from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
-from roughcontact.viscoelastic.rise_and_fall import ElasticLaw, RiseAndFall
-from roughcontact.viscoelastic.time_history import checked_band, checked_history
+from roughcontact.viscoelastic.prony_series import Viscoelastic
+from roughcontact.viscoelastic.rise_and_fall import ROUNDING, ElasticLaw, RiseAndFall
+from roughcontact.viscoelastic.time_history import checked_history
 
 __all__ = ["ElasticCurve", "Transfer", "transfer"]
-
-ROUNDING = 1e-12  # of the largest value: a change below this is rounding
 
 
 class ElasticCurve(Protocol):
@@ -155,7 +153,6 @@ def transfer(
     """
     name, given = exactly_one(forces=forces, depths=depths)
     loads = number(given, name)
-    checked_material(material)
     if missing := [
         name for name in ("force", "depth", "contact_area", "modulus") if not hasattr(curve, name)
     ]:
@@ -164,9 +161,9 @@ def transfer(
             f"{shown(curve)} without {', '.join(missing)}",
             place="curve",
         )
-    t, load = checked_history(times, np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads)
+    many = np.full(np.shape(times), loads) if np.ndim(loads) == 0 else loads
+    t, load = checked_history(material, times, many)
     require(load >= 0, f"loads must not be negative, but the least is {load.min():g}", place=name)
-    checked_band(material, t, load)
     rows = _points(curve)
     history = RiseAndFall.of(material, t, load, name, rows[1])
     found = history.on(ElasticLaw.of(rows))

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.optimize import nnls
 
 from roughcontact.errors import InputError
 from roughcontact.validation import Array, exactly_one, number, numeric, positive_scalar, require
-from roughcontact.viscoelastic.conversions import Kind, from_creep, reduced
+from roughcontact.viscoelastic.conversions import Kind, reduced
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["creep_power_law", "from_dma", "power_law"]
+__all__ = ["from_dma", "power_law"]
 
 BEYOND = 10.0  # factor by which the times of the terms exceed the band; terms within it cannot fit its ends
 SAMPLES = 20  # of a power law, per decade
@@ -107,8 +106,10 @@ def from_dma(
     x = np.multiply.outer(w, times)
     columns = np.concatenate([x**2 / (1 + x**2), x / (1 + x**2)])
     steady = np.concatenate([np.ones_like(w), np.zeros_like(w)])
-    (equilibrium, *moduli), misfit = _fitted(np.column_stack([steady, columns]), np.concatenate(table))
-    measured = Viscoelastic(*_kept(equilibrium, moduli, times), 0.0, band, temperature, misfit)
+    values = np.concatenate(table)
+    weights, misfit = _fitted(np.column_stack([steady, columns]), values, values)
+    facts = {"band": band, "temperature": temperature, "misfit": misfit}
+    measured = _material(float(weights[0]), weights[1:], times, **facts)
     return reduced(measured, kind, poisson=poisson, bulk=bulk)
 
 
@@ -156,75 +157,19 @@ def power_law(
     >>> round(float(gel.relaxation(100.0))), gel.misfit < 2e-3
     (25113, True)
     """
-    t, law = _power_law(modulus, time, -exponent, band, equilibrium, "equilibrium")
-    times = _long_times(band, terms_per_decade)
-    elements = np.exp(-np.divide.outer(t, times))
-    weights, misfit = _fitted(elements, law - equilibrium, law)
-    return Viscoelastic(*_kept(equilibrium, weights, times), 0.0, band, None, misfit)
-
-
-@numeric(compliance="Pa^-1", time="s", instantaneous="Pa^-1", band="s")
-def creep_power_law(
-    compliance: float,
-    time: float,
-    exponent: float,
-    *,
-    band: tuple[float, float],
-    instantaneous: float = 0.0,
-    terms_per_decade: float = 2.0,
-) -> Viscoelastic:
-    """Return ``J(t) = J_0 + compliance (t/time)^exponent`` in a band of times, by retarded terms.
-
-    Parameters
-    ----------
-    compliance : float
-        Reduced compliance of the power law at `time` [1/Pa].
-    time : float
-        Reference time [s].
-    exponent : float
-        Between 0 and 1 [-].
-    band : tuple of float
-        Shortest and longest time [s].
-    instantaneous : float
-        J_0 [1/Pa].
-    terms_per_decade : float
-        Terms per decade of time.
-
-    Returns
-    -------
-    Viscoelastic
-        ``misfit`` is the largest relative error of J(t) in the band.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of range.
-
-    Examples
-    --------
-    >>> from roughcontact import viscoelastic
-    >>> rock = viscoelastic.creep_power_law(1e-11, 3600.0, 0.2, band=(60.0, 1e7), instantaneous=2e-11)
-    >>> f"{float(rock.creep()(3600.0)):.2e} 1/Pa", rock.misfit < 2e-3
-    ('3.00e-11 1/Pa', True)
-    """
-    t, law = _power_law(compliance, time, exponent, band, instantaneous, "instantaneous")
-    times = _long_times(band, terms_per_decade)
-    retarded = -np.expm1(-np.divide.outer(t, times))
-    (more, *weights), misfit = _fitted(np.column_stack([np.ones_like(t), retarded]), law - instantaneous, law)
-    return replace(from_creep(*_kept(instantaneous + more, weights, times)), band=band, misfit=misfit)
-
-
-def _power_law(
-    factor: float, time: float, exponent: float, band: tuple[float, float], constant: float, name: str
-) -> tuple[Array, Array]:
-    """Return times in the band and the law at them, or refuse its numbers."""
-    positive_scalar(factor, "modulus" if exponent < 0 else "compliance")
+    positive_scalar(modulus, "modulus")
     positive_scalar(time, "time")
-    require(0 < abs(exponent) < 1, "exponent must be between 0 and 1", place="exponent", value=abs(exponent))
-    require(0 <= constant < np.inf, f"{name} must not be negative", place=name, value=constant)
+    require(0 < exponent < 1, "exponent must be between 0 and 1", place="exponent", value=exponent)
+    require(
+        0 <= equilibrium < np.inf, "equilibrium must not be negative", place="equilibrium", value=equilibrium
+    )
     low, high = Viscoelastic(1.0, band=band).band  # type: ignore[misc]  # checked there
     t = np.geomspace(low, high, 1 + round(SAMPLES * max(1.0, np.log10(high / low))))
-    return t, constant + factor * (t / time) ** exponent
+    law = equilibrium + modulus * (t / time) ** -exponent
+    # The last term is so long that it is a constant in the band.
+    times = np.append(_times(band, terms_per_decade), high * BEYOND**4)
+    weights, misfit = _fitted(np.exp(-np.divide.outer(t, times)), law - equilibrium, law)
+    return _material(equilibrium, weights, times, band=band, misfit=misfit)
 
 
 def _times(band: tuple[float, float], per_decade: float) -> Array:
@@ -239,22 +184,14 @@ def _times(band: tuple[float, float], per_decade: float) -> Array:
     return np.geomspace(low, high, 1 + round(per_decade * np.log10(high / low)))
 
 
-def _long_times(band: tuple[float, float], per_decade: float) -> Array:
-    """Return the times of the terms, and one so long that its term is a constant or a flow within the band."""
-    return np.append(_times(band, per_decade), band[1] * BEYOND**4)
-
-
-def _fitted(columns: Array, values: Array, scale: Array | None = None) -> tuple[list[float], float]:
+def _fitted(columns: Array, values: Array, scale: Array) -> tuple[Array, float]:
     """Return the weights that fit the values best, none negative, and the largest deviation relative to the scale."""
-    scale = values if scale is None else scale
     size = np.linalg.norm(columns / scale[:, None], axis=0)  # balances the columns
     weights = nnls(columns / scale[:, None] / size, values / scale)[0] / size
-    return weights.tolist(), float(np.abs((columns @ weights - values) / scale).max())
+    return weights, float(np.abs((columns @ weights - values) / scale).max())
 
 
-def _kept(
-    constant: float, weights: list[float], times: Array
-) -> tuple[float, tuple[float, ...], tuple[float, ...]]:
-    """Return the constant, and weights and times of the terms that are not 0."""
-    kept = [(weight, time) for weight, time in zip(weights, times.tolist(), strict=True) if weight]
-    return constant, tuple(weight for weight, _ in kept), tuple(time for _, time in kept)
+def _material(equilibrium: float, weights: Array, times: Array, **facts: Any) -> Viscoelastic:
+    """Return the material without the terms of zero weight."""
+    kept = weights > 0
+    return Viscoelastic(equilibrium, tuple(weights[kept]), tuple(times[kept]), **facts)

@@ -141,7 +141,11 @@ class Viscoelastic:
         if not all(math.isfinite(tau) and tau > 0 for tau in self.times):
             raise about("times", f"of elements must be positive and finite [s], not {shown(self.times)}")
         if len(set(self.times)) != len(self.times):
-            raise InputError(f"the relaxation times of the elements must differ: {self.times}", place="times")
+            raise InputError(
+                f"the relaxation times of the elements must differ: {self.times}",
+                "add the moduli of equal times",
+                "times",
+            )
         if self.equilibrium == 0 and self.dashpot == 0 and not any(self.moduli):
             raise InputError("a material needs a modulus or a viscosity")
         if self.band is not None and not (len(self.band) == 2 and 0 < self.band[0] < self.band[1] < math.inf):

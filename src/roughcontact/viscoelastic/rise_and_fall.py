@@ -13,7 +13,7 @@ from roughcontact.theory.tools.computed import LogCubic
 from roughcontact.validation import Array, require
 from roughcontact.viscoelastic.prony_series import Creep, Viscoelastic
 
-__all__ = ["ElasticLaw", "RiseAndFall"]
+__all__ = ["ROUNDING", "ElasticLaw", "RiseAndFall"]
 
 ROUNDING = 1e-12  # of the largest value: a change below this is rounding
 STEPS = 1000  # of an interval at most 50: the error for a sphere is 1e-8, below that of most curves
@@ -74,19 +74,12 @@ class _Grown:
 
     def rate(self, node: int) -> float:
         """Return the rate at a node: the mean of both sides, at the end of the growth that before."""
-        steps = [(node - 1, (1.0, -4.0, 3.0)), (node, (-3.0, 4.0, -1.0))][
-            : 2 if node + 1 < len(self.states) else 1
-        ]
-        spans = [self.time[2 * step + 2] - self.time[2 * step] for step, _ in steps]
-        return float(
-            np.mean(
-                [
-                    np.dot(weights, self.value[2 * step : 2 * step + 3]) / h
-                    for (step, weights), h in zip(steps, spans, strict=True)
-                    if h
-                ]
-            )
-        )
+        rates = []
+        for step, weights in ((node - 1, (1.0, -4.0, 3.0)), (node, (-3.0, 4.0, -1.0))):
+            part = slice(2 * step, 2 * step + 3)
+            if step + 1 < len(self.states) and (h := np.ptp(self.time[part])):
+                rates.append(np.dot(weights, self.value[part]) / h)
+        return float(np.mean(rates))
 
     def time_at(self, place: float) -> float:
         """Return the time of a place."""
@@ -105,9 +98,7 @@ class RiseAndFall:
     load: Array
     given: list[int]  # indices of the user's times
     grown: _Grown  # depth, or Phi under given forces
-    places: (
-        Array  # where the growing contact had the size of the receding one; for the times after the growth
-    )
+    places: Array  # where the growing contact had the size of the receding one, at the times after the growth
 
     @classmethod
     def of(cls, material: Viscoelastic, t: Array, load: Array, name: str, marks: Array) -> RiseAndFall:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 from roughcontact.validation import Array
-from roughcontact.viscoelastic.contact_in_time import BodyState, ContactInTime, Trial
+from roughcontact.viscoelastic.contact_in_time import BodyState, ContactInTime, Search, Trial
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["AdaptiveSteps", "FixedSteps", "states_along"]
+__all__ = ["AdaptiveSteps", "FixedSteps", "History", "Restart"]
 
 FIRST = 0.1  # of an interval: the first step that is tried
 SMALLEST = 2.0**-30  # of an interval: a step that is not divided
@@ -38,13 +37,29 @@ class Interval:
 class Done:
     """A step that is accepted.
 
-    `error` is the estimate at its end, of the whole history; `products` includes those of the estimate.
+    `error` is the estimate at its end, of the whole history; `products` includes those of the estimate. The first half
+    of a step is not the `last`.
     """
 
     trial: Trial
     end: BodyState
     error: float
     products: int
+    last: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Restart:
+    """A point of a history, and all that the rest depends on, to the last bit.
+
+    `passed` is the index of the last given time that has passed; `error` and `step` are those of adaptive steps.
+    """
+
+    passed: int
+    body: BodyState
+    search: Search
+    error: float
+    step: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +75,8 @@ class FixedSteps:
         length = (interval.end - interval.begin) / self.count
         for k in range(1, self.count + 1):
             time = interval.begin + k * length if k < self.count else interval.end
+            if time <= memory.time:  # before a restart
+                continue
             trial = contact.attempt(memory, time - memory.time, interval.at(time), memory.guess)
             memory = replace(trial.finished(), time=time)
             yield Done(trial, memory, math.nan, trial.state.steps + 1)
@@ -84,7 +101,9 @@ class AdaptiveSteps:
         length = interval.end - interval.begin
         if math.isinf(self.step):  # at the start and after a jump
             self.step = min(contact.material.times, default=math.inf)
-        self.step, products = min(self.step, FIRST * length), 0
+        if memory.time == interval.begin:  # not after a restart
+            self.step = min(self.step, FIRST * length)
+        products = 0
         while memory.time < interval.end:
             rest = interval.end - memory.time
             step = rest if self.step > 0.9 * rest else min(self.step, 0.5 * rest)
@@ -105,7 +124,7 @@ class AdaptiveSteps:
             self.step = step * factor
             if excess > 1 and step > SMALLEST * length:
                 continue
-            yield Done(first, middle, self.error + own, products // 2)
+            yield Done(first, middle, self.error + own, products // 2, last=False)
             self.error += own
             memory = replace(end, time=interval.end if step == rest else time)
             yield Done(second, memory, self.error, products - products // 2)
@@ -122,26 +141,53 @@ def _steps_left(step: float, elapsed: float, whole: float) -> float:
     return min(equal, growing)
 
 
-def states_along(
-    contact: ContactInTime, times: Array, loads: Array, steps: FixedSteps | AdaptiveSteps
-) -> Iterator[ViscoelasticState]:
-    """Yield the states at all steps of a history; two equal times are a jump."""
-    # A dashpot needs time to move under a sudden force.
-    sudden = not (contact.forced and contact.material.dashpot)
-    error = 0.0 if isinstance(steps, AdaptiveSteps) else math.nan
-    trial = contact.attempt(contact.untouched(float(times[0])), 0.0, float(loads[0]) if sudden else 0.0, None)
-    memory = trial.finished()
-    yield contact.state(trial, memory, error, trial.state.steps + 1, prescribed=True)
-    nodes = zip(times.tolist(), loads.tolist(), strict=True)
-    for (begin, first), (end, last) in pairwise(nodes):
-        if begin < end:
-            for done in steps.through(contact, memory, Interval(begin, end, first, last), times[-1] - begin):
-                memory, error = done.end, done.error
-                given = memory.time == end
-                yield contact.state(done.trial, memory, error, done.products, prescribed=given)
-        elif first != last and sudden:
+@dataclass(frozen=True, slots=True, eq=False)
+class History:
+    """A load that is linear in time between given times, shape (n,); two equal times are a jump."""
+
+    contact: ContactInTime
+    times: Array
+    loads: Array
+    steps: FixedSteps | AdaptiveSteps
+
+    def states(self, start: Restart | None = None) -> Iterator[tuple[ViscoelasticState, Restart | None]]:
+        """Yield the states at all steps, or at those after `start`, and where a restart can begin after each."""
+        contact, steps = self.contact, self.steps
+        # A dashpot needs time to move under a sudden force.
+        sudden = not (contact.forced and contact.material.dashpot)
+        error = 0.0 if isinstance(steps, AdaptiveSteps) else math.nan
+        passed = 0
+
+        def reached(done: Done, *, given: bool) -> tuple[ViscoelasticState, Restart | None]:
+            state = contact.state(done.trial, done.end, done.error, done.products, prescribed=given)
+            step = steps.step if isinstance(steps, AdaptiveSteps) else math.inf
+            restart = Restart(passed, done.end, contact.search, done.error, step) if done.last else None
+            return state, restart
+
+        def jump(before: BodyState, load: float) -> Done:
+            trial = contact.attempt(before, 0.0, load, before.guess)
+            return Done(trial, trial.finished(), error, trial.state.steps + 1)
+
+        times, loads = self.times.tolist(), self.loads.tolist()
+        if start is None:
+            done = jump(contact.untouched(times[0]), loads[0] if sudden else 0.0)
+            memory = done.end
+            yield reached(done, given=True)
+        else:
+            passed, memory, error, contact.search = start.passed, start.body, start.error, start.search
             if isinstance(steps, AdaptiveSteps):
-                steps.step = math.inf
-            trial = contact.attempt(memory, 0.0, last, memory.guess)
-            memory = trial.finished()
-            yield contact.state(trial, memory, error, trial.state.steps + 1, prescribed=True)
+                steps.error, steps.step = start.error, start.step
+        for k in range(passed, len(times) - 1):
+            interval = Interval(*times[k : k + 2], *loads[k : k + 2])
+            if interval.begin < interval.end:
+                for done in steps.through(contact, memory, interval, times[-1] - interval.begin):
+                    memory, error = done.end, done.error
+                    given = memory.time == interval.end
+                    passed = k + given
+                    yield reached(done, given=given)
+            elif interval.first != interval.last and sudden:
+                if isinstance(steps, AdaptiveSteps):
+                    steps.step = math.inf
+                done = jump(memory, interval.last)
+                memory, passed = done.end, k + 1
+                yield reached(done, given=True)

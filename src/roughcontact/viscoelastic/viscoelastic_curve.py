@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from roughcontact import methods
-from roughcontact.contact.measures import StateMeasure, measured_at, measured_columns
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
-from roughcontact.labels.column import names_of
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.labels.variables import unit_of
-from roughcontact.labels.viscoelastic_columns import VISCOELASTIC_CURVE
 from roughcontact.solver.control import Status
 from roughcontact.validation import Array
-from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["ViscoelasticCurve", "collect"]
+__all__ = ["ViscoelasticCurve"]
 
 
 @hinted
@@ -114,29 +110,3 @@ class ViscoelasticCurve:
     to_dataset = methods.viscoelastic_dataset
     to_record = methods.viscoelastic_record
     plot = methods.creep_curve
-
-
-_POINTS = names_of(
-    column for column in VISCOELASTIC_CURVE[("time",)] if column.name not in ("status", "energy_leak")
-)
-
-
-def collect(path: Iterable[ViscoelasticState], measures: Sequence[StateMeasure] = ()) -> ViscoelasticCurve:
-    """Drain a path into a curve; fields are not kept."""
-    rows, status, measured = [], [], []
-    largest: tuple[float, tuple[Note, ...]] = (-1.0, ())
-    for state in path:
-        rows.append([getattr(state, name) for name in _POINTS])
-        status.append(state.status)
-        measured.append(measured_at(state.solution, measures, ("time", *_POINTS)))
-        geometry = state.solution.problem.geometry
-        if state.contact_area > largest[0]:
-            largest = state.contact_area, tuple(methods.notes_on(state.solution))
-    columns = {name: np.array(values) for name, values in zip(_POINTS, zip(*rows, strict=True), strict=True)}
-    return ViscoelasticCurve(
-        **columns,
-        status=tuple(status),
-        geometry=geometry,
-        measured=measured_columns(measured),
-        state_notes=largest[1],
-    )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
+import os
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -18,14 +19,16 @@ from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.control import Depth, Solver
 from roughcontact.solver.loads import Loads
 from roughcontact.validation import Array, numeric, require, scalar, whole
+from roughcontact.viscoelastic.checkpoint import Checkpoint
 from roughcontact.viscoelastic.contact_in_time import ContactInTime
-from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
+from roughcontact.viscoelastic.growing_curve import GrowingCurve
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.time_history import checked_history
-from roughcontact.viscoelastic.time_steps import AdaptiveSteps, FixedSteps, states_along
-from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve, collect
+from roughcontact.viscoelastic.time_steps import AdaptiveSteps, FixedSteps, History
+from roughcontact.viscoelastic.viscoelastic_curve import ViscoelasticCurve
 from roughcontact.viscoelastic.viscoelastic_state import ViscoelasticState
 
-__all__ = ["viscoelastic_curve", "viscoelastic_path"]
+__all__ = ["growing_curve", "viscoelastic_curve", "viscoelastic_path"]
 
 TIME_TOLERANCE = 1e-3
 NOISE = 10  # least ratio of the tolerance of time to that of a solve, whose error a difference contains
@@ -94,35 +97,20 @@ def viscoelastic_path(
     >>> [f"{state.force * 1e6:.2f} uN at {state.time:g} s" for state in path if state.prescribed]
     ['0.00 uN at 0 s', '3.16 uN at 1 s', '0.44 uN at 9 s']
     """
-    checked_material(material)
-    loads = Loads.of(forces=forces, depths=depths, pressures=pressures)
-    t, values = checked_history(times, loads.values)
-    grid = grid_of(surface)
-    _require_band(material, t)
-    forced = loads.kind != "depth"
-    if forced:
-        require(
-            values >= 0,
-            f"the {loads.kind}s must not be negative",
-            "surfaces without adhesion do not pull",
-            value=values,
-            place=f"{loads.kind}s",
-        )
-        values = Loads(loads.kind, values).as_forces(grid).values
-    accuracy = scalar(time_tolerance, "time_tolerance")
-    reference = material.instantaneous or 1.0
-    problem = make_problem(surface, reference, Depth(0.0), operator, tolerance=tolerance, curve=True)
-    if not NOISE * problem.tolerance <= accuracy < 1:
-        raise about(
-            "time_tolerance",
-            f"must be below 1 and at least {NOISE} times the tolerance {problem.tolerance:g}, not {accuracy:g}",
-            "give a larger time_tolerance, or a smaller tolerance",
-        )
-    if not forced:
-        _require_depths(problem, material, t, values)
-    rule = AdaptiveSteps(accuracy) if steps is None else FixedSteps(whole(steps, "steps"))
-    contact = ContactInTime(problem, material, forced, solver or ActiveSet())
-    return tracked(states_along(contact, t, values, rule), "Pressing", "steps")
+    history = _history(
+        surface,
+        material,
+        times=times,
+        forces=forces,
+        depths=depths,
+        pressures=pressures,
+        time_tolerance=time_tolerance,
+        steps=steps,
+        operator=operator,
+        solver=solver,
+        tolerance=tolerance,
+    )
+    return tracked((state for state, _ in history.states()), "Pressing", "steps")
 
 
 @numeric(times="s", forces=force_unit, depths="m", pressures="Pa")
@@ -140,6 +128,7 @@ def viscoelastic_curve(
     solver: Solver | None = None,
     tolerance: float = 1e-8,
     measures: Sequence[StateMeasure] = (),
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> ViscoelasticCurve:
     """Return force, depth, contact area, stiffness and energies of a viscoelastic contact against time.
 
@@ -165,6 +154,9 @@ def viscoelastic_curve(
         Largest residual of each step.
     measures : sequence of functions
         Each returns numbers of a `Solution` by name, which become columns of the curve, see `loading_curve`.
+    checkpoint : path, optional
+        File (.npz) to which the computation is written once a minute, at its end, and when it is interrupted. If it
+        holds a part of the same computation, the rest is computed, with the same numbers to the last bit.
 
     Returns
     -------
@@ -185,7 +177,7 @@ def viscoelastic_curve(
     >>> f"{(curve.depth[-1] / curve.depth[0]) ** 1.5:.1f}"  # by Hertz J(100 s)/J(0), which is 10
     '10.3'
     """
-    path = viscoelastic_path(
+    growing = growing_curve(
         surface,
         material,
         times=times,
@@ -197,24 +189,69 @@ def viscoelastic_curve(
         operator=operator,
         solver=solver,
         tolerance=tolerance,
+        measures=measures,
+        checkpoint=checkpoint,
     )
-    return collect(path, measures)
+    growing.grow()
+    return growing.curve()
 
 
-def _require_band(material: Viscoelastic, times: Array) -> None:
-    """Refuse intervals shorter or longer than the times that the data of the material cover."""
-    band = getattr(material, "band", None)
-    if band is None:
-        return
-    spans = np.diff(times)
-    shortest, longest = float(spans[spans > 0].min(initial=math.inf)), float(times[-1] - times[0])
-    if shortest < band[0] or longest > band[1]:
-        wrong = longest if longest > band[1] else shortest
-        raise about(
-            "times",
-            f"contain an interval of {wrong:g} s; the data of the material cover {band[0]:g} to {band[1]:g} s",
-            "choose times within the data, or measure the material over a wider band",
+def growing_curve(
+    surface: Body,
+    material: Viscoelastic,
+    *,
+    measures: Sequence[StateMeasure] = (),
+    checkpoint: str | os.PathLike[str] | None = None,
+    **given: Any,
+) -> GrowingCurve:
+    """Return the curve of `viscoelastic_curve` before it is computed; it holds what the checkpoint holds."""
+    history = _history(surface, material, **given)
+    file = None if checkpoint is None else Checkpoint.of(checkpoint, history, measures)
+    return GrowingCurve(history, measures, file)
+
+
+def _history(
+    surface: Body,
+    material: Viscoelastic,
+    *,
+    times: Sequence[float] | Array,
+    forces: Sequence[float] | Array | None = None,
+    depths: Sequence[float] | Array | None = None,
+    pressures: Sequence[float] | Array | None = None,
+    time_tolerance: float = TIME_TOLERANCE,
+    steps: int | None = None,
+    operator: Operator | None = None,
+    solver: Solver | None = None,
+    tolerance: float = 1e-8,
+) -> History:
+    """Return a history whose arguments are checked, see `viscoelastic_path`."""
+    loads = Loads.of(forces=forces, depths=depths, pressures=pressures)
+    t, values = checked_history(material, times, loads.values)
+    grid = grid_of(surface)
+    forced = loads.kind != "depth"
+    if forced:
+        require(
+            values >= 0,
+            f"the {loads.kind}s must not be negative",
+            "surfaces without adhesion do not pull",
+            value=values,
+            place=f"{loads.kind}s",
         )
+        values = Loads(loads.kind, values).as_forces(grid).values
+    accuracy = scalar(time_tolerance, "time_tolerance")
+    reference = material.instantaneous or 1.0
+    problem = make_problem(surface, reference, Depth(0.0), operator, tolerance=tolerance, curve=True)
+    if not NOISE * problem.tolerance <= accuracy < 1:
+        raise about(
+            "time_tolerance",
+            f"must be below 1 and at least {NOISE} times the tolerance {problem.tolerance:g}, not {accuracy:g}",
+            "give a larger time_tolerance, or a smaller tolerance",
+        )
+    if not forced:
+        _require_depths(problem, material, t, values)
+    rule = AdaptiveSteps(accuracy) if steps is None else FixedSteps(whole(steps, "steps"))
+    contact = ContactInTime(problem, material, forced, solver or ActiveSet(), float(np.abs(values).max()))
+    return History(contact, t, values, rule)
 
 
 def _require_depths(problem: ContactProblem, material: Viscoelastic, times: Array, depths: Array) -> None:

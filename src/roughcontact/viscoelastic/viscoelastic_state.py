@@ -42,7 +42,8 @@ class ViscoelasticState:
         are those without contact at both ends.
     time_error : float
         Estimate of the error of time, summed over all steps so far: of the force or the depth and of the total strain
-        by step doubling, and of the balance of energy; each over its largest value so far. NaN for fixed steps.
+        by step doubling, and of the balance of energy; each over its largest value so far (docs/concepts/time.md). NaN
+        for fixed steps.
     products : int
         Products with the operator on the way from the state before; those of an estimate included.
     prescribed : bool
@@ -133,7 +134,7 @@ class ViscoelasticState:
         """Stiffness against a change of the depth after a long time [N/m], contact region held fixed."""
         return self._stiffness(self.material.equilibrium)
 
-    @numeric
+    @numeric(frequency="rad/s")
     def dynamic_stiffness(self, frequency: float) -> complex:
         """Return the complex stiffness of a small oscillation about this state, contact region held fixed.
 

@@ -39,6 +39,13 @@ JOBS = {  # with what its record is sure to hold, and along what it lies
         "leak_rate",
         (),
     ),
+    "creep": (
+        {
+            **{"history": {"history": "0s:0N,1s:1mN,9s:1mN"}, "contact": {"time_tolerance": "0.1"}},
+            **{"source": MADE | {"points": "8"}, "bodies": {"material": "rubber.toml"}},
+        },
+        *("depth", ("time",)),
+    ),
     "curve": ({"loads": {"depths": "0.1um,0.2um"}, "source": MADE, "bodies": BODIES}, "stiffness", ("load",)),
     "sliding": (
         {

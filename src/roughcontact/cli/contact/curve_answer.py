@@ -290,7 +290,8 @@ class CurveAnswer:
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             measured = [name for name in curve.measured if "joint" in VARIABLES[name].shown.split()]
-            reflected = names_of(shown_in("joint", REFLECTION))
+            # In elastic contact the stiffness on unloading is K/A0, which stands in the table already.
+            reflected = names_of(shown_in("joint", REFLECTION))[curve.flow is None :]
             shown = (*columns, *measured, *shown_columns(self.dataset), *reflected)
             report.print_table(*report.load_table(self.dataset, shown))
             conducting = (

@@ -13,6 +13,7 @@ from typer.core import TyperGroup
 
 from roughcontact.cli.messages import UsageError
 from roughcontact.errors import InputError
+from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.texts import choose
 
 __all__ = ["in_our_words", "no_such_command"]
@@ -45,6 +46,9 @@ def no_such_command(context: Any, name: str, known: Iterable[str]) -> UsageError
 def _stated(error: Any, context: Any) -> UsageError:
     name: Any = getattr(error, "option_name", None)
     if hasattr(error, "possibilities"):
+        job = JOBS.get(context.info_name)
+        if (apart := getattr(job, "APART", {}).get(name.removeprefix("--"))) is not None:
+            return UsageError(f"{apart} together with viscoelasticity is not modelled", "leave it out", name)
         return UsageError("this command has no such option", _instead(context, name), name)
     if name is not None:
         named = next((each for each in context.command.params if name in each.opts), None)

@@ -23,9 +23,8 @@ def heat_notes(columns: Mapping[str, Array]) -> Iterator[Note]:
     if count := int(np.sum(interaction > ADDITIVE)):
         yield Note(
             Rank.USUAL,
-            f"At {count} of {len(interaction)} loads gas and radiation do not add to the spots (h l/k_s up to "
-            f"{interaction.max():.2g}): the conductance of the joint is solved there, and differs from the sum of the "
-            "parts.",
+            f"At {count} of {len(interaction)} loads the parts do not add up (h l/k_s up to "
+            f"{interaction.max():.2g}): the conductance of the joint is solved as a whole there.",
         )
     if not (residual <= _MET).all():
         yield Note(Rank.WRONG, f"The drop across the joint is met to {residual.max():.0e}, not {_MET:.0e}.")

@@ -19,7 +19,7 @@ from roughcontact.mdr.bodies.indentation import Indentation, indent
 from roughcontact.mdr.viscoelasticity.viscoelastic_springs import Springs, ViscoelasticFoundation
 from roughcontact.theory.tools.roots import bisect
 from roughcontact.validation import Array, numeric, require, whole
-from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_material
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 from roughcontact.viscoelastic.time_history import checked_history
 
 __all__ = ["ViscoelasticHistory", "depth_history", "force_history"]
@@ -104,8 +104,7 @@ def depth_history(
     >>> round(float(held.force[1] / held.force[2]), 4)  # the force relaxes by E_0/E_inf
     10.0
     """
-    checked_material(material)
-    t, d = checked_history(times, depths)
+    t, d = checked_history(material, times, depths)
     require((d > 0).any(), f"the body never touches: its largest depth is {d.max():g} m")
     foundation = _foundation(material, indent(profile, 1.0, depth=float(d.max())), springs)
     state, before, at = foundation.untouched(), float(t[0]), 0.0
@@ -164,8 +163,7 @@ def force_history(
     >>> round(float((held.depth[-1] / held.depth[0]) ** 1.5), 1), round(float(creep(20.0) / creep(0.0)), 1)
     (8.8, 8.8)
     """
-    checked_material(material)
-    t, F = checked_history(times, forces)
+    t, F = checked_history(material, times, forces)
     if (F < 0).any() or not F.any():
         raise about(
             "forces", f"must not be negative, and one must be positive [N], not {F.min():g} to {F.max():g}"

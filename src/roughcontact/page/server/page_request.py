@@ -9,15 +9,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from roughcontact.errors import InputError
 from roughcontact.files.fingerprint import fingerprint
+from roughcontact.page.forms import WITHOUT_FORM
 from roughcontact.page.jobs.reduced import as_seen, factor_for
 from roughcontact.page.jobs.session_cache import SessionCache, UploadedFile
 from roughcontact.recipe.command import command_of
 from roughcontact.recipe.job_calls import python_of
 from roughcontact.recipe.jobs import JobOfHeights, calls_of
-from roughcontact.recipe.leak_job import LeakJob
-from roughcontact.recipe.sliding_job import SlidingJob
 from roughcontact.recipe.source import File
-from roughcontact.recipe.theory_job import TheoryJob
 from roughcontact.recipe.written import from_plain, to_plain, with_files
 from roughcontact.validation import Array
 
@@ -75,7 +73,7 @@ class PageRequest:
             return files[file.file]
 
         job = from_plain(plain)
-        if isinstance(job, TheoryJob | LeakJob | SlidingJob):
+        if isinstance(job, WITHOUT_FORM):
             raise InputError(
                 f"the page does not show the job {job.NAME!r}",
                 "use the command roughcontact run",

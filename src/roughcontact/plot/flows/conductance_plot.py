@@ -16,11 +16,12 @@ from roughcontact.labels.flux_columns import HEAT_PARTS
 from roughcontact.labels.variables import VARIABLES
 from roughcontact.plot.drawing.axes_for import axes_for
 from roughcontact.plot.drawing.ticks import TICK, label_axes, readable_ticks
-from roughcontact.validation import numeric
+from roughcontact.validation import Array, numeric
 
 __all__ = ["conductance_curve"]
 
 # Distinct for colour-blind readers, and by their marks and dashes without colour.
+_SMALL = 1e-3  # of the joint, below which a part has no line
 _STYLES = (("#d55e00", "o", "--"), ("#0072b2", "s", "-."), ("#009e73", "^", ":"), ("black", "D", "-"))
 
 
@@ -30,7 +31,8 @@ def conductance_curve(
 ) -> Axes:
     """Draw the thermal conductance per area of spots, gas, radiation and the joint against pressure, both logarithmic.
 
-    Loads that the grid does not resolve are open. Parts that are zero or infinite are left out.
+    Loads that the grid does not resolve are open. Values that are zero or infinite, and parts below 0.1 % of the joint
+    at all loads, are left out.
 
     Parameters
     ----------
@@ -81,7 +83,7 @@ def conductance_curve(
     axes.set(xscale="log", yscale="log")
     for (name, values), (colour, mark, dashes) in zip(drawn.items(), _STYLES, strict=True):
         shown = (values > 0) & (pressure > 0)
-        if not shown.any():
+        if not (values > _SMALL * drawn[names[-1]])[shown].any():
             continue
         style: Any = {"color": colour, "marker": mark, "markersize": 4.5, "linewidth": 1.2}
         loads, heat = pressure * x.factor, values * y.factor
@@ -91,10 +93,14 @@ def conductance_curve(
         axes.plot(loads[filled], heat[filled], linestyle="none", **style)
     labels = {"nominal pressure": x, "thermal conductance per area": y}
     label_axes(axes, *(f"{text} [{each.unit}]" for text, each in labels.items()), grid=True)
-    everything = np.concatenate([values[values > 0] for values in drawn.values()])
-    for axis, span in ((axes.xaxis, pressure[pressure > 0]), (axes.yaxis, everything)):
+    for axis, span in ((axes.xaxis, pressure[pressure > 0]), (axes.yaxis, _drawn(axes))):
         if span.size:
             readable_ticks(axis, float(span.max() / span.min()))
     if axes.lines:
         axes.legend(fontsize=TICK, frameon=False)
     return axes
+
+
+def _drawn(axes: Axes) -> Array:
+    """Return the values of all lines."""
+    return np.concatenate([np.empty(0), *(np.asarray(line.get_ydata(), float) for line in axes.lines)])

@@ -21,6 +21,7 @@ __all__ = ["flow_figure", "flow_map"]
 
 _LINES, _MARK, _CONTACT = "#c8290b", "#d6006c", "#4d4d4d"
 _LEAST = 1e-3  # of the largest flux: smaller fluxes have no lines
+_SMALL_SHARE = 0.05  # of the dissipation, below which no constriction decides
 _FEWEST, _MOST = 128, 256  # values along an axis from which flow lines are traced
 
 
@@ -35,6 +36,8 @@ def flow_figure(flow: GapFlow, direction: int) -> Figure:
 @numeric_method
 def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Axes:
     """Draw the gap in colour and the contact in grey, flow lines, and a ring around the critical constriction.
+
+    A constriction with less than 5 % of the dissipation has no ring, because it does not decide the flow.
 
     Flow lines are as wide as the root of the flux. They follow the flux of a drop along one direction.
 
@@ -79,16 +82,25 @@ def flow_map(flow: GapFlow, ax: Axes | None = None, *, direction: int = 0) -> Ax
         return axes
     unit = length_scale(grid)
     _lines(axes, down, right, tuple(length * unit.factor for length in grid.lengths))
-    if (place := flow.constriction_along(direction)) is not None:
+    place = flow.constriction_along(direction)
+    if place is not None and place.share < _SMALL_SHARE:
+        axes.set_title(
+            f"no critical constriction: the tightest place has {_percent(place.share)} of the dissipation",
+            fontsize=LABEL,
+        )
+    elif place is not None:
         y, x = (each * unit.factor for each in place.place)
         radius = max(0.5 * place.width, 0.03 * max(grid.lengths)) * unit.factor
         axes.add_patch(Circle((x, y), radius, fill=False, color=_MARK, linewidth=2.0, zorder=5))
         words = (
             f"ringed: critical constriction, {place.cells} open cells across, gap {written(place.gap, 'm')}"
         )
-        share = f"{100 * place.share:.0f}" if place.share >= 0.01 else "less than 1"
-        axes.set_title(f"{words}\n{share} % of the dissipation", fontsize=LABEL)
+        axes.set_title(f"{words}\n{_percent(place.share)} of the dissipation", fontsize=LABEL)
     return axes
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %" if share >= 0.01 else "less than 1 %"
 
 
 def _lines(axes: Axes, down: Array, right: Array, lengths: tuple[float, ...]) -> None:

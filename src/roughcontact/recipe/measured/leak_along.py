@@ -19,8 +19,8 @@ class LeakAlong:
     TITLE: ClassVar = "Leak"
     leak: str | None = described(
         "Compute the flow through the gap at each load, for any liquid, drop and seal: hydraulic gap, transmissivity, "
-        "flow factor, and the load at which the gap closes. Direction of the flow: 0 down the picture, along y; 1 "
-        "along x.",
+        "flow factor, and whether an open path leads through the gap. Direction of the flow: 0 down the picture, along "
+        "y; 1 along x.",
         read=Choice(("0", "1")),
         needs_whole=True,
     )

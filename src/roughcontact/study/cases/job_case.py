@@ -30,7 +30,7 @@ from roughcontact.study.nested_names import at, flat
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
 _ANSWERS = ("leak", "loop", "curve", "state", "solution")  # the first that exists is the answer
-_KEPT = {"load", "sliding_speed", "axis"}  # dimensions of a record, without those of maps and spots
+_KEPT = {"load", "sliding_speed", "axis", "time"}  # dimensions of a record, without those of maps and spots
 
 
 class JobParameters(Parameters):
@@ -101,8 +101,8 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
     Returns
     -------
     xarray.Dataset
-        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` and along
-        ``sliding_speed``; for a job with conductors also the conductance of the interface, with a frequency the
+        The variables of ``to_dataset()`` of the answer without a dimension, along ``load`` or ``sliding_speed``, and at
+        the given times; for a job with conductors also the conductance of the interface, with a frequency the
         reflection of ultrasound.
     """
     job = located(parameters.recipe, Path(parameters.folder))
@@ -114,7 +114,10 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
             columns.append(replace(call, given=(Name("dataset"), *call.given[1:]), result="dataset"))
         else:
             perform(_drawing(call), known)
-    known["dataset"] = next(known[name] for name in _ANSWERS if name in known).to_dataset()
+    dataset = next(known[name] for name in _ANSWERS if name in known).to_dataset()
+    if "prescribed" in dataset:  # adapted steps differ from sample to sample
+        dataset = dataset.isel(time=dataset["prescribed"].to_numpy())
+    known["dataset"] = dataset
     for call in columns:
         perform(call, known)
     dataset = known["dataset"]

@@ -1,7 +1,7 @@
 """Flow through a joint by theory: Bruggeman's effective medium, and Persson's critical constriction.
 
 A cell of gap g has the conductance g^3 in its surroundings, the effective medium (Bruggeman, Ann. Phys. 416, 636
-(1935)). The theory uses the distribution of the gaps and not their places. Its open cells stop to percolate where half
+(1935)). The theory uses the distribution of the gaps and not their places. Its open cells cease to percolate where half
 of the area is closed; Dapp and others (Phys. Rev. Lett. 108, 244301 (2012)) moved this threshold.
 
 Persson and Yang (J. Phys.: Condens. Matter 20, 315011 (2008), arXiv:0805.0699) let one constriction take the whole
