@@ -361,6 +361,7 @@ ANSWERS = {
     "Stress",
     "Comparison",
     "ContactFlux",
+    "SealingLoad",
 }
 
 

@@ -200,28 +200,18 @@ def test_eight_decades_of_speed_on_a_material_of_ten_take_few_solves():
     assert curve.friction_coefficient.argmax() not in (0, 16)
 
 
-def test_a_speed_that_does_not_converge_is_reached_by_way_of_others(monkeypatch):
-    moving, tried = friction_curve.moving, []
+def test_a_speed_that_does_not_converge_is_stated(monkeypatch):
+    moving, starts = friction_curve.moving, []
 
-    def short_steps(rest, material, speed, along, start):
-        """Miss unless the speed before is near."""
-        tried.append(speed)
+    def no_fast_speeds(rest, material, speed, along, start):
+        starts.append(start and start.speed)
         state = moving(rest, material, speed, along, start)
-        near = start is not None and speed < 4 * max(start.speed, 1e-3)
-        return state if near or speed < 1e-2 else dataclasses.replace(state, status=Status.STAGNATED)
+        return state if speed < 1e-2 else dataclasses.replace(state, status=Status.STAGNATED)
 
-    monkeypatch.setattr(friction_curve, "moving", short_steps)
-    curve = rc.friction_curve(ROUGH, SOLID, speeds=[5e-3, 0.05], pressure=0.02)
-    assert tried == pytest.approx([5e-3, 0.05, np.sqrt(5e-3 * 0.05), 0.05])
-    assert [status.converged for status in curve.status] == [True, True]
-    alone = rc.steady_sliding(ROUGH, SOLID, speed=0.05, pressure=0.02)
-    assert curve.friction[1] == pytest.approx(alone.friction, rel=1e-5, abs=1e-9)
-    assert curve.solves[1] > alone.solves
-    # If one on the way is not enough, this is stated, and the next speed is tried once only.
-    tried.clear()
+    monkeypatch.setattr(friction_curve, "moving", no_fast_speeds)
     curve = rc.friction_curve(ROUGH, SOLID, speeds=[5e-3, 50.0, 100.0], pressure=0.02)
-    assert tried == pytest.approx([5e-3, 50.0, 0.5, 100.0])
     assert [status.converged for status in curve.status] == [True, False, False]
+    assert starts == [None, 5e-3, 5e-3]  # a state that has not converged is no start
     assert curve.notes[0].startswith("At 2 of 3 speeds, first at 50 m/s: The residual is")
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class FrictionCurve:
     mean_gap, depth : array, shape (n,)
         [m]
     residual, solves : array, shape (n,)
-        Violation of the conditions of contact, and the number of solves, with those at speeds in between.
+        Violation of the conditions of contact, and the number of solves.
     status : tuple of Status
     nominal_pressure : float
         [Pa]
@@ -178,16 +178,11 @@ def along_speeds(
         raise about("speeds", f"must be 0 or more and finite [m/s], not {values[0 if values[0] < 0 else -1]}")
     rest, along = at_rest(surface, material, pressure, force, tolerance), unit_vector(direction)
 
-    def slide(speed: float, start: SlidingContact | None) -> SlidingContact:
-        return moving(rest, material, speed, along, start)
-
     def states() -> Iterator[SlidingContact]:
-        start, missed = None, False
+        start = None
         for speed in tracked(values.tolist(), "Sliding", "speeds"):
-            # After a miss the way is longer than the one that has failed.
-            state = _reached(slide, speed, start, by_another=not missed)
-            missed = not state.status.converged
-            start = start if missed else state
+            state = moving(rest, material, speed, along, start)
+            start = state if state.status.converged else start
             yield state
 
     return states()
@@ -213,24 +208,3 @@ def collect_speeds(states: Iterable[SlidingContact]) -> FrictionCurve:
         direction=state.direction,
         notes=in_order(notes),
     )
-
-
-def _reached(
-    slide: Callable[[float, SlidingContact | None], SlidingContact],
-    speed: float,
-    start: SlidingContact | None,
-    *,
-    by_another: bool,
-) -> SlidingContact:
-    """Return the state at a speed, `by_another` speed on the way if it does not converge from `start`."""
-    state = slide(speed, start)
-    if state.status.converged or not speed or not by_another:
-        return state
-    below = start.speed if start is not None and start.speed else speed / 100  # from rest: a decade below
-    middle = slide(math.sqrt(below * speed), start)
-    found, solves = state, state.solves + middle.solves
-    if middle.status.converged:
-        again = slide(speed, middle)
-        found = min(state, again, key=lambda each: (not each.status.converged, each.residual))
-        solves += again.solves
-    return replace(found, solves=solves)

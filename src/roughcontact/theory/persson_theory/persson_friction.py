@@ -6,7 +6,7 @@ multiply by S = gamma + (1 - gamma) P^2, gamma about 1/2, which is an estimate. 
 
 Domain: surfaces with isotropic random waves over some decades, far from full contact. The theory contains no finite
 size, no adhesion, no shear of the interface and no flash temperature. Computed contacts of surfaces with few waves lie
-within a factor of two of it, with neither gamma at all speeds: compare with both.
+within a factor of two of it, and at high speed within a factor of four, with neither gamma at all speeds: compare both.
 """
 
 from __future__ import annotations
