@@ -34,6 +34,7 @@ QUESTIONS = {
     "leak": "how-to/leaks",
     "viscoelastic": "concepts/time",
     "viscoelastic contact in time": "concepts/time",
+    "creep": "how-to/creep",
     "rubber": "how-to/viscoelastic",
     "creep of a rough rubber contact": "gallery/rubber/rough_rubber_block",
     "rubber friction": "concepts/sliding-hysteresis",
