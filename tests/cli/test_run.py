@@ -216,7 +216,7 @@ def test_files_are_written_to_the_end(monkeypatch):
 
     def interrupted(self, *given):
         signal.raise_signal(signal.SIGINT)
-        write(self, *given)
+        return write(self, *given)
 
     monkeypatch.setattr(curve_answer.CurveAnswer, "write", interrupted)
     written()
