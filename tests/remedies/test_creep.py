@@ -65,11 +65,11 @@ $ {CREEP.replace("rubber", "damped")} 0s:0nm,0s:1nm
 > {CREEP} 0s:0nm,0s:1nm
 
 $ {CREEP.replace("rubber", "gel")} 0s:0N,99s:1uN
-! --history: times contain an interval of 99 s; the data of the material cover 0.1 to 10 s; choose times within
+! --history: the history lasts 99 s, and the data of the material end at 10 s; change the times
 > {CREEP.replace("rubber", "gel")} 0s:0N,9s:1uN
 
 $ {CREEP.replace("rubber", "gel")} 0s:0N,0.01s:1uN
-! --history: times contain an interval of 0.01 s; the data of the material cover 0.1 to 10 s; choose times within
+! --history: the time 0.01 s follows 0.01 s after a change of the rate of the load, and the data of the material begin
 > {CREEP.replace("rubber", "gel")} 0s:0N,0.1s:1uN
 
 $ {CREEP} 0s:0N,1s:1uN --hardness 1GPa
