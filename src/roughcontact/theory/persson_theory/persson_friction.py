@@ -26,10 +26,28 @@ __all__ = ["DynamicModulus", "contact_fraction", "friction_coefficient"]
 
 
 class DynamicModulus(Protocol):
-    """A viscoelastic material; `roughcontact.Viscoelastic` is one."""
+    """A viscoelastic material; `roughcontact.Viscoelastic` is one.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> complex(rc.viscoelastic.standard_solid(1.0, 3.0, 1.0).complex_modulus(1.0))
+    (2+1j)
+    """
 
     def complex_modulus(self, angular_frequency: Array, /) -> npt.NDArray[np.complex128]:
-        """Return storage + i loss of E* [Pa] at angular frequencies [rad/s]."""
+        """Return storage + i loss of E* at angular frequencies.
+
+        Parameters
+        ----------
+        angular_frequency : array
+            [rad/s]
+
+        Returns
+        -------
+        array of complex
+            [Pa]
+        """
 
 
 @numeric
