@@ -362,6 +362,7 @@ ANSWERS = {
     "Comparison",
     "ContactFlux",
     "SealingLoad",
+    "Transmissivity",
 }
 
 

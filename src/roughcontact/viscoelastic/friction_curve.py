@@ -18,7 +18,7 @@ from roughcontact.solver.control import Status
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, number, numeric
 from roughcontact.viscoelastic.prony_series import Viscoelastic
-from roughcontact.viscoelastic.steady_sliding import SlidingContact, at_rest, moving, unit_vector
+from roughcontact.viscoelastic.steady_sliding import SlidingContact, at_rest, limits_of, moving, unit_vector
 
 __all__ = ["FrictionCurve", "along_speeds", "collect_speeds", "friction_curve"]
 
@@ -194,7 +194,7 @@ def collect_speeds(states: Iterable[SlidingContact]) -> FrictionCurve:
     for state in states:
         rows.append([getattr(state, name) for name in _COLUMNS])
         status.append(state.status)
-        limits += [(kind, state.speed, note) for kind, note in enumerate(state.limits()) if note]
+        limits += [(kind, state.speed, note) for kind, note in enumerate(limits_of(state)) if note]
     counts, first = Counter(kind for kind, *_ in limits), {each[0]: each for each in reversed(limits)}
     notes = (
         Note(note.rank, f"At {counts[kind]} of {len(rows)} speeds, first at {speed:.3g} m/s: {note.text}")

@@ -29,7 +29,7 @@ from roughcontact.viscoelastic.prony_series import Viscoelastic, checked_materia
 from roughcontact.viscoelastic.sliding_solver import solve_sliding
 from roughcontact.viscoelastic.wave_operator import WaveOperator, passing, wave_vectors
 
-__all__ = ["SlidingContact", "at_rest", "moving", "steady_sliding", "unit_vector"]
+__all__ = ["SlidingContact", "at_rest", "limits_of", "moving", "steady_sliding", "unit_vector"]
 
 COARSE = 0.1  # of the friction: error estimate from which on a note is made
 
@@ -150,35 +150,7 @@ class SlidingContact:
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of these numbers, in sentences."""
-        return in_order(filter(None, self.limits()))
-
-    def limits(self) -> Iterator[Note | None]:
-        """Yield a note for each limit that is exceeded, and None for each of the others."""
-        grid, friction, error = self._grid, abs(self.friction_coefficient), self.friction_error
-        missed = f"The residual is {self.residual:.1e}, where {self.problem.tolerance:.0e} was asked for."
-        yield None if self.status.converged else Note(Rank.WRONG, missed)
-        longest = max((*self.material.creep().times, 0.0)) * self.speed
-        period = min(
-            length / abs(part)
-            for length, part in zip(grid.lengths[::-1], self.direction, strict=True)
-            if abs(part) > 1e-12
-        )
-        early = Note(
-            Rank.DOUBTFUL,
-            f"The surface moves by {longest:.3g} m in the longest retardation time, more than its period of "
-            f"{period:.3g} m: the plane meets the same summits before it has recovered.",
-        )
-        yield early if longest > period else None
-        coarse = f"The grid may change the friction coefficient by {error:.1e}: use smaller cells."
-        yield Note(Rank.DOUBTFUL, coarse) if self.speed and error > COARSE * friction else None
-        highest = self.speed * float(np.hypot(*(np.abs(each).max() for each in wave_vectors(grid))))
-        lowest, (short, long) = 2 * math.pi * self.speed / period, self.material.band or (0.0, math.inf)
-        outside = Note(
-            Rank.DOUBTFUL,
-            f"Waves load the plane at {lowest:.1e} to {highest:.1e} rad/s, partly outside the band of the "
-            "material's data.",
-        )
-        yield outside if self.speed and (highest * short > 1 or lowest * long < 1) else None
+        return in_order(filter(None, limits_of(self)))
 
     def _mean_with_slope(self, field: Array) -> Array:
         """Return the mean of the pressure times the slope (x, y) of a field."""
@@ -203,6 +175,36 @@ class SlidingContact:
             f"SlidingContact({self.speed:.4g} m/s, friction coefficient {self.friction_coefficient:.4g}, contact "
             f"fraction {self.contact_fraction:.4g}, {self.status.value})"
         )
+
+
+def limits_of(state: SlidingContact) -> Iterator[Note | None]:
+    """Yield a note for each limit of a state that is exceeded, and None for each of the others."""
+    grid, friction, error = state.problem.grid, abs(state.friction_coefficient), state.friction_error
+    assert isinstance(grid, Grid)
+    missed = f"The residual is {state.residual:.1e}, where {state.problem.tolerance:.0e} was asked for."
+    yield None if state.status.converged else Note(Rank.WRONG, missed)
+    longest = max((*state.material.creep().times, 0.0)) * state.speed
+    period = min(
+        length / abs(part)
+        for length, part in zip(grid.lengths[::-1], state.direction, strict=True)
+        if abs(part) > 1e-12
+    )
+    early = Note(
+        Rank.DOUBTFUL,
+        f"The surface moves by {longest:.3g} m in the longest retardation time, more than its period of "
+        f"{period:.3g} m: the plane meets the same summits before it has recovered.",
+    )
+    yield early if longest > period else None
+    coarse = f"The grid may change the friction coefficient by {error:.1e}: use smaller cells."
+    yield Note(Rank.DOUBTFUL, coarse) if state.speed and error > COARSE * friction else None
+    highest = state.speed * float(np.hypot(*(np.abs(each).max() for each in wave_vectors(grid))))
+    lowest, (short, long) = 2 * math.pi * state.speed / period, state.material.band or (0.0, math.inf)
+    outside = Note(
+        Rank.DOUBTFUL,
+        f"Waves load the plane at {lowest:.1e} to {highest:.1e} rad/s, partly outside the band of the "
+        "material's data.",
+    )
+    yield outside if state.speed and (highest * short > 1 or lowest * long < 1) else None
 
 
 @numeric(speed="m/s", pressure="Pa", force="N")
