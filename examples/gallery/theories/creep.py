@@ -1,6 +1,6 @@
 """
-Creep of a rough contact
-========================
+A contact that grows under a held force
+=======================================
 
 Under a constant force, a viscoelastic contact grows. Lee and Radok's transfer computes this history from one
 elastic curve. It is valid while the contact grows.
