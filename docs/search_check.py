@@ -38,7 +38,7 @@ QUESTIONS = {
     "rubber": "how-to/viscoelastic",
     "creep of a rough rubber contact": "gallery/rubber/rough_rubber_block",
     "rubber friction": "concepts/sliding-hysteresis",
-    "leak against time": "how-to/creep",
+    "leak against time": "tutorials/rubber-seal",
     "mated": "reference/glossary",
     "K from ultrasound": "how-to/ultrasound",
     "mpi": "how-to/scale",
