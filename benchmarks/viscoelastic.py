@@ -12,7 +12,7 @@ import numpy as np
 
 import roughcontact as rc
 
-TERMS = rc.viscoelastic.prony(1.0, [1.0] * 5, np.geomspace(0.1, 1000.0, 5))
+TERMS = rc.Viscoelastic(1.0, [1.0] * 5, np.geomspace(0.1, 1000.0, 5))
 SOLID = rc.viscoelastic.standard_solid(1.0, 3.0, 1.0)
 
 

@@ -28,7 +28,7 @@ Array = npt.NDArray[np.float64]
 
 ARMS, TAUS = [1.0, 1.0], [0.5, 4.0]  # shear moduli over that of the spring, and relaxation times [s]
 # Poisson's ratio 0: the reduced modulus is twice the shear modulus.
-MATERIAL = rc.viscoelastic.prony(2.0, [2 * arm for arm in ARMS], TAUS)
+MATERIAL = rc.Viscoelastic(2.0, [2 * arm for arm in ARMS], TAUS)
 TIMES, SHARES, GROWN = [0.0, 0.0, 1.0, 2.0], [0.0, 1.0, 1.0, 0.8], 1.0
 PRESSURE = 0.02
 States = dict[float, tuple[Array, Array]]  # pressure and gap of each time

@@ -63,7 +63,7 @@ _OF_JOINT = {
     "short_cutoff": {"hurst": "0.8", "rolloff": "100um", "slope": None},
     "nayak": {"rolloff": None},
 }
-_GAS = {"viscosity": None, "gas": "air", "temperature": "293K"}
+_GAS = {"viscosity": None, "gas": "air,293K"}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -96,7 +96,7 @@ BESIDE = {
     },
     "Sliding.force": {"pressure": None},
     "Ultrasound.density": {"frequency": "5MHz"},
-    **{f"Fluid.{name}": _GAS for name in ("gas", "temperature")},
+    "Fluid.gas": _GAS,
     **{
         f"Seal.{name}": {"drop": None, "upstream": "2bar", "downstream": "1bar"}
         for name in ("upstream", "downstream")
@@ -121,10 +121,7 @@ ELSEWHERE = {
         f"HeatParts.{name}": {"conduction": {"conductivity": "400W/m/K"}}
         for name in ("gas", "emissivity", "temperature", "film")
     },
-    **{
-        field: {"seal": {"upstream": "2bar", "downstream": "1bar"}}
-        for field in ("Fluid.gas", "Fluid.temperature")
-    },
+    "Fluid.gas": {"seal": {"upstream": "2bar", "downstream": "1bar"}},
 }
 
 

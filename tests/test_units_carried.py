@@ -40,7 +40,7 @@ DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
 JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
-FLOWN = rc.loading_curve(BALL, 1e9, forces=[1e-3], measures=[rc.Transmissivity()])
+FLOWN = rc.loading_curve(BALL, 1e9, forces=[1e-3], measures=[rc.Transmissivity(axis=0)])
 LINE_OPERATOR = rc.line(SCAN.grid, 1e9)
 SHAPES = {
     rc.shapes.cone: {"slope": 0.1},
@@ -177,7 +177,6 @@ MORE = [
       for function in (rc.slide_path, rc.slide_curve) for name, value in (("forces", 1e-6), ("displacements", 1e-10))),
     (VISCO.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
     (VISCO.maxwell, {"modulus": 1e9, "relaxation_time": 1.0}),
-    (VISCO.prony, {"equilibrium": 1e9, "moduli": [1e8], "times": [1.0]}),
     (VISCO.standard_solid, {"equilibrium": 1e9, "instantaneous": 2e9, "relaxation_time": 1.0}),
     (VISCO.viscous, {"viscosity": 1e9}),
     (VISCO.from_creep, {"instantaneous": 1e-9, "compliances": [1e-9], "times": [1.0], "fluidity": 1e-10}),

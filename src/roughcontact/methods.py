@@ -55,6 +55,7 @@ if TYPE_CHECKING:
         surface_dataset as surface_dataset,
         surface_of as surface_of,
     )
+    from roughcontact.fluid.conductance_parts import notes_on_heat_curve as notes_on_heat_curve
     from roughcontact.fluid.flow_notes import (
         notes_on_flow as notes_on_flow,
         notes_on_flow_curve as notes_on_flow_curve,
@@ -152,6 +153,7 @@ else:
         "files.save": "csv_of",
         "files.surface_dataset": "surface_dataset surface_of",
         "fluid.leak_dataset": "flow_dataset flow_record",
+        "fluid.conductance_parts": "notes_on_heat_curve",
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",

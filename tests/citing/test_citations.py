@@ -165,7 +165,7 @@ def test_bodies_in_time():
     *_, state = rc.viscoelastic_path(WAVE, rubber, **history)
     assert keys(state) == in_time | {"Westergaard1939"}
     assert keys(rc.viscoelastic_curve(WAVE, rubber, **history)) == in_time
-    leaking = rc.viscoelastic_curve(WAVE, rubber, **history, measures=[rc.Transmissivity()])
+    leaking = rc.viscoelastic_curve(WAVE, rubber, **history, measures=[rc.Transmissivity(axis=0)])
     assert keys(leaking) == in_time | {"Reynolds1886", "Patir1978"}
     elastic = rc.loading_curve(WAVE, 1e7, pressures=[1e2, 3e2, 1e3, 3e3])
     moved = rc.viscoelastic.transfer(elastic, rubber, [0, 1], forces=3e2 * WAVE.grid.area)

@@ -18,7 +18,7 @@ QUICK = ("--time-tolerance", "0.05")
 def here(tmp_path, monkeypatch, surface):
     monkeypatch.chdir(tmp_path)
     rc.write(surface, "rough.npz")
-    rc.viscoelastic.prony(1e6, [2e6, 6e6], [1.0, 0.01]).write("rubber.toml")
+    rc.Viscoelastic(1e6, [2e6, 6e6], [1.0, 0.01]).write("rubber.toml")
     return tmp_path
 
 

@@ -10,7 +10,7 @@ import roughcontact as rc
 
 BODIES = ("--modulus", "10GPa", "--pressure", "20MPa")
 WATER = ("--viscosity", "1mPa*s", "--density", "1000kg/m^3", "--drop", "1bar")
-AIR = ("--gas", "air", "--temperature", "20degC", "--upstream", "2bar", "--downstream", "1bar")
+AIR = ("--gas", "air,20degC", "--upstream", "2bar", "--downstream", "1bar")
 SEAL = ("--seal-width", "1mm", "--circumference", "0.1m")
 
 
@@ -117,12 +117,12 @@ def test_full_contact_leaks_nothing_and_says_so(invoke, tile, tmp_path):
     ("words", "message", "right"),
     [
         (
-            (*AIR[:2], *AIR[4:], *SEAL),
-            "--gas needs --temperature, which is not given: give --temperature too",
+            ("--gas", "air", *AIR[2:], *SEAL),
+            "--gas: 'air' lacks the temperature of the gas; write air,20degC, with your values",
             (*AIR, *SEAL),
         ),
         (
-            (*AIR[:4], "--drop", "1bar", *SEAL),
+            (*AIR[:2], "--drop", "1bar", *SEAL),
             "only on their difference; give --upstream and --downstream in place of --drop",
             (*AIR, *SEAL),
         ),

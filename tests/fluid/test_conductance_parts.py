@@ -7,7 +7,7 @@ import roughcontact as rc
 from roughcontact.evaluation.interface_text import abaqus_text
 from roughcontact.fluid.fluids import _GASES
 from roughcontact.labels.flux_columns import HEAT_PARTS_NAMES
-from roughcontact.recipe.measured.heat_parts import GASES, gas_of
+from roughcontact.recipe.measured.heat_parts import GASES, gas_with
 
 OBLONG = rc.Grid((24, 40), (4e-6, 3e-6), periodic=True)
 SURFACE = rc.self_affine(OBLONG, hurst=0.8, rms=1e-6, rng=1, rolloff=60e-6, short_cutoff=24e-6)
@@ -138,9 +138,14 @@ def test_gases_are_those_of_the_handbook(name, viscosities, conductivities):
 
 
 def test_a_gas_is_read_in_any_order_and_in_part():
+    gas_of = gas_with("pressure", "temperature", "accommodation")
     whole = gas_of("air,1bar,20degC,alpha=0.9:0.8")
     assert str(whole) == 'rc.Gas("air", pressure=100000.0, temperature=293.15, accommodation=(0.9, 0.8))'
     assert dict(gas_of("air, alpha=0.9:0.8, 293.15K, 1bar").named) == dict(whole.named)
-    assert dict(gas_of("helium,alpha=0.4").named) == {"accommodation": (0.4, 0.4)}
-    assert str(gas_of("argon,300K")) == 'rc.Gas("argon", temperature=300.0)'
+    assert dict(gas_with("accommodation")("helium,alpha=0.4").named) == {"accommodation": (0.4, 0.4)}
+    assert str(gas_with("temperature")("argon,300K")) == 'rc.Gas("argon", temperature=300.0)'
+    with pytest.raises(
+        ValueError, match="states the pressure of the gas, which is not used here: leave it out"
+    ):
+        gas_with("temperature")("argon,1bar,300K")
     assert tuple(_GASES) == GASES

@@ -29,7 +29,7 @@ WATER = rc.Liquid(1e-3)
 
 
 def curve_of(surface=PERIODIC, pressures=PRESSURES, hardness=None, **given):
-    measures = [rc.Transmissivity(**given)]
+    measures = [rc.Transmissivity(**(given if given.keys() & {"axis", "between"} else given | {"axis": 0}))]
     return rc.loading_curve(surface, 1e9, pressures=pressures, hardness=hardness, measures=measures)
 
 
@@ -100,6 +100,8 @@ def test_missing_cells_and_regions():
 def test_an_unknown_axis_is_refused(axis):
     with pytest.raises(ValueError, match="the axis must be 0 or 1"):
         rc.Transmissivity(axis=axis)
+    with pytest.raises(ValueError, match="exactly one of axis and between: none is given"):
+        rc.Transmissivity()
 
 
 def test_leak_rates_are_those_of_each_load():

@@ -11,7 +11,7 @@ from roughcontact.mdr.bodies import indenter
 from roughcontact.mdr.bodies.indentation import indent, indentation_curve, indented
 from roughcontact.mdr.viscoelasticity.viscoelastic_history import depth_history, force_history
 from roughcontact.viscoelastic.elastic_transfer import transfer
-from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, standard_solid, viscous
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 R = 0.5
@@ -22,7 +22,7 @@ MATERIALS = {
     "Kelvin-Voigt": kelvin_voigt(3.0, 0.5),
     "Maxwell": maxwell(2.0, 0.7),
     "standard solid": SOLID,
-    "Prony": prony(0.5, [1.0, 2.0, 3.0], [0.1, 1.0, 5.0]),
+    "Prony": Viscoelastic(0.5, [1.0, 2.0, 3.0], [0.1, 1.0, 5.0]),
     "all": Viscoelastic(0.5, (1.0,), (0.3,), 0.2),
 }
 # Midpoint sums of 1000 springs, and the rim within a spring: measured 5e-5 where the contact is a tenth of its last

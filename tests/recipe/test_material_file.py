@@ -31,7 +31,7 @@ misfit = 0.02
 
 
 def test_another_modulus_is_converted(tmp_path):
-    shear = rc.viscoelastic.prony(1e6, [2e6], [0.1])
+    shear = rc.Viscoelastic(1e6, [2e6], [0.1])
     text = 'kind = "shear"\nequilibrium = "1MPa"\nmoduli = ["2MPa"]\ntimes = ["0.1s"]\n'
     assert material_of(tmp_path, text + "poisson = 0.5") == rc.viscoelastic.reduced(
         shear, "shear", poisson=0.5

@@ -61,9 +61,9 @@ def home(tmp_path_factory):
     heights = 1e6 * surface.heights
     heights[5, 7], heights[12, 20] = heights[5, 7] + 30, np.nan  # a spike, and a point that was not measured
     np.savetxt(here / "measured.txt", heights)
-    rc.viscoelastic.prony(1e7, [2e7, 3e7], [1e-3, 1e-5]).write(here / "rubber.material")
+    rc.Viscoelastic(1e7, [2e7, 3e7], [1e-3, 1e-5]).write(here / "rubber.material")
     line = rc.self_affine(rc.Grid(64, 1e-6), 0.8, 2e-7, np.random.default_rng(6))
-    rc.viscoelastic.prony(1e6, [2e6, 6e6], [1.0, 0.01]).write(here / "rubber.toml")
+    rc.Viscoelastic(1e6, [2e6, 6e6], [1.0, 0.01]).write(here / "rubber.toml")
     np.savetxt(here / "profile.txt", np.column_stack([1e6 * line.grid.coordinates[0], 1e6 * line.heights]))
     return here
 

@@ -416,19 +416,19 @@ ANSWERS = [
     ),
     row(
         lambda: leaking(curve(forces=RISING)),
-        "give measures=[rc.Transmissivity()] to loading_curve",
-        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()])),
+        "give measures=[rc.Transmissivity(axis=0)] to loading_curve",
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity(axis=0)])),
     ),
     row(
-        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()]), rc.Gas("air")),
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity(axis=0)]), rc.Gas("air")),
         "take rc.Liquid, or rc.leak at each load for a gas",
-        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity()])),
+        lambda: leaking(curve(forces=RISING, measures=[rc.Transmissivity(axis=0)])),
         lambda: rc.leak(pressed(), rc.Gas("air"), upstream=1.01e7, downstream=1.009e7, axis=0),
     ),
     row(
         lambda: curve(forces=RISING).plot(quantity="hydraulic_gap"),
-        "give measures=[rc.Transmissivity()] to loading_curve",
-        lambda: curve(forces=RISING, measures=[rc.Transmissivity()]).plot(quantity="hydraulic_gap"),
+        "give measures=[rc.Transmissivity(axis=0)] to loading_curve",
+        lambda: curve(forces=RISING, measures=[rc.Transmissivity(axis=0)]).plot(quantity="hydraulic_gap"),
     ),
     row(
         lambda: rc.interface_table(curve(ROUGH)),

@@ -240,7 +240,7 @@ AIR = "--gas air,1bar,20degC,alpha=0.9:0.9"
 BOTH = "--conductivity 50W/m/K"
 HEAT = f"""
 $ {TWO} {BOTH} --gas air,1bar,20degC
-! depends on the accommodation coefficients of both bodies, which 'air,1bar,20degC' lacks; \
+! lacks the accommodation coefficients of both bodies; \
 write air,1bar,20degC,alpha=0.9:0.9
 > {TWO} {BOTH} {AIR}
 

@@ -247,14 +247,14 @@ FLUIDS = [
 
 LEAK = "leak rough.npz --modulus 1GPa --pressure 1MPa"
 WET = f"{LEAK} --viscosity 1mPa*s"
-GAS = f"{LEAK} --gas air --temperature 20degC"
+GAS = f"{LEAK} --gas air,20degC"
 TILE = f"{WET} --drop 1kPa --periodic"
 COMMANDS = f"""
 $ {LEAK} --drop 1kPa
 ! --viscosity or --gas is required: add one, such as --viscosity 1mPa*s
 > {WET} --drop 1kPa
 
-$ {WET} --gas air --temperature 20degC --drop 1kPa
+$ {WET} --gas air,20degC --drop 1kPa
 ! --viscosity and --gas exclude each other: give one of them
 > {WET} --drop 1kPa
 > {GAS} --upstream 101bar --downstream 100.9bar
@@ -264,7 +264,11 @@ $ {LEAK} --viscosity 0Pa*s --drop 1kPa
 > {WET} --drop 1kPa
 
 $ {LEAK} --gas air --upstream 101bar --downstream 100.9bar
-! --gas needs --temperature, which is not given: give --temperature too
+! --gas: 'air' lacks the temperature of the gas; write air,20degC, with your values
+> {GAS} --upstream 101bar --downstream 100.9bar
+
+$ {LEAK} --gas air,1bar,20degC --upstream 101bar --downstream 100.9bar
+! states the pressure of the gas, which is not used here; leave it out
 > {GAS} --upstream 101bar --downstream 100.9bar
 
 $ {WET}

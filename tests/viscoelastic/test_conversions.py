@@ -7,15 +7,15 @@ import pint
 import pytest
 
 import roughcontact as rc
-from roughcontact import viscoelastic
+from roughcontact import Viscoelastic, viscoelastic
 from roughcontact.viscoelastic.time_history import checked_history
 
 MATERIALS = {
     "viscous": viscoelastic.viscous(2.0),
     "Kelvin-Voigt": viscoelastic.kelvin_voigt(3.0, 0.5),
     "Maxwell": viscoelastic.maxwell(2.0, 0.7),
-    "solid": viscoelastic.prony(0.5, [1, 2, 3], [5.0, 0.1, 1.0]),
-    "wide": viscoelastic.prony(1.0, np.geomspace(0.1, 100, 8), np.geomspace(1, 1e-6, 8)),
+    "solid": Viscoelastic(0.5, [1, 2, 3], [5.0, 0.1, 1.0]),
+    "wide": Viscoelastic(1.0, np.geomspace(0.1, 100, 8), np.geomspace(1, 1e-6, 8)),
     "solid with dashpot": rc.Viscoelastic(0.3, (1.0, 2.0), (0.5, 2.0), 0.7),
     "Jeffreys": rc.Viscoelastic(0, (1.0,), (0.5,), 0.7),
     "elastic": rc.Viscoelastic(2.0),
@@ -47,7 +47,7 @@ class TestExact:
         assert sorted(back.times) == pytest.approx(sorted(material.times), rel=1e-13)
 
     def test_two_bodies(self, material):
-        other = viscoelastic.prony(0.5, [1.0, 2.0], [1.0, 7.0])
+        other = Viscoelastic(0.5, [1.0, 2.0], [1.0, 7.0])
         pair = viscoelastic.in_series(material, other)
         wanted = 1 / (1 / material.complex_modulus(W) + 1 / other.complex_modulus(W))
         np.testing.assert_allclose(pair.complex_modulus(W), wanted, rtol=1e-14)
@@ -81,7 +81,7 @@ def test_digits_of_one_conversion():
 
 
 def test_a_term_of_zero_weight_changes_nothing():
-    plain, more = viscoelastic.prony(1.0, [2.0], [0.5]), viscoelastic.prony(1.0, [2.0, 0.0], [0.5, 3.0])
+    plain, more = Viscoelastic(1.0, [2.0], [0.5]), Viscoelastic(1.0, [2.0, 0.0], [0.5, 3.0])
     assert more.creep() == plain.creep()
     assert (more.complex_modulus(W) == plain.complex_modulus(W)).all()
 
@@ -93,14 +93,14 @@ def test_an_elastic_second_body():
 
 
 def test_poisson():
-    shear = viscoelastic.prony(1.0, [2.0], [1.0])
+    shear = Viscoelastic(1.0, [2.0], [1.0])
     assert viscoelastic.reduced(shear, "shear", poisson=0.25).equilibrium == pytest.approx(2 / 0.75)
     assert viscoelastic.reduced(shear, "young", poisson=0.25).moduli[0] == pytest.approx(2 / (1 - 1 / 16))
     assert viscoelastic.reduced(shear, "reduced") is shear
 
 
 class TestFitted:
-    rubber = viscoelastic.prony(1e6, [2e6, 3e6, 1e6], [0.01, 0.5, 8.0])
+    rubber = Viscoelastic(1e6, [2e6, 3e6, 1e6], [0.01, 0.5, 8.0])
     omega = np.geomspace(0.05, 2e2, 30)
     storage, loss = (lambda measured: (measured.real, measured.imag))(rubber.complex_modulus(omega))
 

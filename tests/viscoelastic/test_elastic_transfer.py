@@ -12,7 +12,8 @@ from roughcontact.mdr.bodies.indentation import indent, indentation_curve
 from roughcontact.mdr.viscoelasticity.viscoelastic_history import depth_history
 from roughcontact.viscoelastic.elastic_transfer import transfer
 from roughcontact.viscoelastic.fitted import power_law
-from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, standard_solid, viscous
+from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 R, E = 0.5, 3.0
 BODY = indenter.paraboloid(R)
@@ -22,7 +23,7 @@ MATERIALS = {
     "Kelvin-Voigt": kelvin_voigt(3.0, 0.5),
     "Maxwell": maxwell(2.0, 0.7),
     "standard solid": standard_solid(1.0, 3.0, 0.4),
-    "Prony": prony(0.5, [1.0, 2.0, 3.0], [0.1, 1.0, 5.0]),
+    "Prony": Viscoelastic(0.5, [1.0, 2.0, 3.0], [0.1, 1.0, 5.0]),
 }
 T = np.array([0.0, 0.01, 0.3, 1.0, 4.0])
 
@@ -170,7 +171,7 @@ class TestRiseAndFall:
         assert held.force[1] == pytest.approx(2.314345176457e-3, rel=1e-12)
 
     def test_a_term_without_weight_changes_nothing(self):
-        more = prony(1.0, [2.0, 0.0], [1.0, 30.0])
+        more = Viscoelastic(1.0, [2.0, 0.0], [1.0, 30.0])
         given = {"times": [0.0, 1.0, 1.4], "depths": [0.0, 0.01, 0.006]}
         plain, other = (transfer(Hertz(), each, **given) for each in (self.solid, more))
         np.testing.assert_allclose(other.force, plain.force, rtol=1e-12)
@@ -183,7 +184,7 @@ class TestRiseAndFall:
         assert found.depth[1] == pytest.approx(0.2 * 0.261156229809, rel=1e-11)
         assert found.contact_area[1] == pytest.approx(math.pi)
 
-    @pytest.mark.parametrize("material", [prony(0.5, [1.0, 2.0], [0.1, 1.0]), kelvin_voigt(1.0, 0.3)])
+    @pytest.mark.parametrize("material", [Viscoelastic(0.5, [1.0, 2.0], [0.1, 1.0]), kelvin_voigt(1.0, 0.3)])
     def test_springs_agree(self, material):
         """A second program: 1000 springs under the transformed body, second order in their width."""
         t = np.array([0.0, 0.5, 1.0, 1.3, 1.5])

@@ -56,7 +56,7 @@ def test_slow_and_fast_friction_follow_from_the_elastic_pressures():
     )
     # Waves along the track keep the relaxed modulus.
     half = WaveOperator(
-        GRID, lambda grid: passing(rc.viscoelastic.prony(1.0, [2.0], [1e9]), (1.0, 0.0))(grid).real + 0j
+        GRID, lambda grid: passing(rc.Viscoelastic(1.0, [2.0], [1e9]), (1.0, 0.0))(grid).real + 0j
     )
     glassy = rc.press(ROUGH, 1.0, pressure=0.02, operator=half)
     squares, *_ = waves(glassy.pressure)
@@ -155,7 +155,7 @@ def test_both_methods_give_the_same_contact(ratio, monkeypatch):
 
 
 def test_a_term_without_weight_changes_nothing():
-    more = rc.viscoelastic.prony(1.0, [2.0, 0.0], [1.0, 30.0])
+    more = rc.Viscoelastic(1.0, [2.0, 0.0], [1.0, 30.0])
     plain, other = (rc.steady_sliding(ROUGH, each, speed=0.1, pressure=0.02) for each in (SOLID, more))
     assert np.array_equal(other.pressure, plain.pressure)
     assert other.friction == pytest.approx(plain.friction, rel=1e-12, abs=1e-16)

@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 
-SOLID = rc.viscoelastic.prony(1.0, [1.0, 1.0], [0.3, 2.0])
+SOLID = rc.Viscoelastic(1.0, [1.0, 1.0], [0.3, 2.0])
 GRID = rc.Grid((48, 48), 1 / 48, periodic=True)
 ROUGH = rc.self_affine(GRID, hurst=0.8, rms=0.01, rng=5, rolloff=0.5, short_cutoff=1 / 6)
 DEEPEST = 0.6 * float(ROUGH.heights.max())

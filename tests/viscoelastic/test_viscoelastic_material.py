@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, prony, standard_solid, viscous
+from roughcontact.viscoelastic.models import kelvin_voigt, maxwell, standard_solid, viscous
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
 MATERIALS = {
@@ -13,9 +13,9 @@ MATERIALS = {
     "Kelvin-Voigt": kelvin_voigt(3.0, 0.5),
     "Maxwell": maxwell(2.0, 0.7),
     "standard solid": standard_solid(1.0, 3.0, 0.4),
-    "Prony solid": prony(0.5, [1, 2, 3], [5.0, 0.1, 1.0]),
-    "Prony fluid": prony(0, [1, 2, 3], [0.3, 1.0, 5.0]),
-    "wide": prony(1.0, np.geomspace(1, 1e3, 8), np.geomspace(1, 1e-6, 8)),
+    "Prony solid": Viscoelastic(0.5, [1, 2, 3], [5.0, 0.1, 1.0]),
+    "Prony fluid": Viscoelastic(0, [1, 2, 3], [0.3, 1.0, 5.0]),
+    "wide": Viscoelastic(1.0, np.geomspace(1, 1e3, 8), np.geomspace(1, 1e-6, 8)),
     "solid with dashpot": Viscoelastic(0.3, (1.0, 2.0), (0.5, 2.0), 0.7),
     "Jeffreys": Viscoelastic(0, (1.0,), (0.5,), 0.7),
     "elastic": Viscoelastic(2.0),
@@ -80,8 +80,8 @@ class TestClosedForms:
         np.testing.assert_allclose(solid.relaxation(T), 1 + 2 * np.exp(-T / 0.4), rtol=1e-15)
 
     def test_special_cases_agree(self):
-        assert prony(1.0, [2.0], [0.4]) == standard_solid(1.0, 3.0, 0.4)
-        assert prony(0.0, [2.0], [0.7]) == maxwell(2.0, 0.7)
+        assert Viscoelastic(1.0, [2.0], [0.4]) == standard_solid(1.0, 3.0, 0.4)
+        assert Viscoelastic(0.0, [2.0], [0.7]) == maxwell(2.0, 0.7)
 
 
 @pytest.mark.parametrize(
@@ -90,14 +90,17 @@ class TestClosedForms:
         (lambda: Viscoelastic(), "needs a modulus or a viscosity"),
         (lambda: Viscoelastic(-1.0), "negative"),
         (lambda: Viscoelastic(1.0, (1.0,), ()), "each modulus"),
-        (lambda: prony(1.0, [1.0, 2.0], [1.0, 1.0]), "the relaxation times of the elements must differ"),
-        (lambda: prony(1.0, [-1.0], [1.0]), "moduli and viscosities must be finite and not negative"),
+        (
+            lambda: Viscoelastic(1.0, [1.0, 2.0], [1.0, 1.0]),
+            "the relaxation times of the elements must differ",
+        ),
+        (lambda: Viscoelastic(1.0, [-1.0], [1.0]), "moduli and viscosities must be finite and not negative"),
         (lambda: maxwell(1.0, math.inf), "times of elements must be positive and finite"),
-        (lambda: prony(1.0, [1.0], [0.0]), "times of elements must be positive and finite"),
+        (lambda: Viscoelastic(1.0, [1.0], [0.0]), "times of elements must be positive and finite"),
         (lambda: viscous(math.nan), "viscosity must be a number, not nan"),
         (lambda: standard_solid(3.0, 1.0, 1.0), "softens"),
-        (lambda: prony(1e8, 1e8, 1.0), "moduli must be a list, such as .*not 100000000.0"),
-        (lambda: prony(1e8, ["a"], [1.0]), "moduli must be"),
+        (lambda: Viscoelastic(1e8, 1e8, 1.0), "moduli must be a list, such as .*not 100000000.0"),
+        (lambda: Viscoelastic(1e8, ["a"], [1.0]), "moduli must be"),
         (lambda: maxwell("a", 1.0), "modulus"),
         (lambda: kelvin_voigt(1.0, "a"), "retardation_time"),
         (lambda: standard_solid("a", 1.0, 1.0), "equilibrium must be"),

@@ -9,7 +9,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.viscoelastic.relaxation_step import Transition
 
-SOLID = rc.viscoelastic.prony(1.0, [2.0, 3.0], [0.5, 4.0])
+SOLID = rc.Viscoelastic(1.0, [2.0, 3.0], [0.5, 4.0])
 CREEP = SOLID.creep()
 PERIODIC = rc.self_affine(
     rc.Grid((32, 32), 1 / 32, periodic=True), hurst=0.8, rms=0.01, rng=3, rolloff=0.5, short_cutoff=0.25
@@ -126,7 +126,7 @@ def test_how_a_history_is_cut_changes_nothing_beyond_the_tolerance(surface, load
 
 @pytest.mark.parametrize("weight", [0.0, 1e-12])
 def test_a_term_without_weight_changes_nothing(weight):
-    more = rc.viscoelastic.prony(1.0, [2.0, 3.0, weight], [0.5, 4.0, 0.1])
+    more = rc.Viscoelastic(1.0, [2.0, 3.0, weight], [0.5, 4.0, 0.1])
     history = {"times": [0, 2], "forces": [0.01, 0.02], "steps": 4}
     for a, b in zip(path(FREE, **history), path(FREE, more, **history), strict=True):
         assert a.depth == pytest.approx(b.depth, rel=1e-9)

@@ -12,7 +12,7 @@ import numpy as np
 import roughcontact as rc
 from roughcontact.theory import persson_friction, waves
 
-rubber = rc.viscoelastic.prony(2e6, [2e6, 4e6, 8e6, 16e6], [1e-2, 1e-3, 1e-4, 1e-5])
+rubber = rc.Viscoelastic(2e6, [2e6, 4e6, 8e6, 16e6], [1e-2, 1e-3, 1e-4, 1e-5])
 grid = rc.Grid((96, 96), 1e-5, periodic=True)
 surface = rc.self_affine(grid, hurst=0.8, rms=6e-6, rng=2, rolloff=2.4e-4, short_cutoff=4e-5)
 speeds = np.geomspace(1e-4, 1e2, 13)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from roughcontact.recipe.jobs import JobOfHeights
     from roughcontact.surface.surface import Surface
 
-__all__ = ["PathAnswer", "collected"]
+__all__ = ["PathAnswer", "collected", "compute_rest"]
 
 State = TypeVar("State")
 Collected = TypeVar("Collected")
@@ -61,6 +61,14 @@ def collected(
             stopped.append(True)
 
     return collect(watched()), not stopped
+
+
+def compute_rest(option: str, done: int, left: Sequence[float], out: Path | None, what: str = "loads") -> str:
+    """Return how to compute what is missing because a path was stopped: the numbers that are `left` of an option."""
+    elsewhere = "" if out is None else ", and a new --out: this folder would be replaced"
+    rest = ",".join(f"{each:.12g}" for each in left)
+    words = f"stopped: {done} of {done + len(left)} {what} are computed"
+    return f"{words}; compute the others with --{option} {rest}{elsewhere}"
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any
 
+import numpy as np
+
+from roughcontact.contact.curve import Curve
 from roughcontact.contact.solution import Solution
 from roughcontact.fluid.fluids import Gas
-from roughcontact.fluid.joint_conductance import coefficients, joint_conductance
+from roughcontact.fluid.joint_conductance import (
+    ADDITIVE,
+    NEAR_FIELD,
+    RADIATES,
+    TOLERANCE,
+    coefficients,
+    joint_conductance,
+)
 from roughcontact.labels.flux_columns import HEAT_PARTS_NAMES
+from roughcontact.labels.note import Note, Rank
 from roughcontact.validation import require_numbers
 
-__all__ = ["ConductanceParts"]
+__all__ = ["ConductanceParts", "notes_on_heat_curve"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,3 +90,23 @@ class ConductanceParts:
 
     def _given(self) -> dict[str, Any]:
         return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+def notes_on_heat_curve(curve: Curve) -> Iterator[Note]:
+    """Yield the notes on the conductance by parts along a curve; none if it was not measured."""
+    columns = curve.measured
+    if "conductance_interaction" not in columns:
+        return
+    interaction, residual = (columns[f"conductance_{name}"] for name in ("interaction", "residual"))
+    if count := int(np.sum(interaction > ADDITIVE)):
+        yield Note(
+            Rank.USUAL,
+            f"At {count} of {len(interaction)} loads the parts do not add up (h l/k_s up to "
+            f"{interaction.max():.2g}): the conductance of the joint is solved as a whole there.",
+        )
+    if not (residual <= TOLERANCE).all():
+        yield Note(
+            Rank.WRONG, f"The drop across the joint is met to {residual.max():.0e}, not {TOLERANCE:.0e}."
+        )
+    if (columns["radiation_conductance_per_area"] > RADIATES * columns["joint_conductance_per_area"]).any():
+        yield NEAR_FIELD

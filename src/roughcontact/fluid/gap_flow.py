@@ -71,6 +71,28 @@ class GapFlow:
         """Whether an open path leads through the gap."""
         return self._network is not None
 
+    def percolates_along(self, direction: int) -> bool:
+        """Return whether an open path leads along one direction.
+
+        Parameters
+        ----------
+        direction : int
+            Axis of a periodic map: a winding vector has a component along it; elsewhere 0.
+
+        Returns
+        -------
+        bool
+
+        Examples
+        --------
+        >>> import roughcontact as rc
+        >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
+        >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
+        >>> rc.gap_flow(rc.press(surface, 1e9, pressure=2e6)).percolates_along(0)
+        True
+        """
+        return bool(self.windings[:, direction].any()) if self._rank == 2 else self.percolates
+
     @cached_property
     def windings(self) -> Indices:
         """Independent vectors along which the open cells of a periodic map percolate [periods], shape (rank, 2)."""
@@ -102,10 +124,8 @@ class GapFlow:
         grid, nor that of Reynolds' equation.
         """
         if self._flow is None or self._network is None or isinstance(self._grid, RadialGrid):
-            return (
-                self.lower_transmissivity,
-                self.transmissivity,
-            )  # of rings in series the discrete flow is exact
+            # Of rings in series the discrete flow is exact.
+            return self.lower_transmissivity, self.transmissivity
         if self.between is not None:
             raise InputError(
                 "between two regions the flow has no interval",

@@ -17,7 +17,6 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from roughcontact.arrays import is_numpy
 from roughcontact.cached import cached_property
-from roughcontact.contact.notes.heat_notes import ADDITIVE
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError, about
 from roughcontact.fluid.fluids import Gas
@@ -31,6 +30,12 @@ from roughcontact.validation import Array, Mask, exactly_one, numeric, pair, req
 
 __all__ = ["JointConductance", "coefficients", "joint_conductance"]
 
+ADDITIVE = 0.2  # h l/k_s of gas and radiation, up to which they add to the spots; tests/fluid/test_joint_conductance.py
+RADIATES = 0.01  # of the total, from which a note on radiation is made
+NEAR_FIELD = Note(
+    Rank.LIMITED,
+    "Radiation counts here. Gaps below about 2 mm K over the temperature exchange more than computed.",
+)
 TOLERANCE = 1e-7  # of the drop, root mean square; the error of the conductance is about its square
 MOST_STEPS = 5000
 
@@ -139,11 +144,8 @@ class JointConductance:
                     Rank.WRONG,
                     f"The drop is met to {self.residual:.0e}, where {TOLERANCE:.0e} was asked for.",
                 )
-        if self.radiation > 0.01 * self.total:
-            yield Note(
-                Rank.LIMITED,
-                "Radiation counts here. Gaps below about 2 mm K over the temperature exchange more than computed.",
-            )
+        if self.radiation > RADIATES * self.total:
+            yield NEAR_FIELD
         if self.solution.missing:
             yield Note(
                 Rank.LIMITED,

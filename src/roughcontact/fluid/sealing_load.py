@@ -186,8 +186,7 @@ class _Search:
 
     def leads(self, flow: GapFlow) -> bool:
         """Return whether an open path leads along the axis."""
-        wound = self.along is None and self.axis is not None
-        return bool(flow.windings[:, self.axis].any()) if wound else flow.percolates
+        return flow.percolates if self.axis is None else flow.percolates_along(self.axis)
 
     def require_both_ends(self) -> None:
         """Raise an error if no load opens a path, or none closes it."""

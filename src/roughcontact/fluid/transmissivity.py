@@ -15,7 +15,7 @@ from roughcontact.fluid.fluids import Liquid
 from roughcontact.fluid.gap_flow import gap_flow
 from roughcontact.fluid.open_gap import Missing
 from roughcontact.theory.joints.leakage import bruggeman
-from roughcontact.validation import Array, Mask, numeric, positive_scalar
+from roughcontact.validation import Array, Mask, exactly_one, numeric, positive_scalar
 
 __all__ = ["Transmissivity", "leak_rates"]
 
@@ -32,7 +32,7 @@ class Transmissivity:
 
     Parameters
     ----------
-    axis : {0, 1}
+    axis : {0, 1}, optional
         Axis of the flow: from side to side of a free map; of a periodic map, an axis of its tensor.
     between : tuple of two bool arrays, shape of the grid, optional
         Regions at the higher and at the lower pressure in place of the axis, see `gap_flow`. Their shape is then a part
@@ -43,7 +43,8 @@ class Transmissivity:
     Raises
     ------
     ValueError
-        If the axis is neither 0 nor 1, or, at the first load, if `gap_flow` refuses the state.
+        If there are not exactly one of the axis, 0 or 1, and the regions; or, at the first load, if `gap_flow` refuses
+        the state.
 
     Examples
     --------
@@ -55,26 +56,23 @@ class Transmissivity:
     (['100 nm', '14 nm', '0 nm'], [1.0, 1.0, 0.0])
     """
 
-    axis: Literal[0, 1] = 0
+    axis: Literal[0, 1] | None = None
     between: tuple[Mask, Mask] | None = None
     missing: Missing = "closed"
 
     def __post_init__(self) -> None:
-        if self.axis not in (0, 1):
+        exactly_one(axis=self.axis, between=self.between)
+        if self.axis not in (None, 0, 1):
             raise about("the axis", f"must be 0 or 1, not {self.axis!r}")
 
     def __call__(self, solution: Solution) -> dict[str, float]:
         """Return the columns of a state by name."""
         between = self.between is not None
         tensor = all(solution.problem.grid.periodic) and not between
-        flow = gap_flow(
-            solution,
-            axis=None if tensor or between else self.axis,
-            between=self.between,
-            missing=self.missing,
-        )
-        along = self.axis if tensor else 0
-        percolates = bool(flow.windings[:, along].any()) if tensor else flow.percolates
+        axis = None if tensor else self.axis
+        flow = gap_flow(solution, axis=axis, between=self.between, missing=self.missing)
+        along = self.axis if tensor and self.axis is not None else 0
+        percolates = flow.percolates_along(along)
         place = flow.constriction_along(along) if percolates else None
         kappa = float(flow.transmissivity[along, along]) if percolates else 0.0
         cubed = max(float(solution.mean_gap), 0.0) ** 3
@@ -124,7 +122,7 @@ def leak_rates(
     >>> import roughcontact as rc
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
-    >>> curve = rc.loading_curve(surface, 1e9, pressures=[1e6, 4e6, 16e6], measures=[rc.Transmissivity()])
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=[1e6, 4e6, 16e6], measures=[rc.Transmissivity(axis=0)])
     >>> rates = rc.leak_rates(curve, rc.Liquid(1e-3), drop=1e5, seal_width=1e-3, circumference=0.1)
     >>> [f"{rate * 6e7:.1e} ml/min" for rate in rates]
     ['5.0e-05 ml/min', '1.3e-07 ml/min', '0.0e+00 ml/min']
@@ -133,7 +131,7 @@ def leak_rates(
     if kappa is None or np.isnan(curve.measured["hydraulic_gap"]).any():
         raise InputError(
             "the curve has no transmissivity along an axis",
-            "give measures=[rc.Transmissivity()] to loading_curve",
+            "give measures=[rc.Transmissivity(axis=0)] to loading_curve",
             "curve",
         )
     if not isinstance(fluid, Liquid):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
@@ -12,13 +12,13 @@ from roughcontact.recipe.bodies import Bodies
 from roughcontact.recipe.contact import Contact
 from roughcontact.recipe.elastic_jobs import PressJob
 from roughcontact.recipe.job_calls import Call, Name
-from roughcontact.recipe.measured.heat_parts import GASES
+from roughcontact.recipe.measured.heat_parts import GASES, gas_with
 from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad
 from roughcontact.recipe.recipe_fields import check, described, values_of
 from roughcontact.recipe.source import Source
-from roughcontact.recipe.texts import Amount, Choice, temperature
+from roughcontact.recipe.texts import Amount, Choice
 
 __all__ = ["Fluid", "LeakJob", "Seal"]
 
@@ -40,9 +40,8 @@ class Fluid:
     vapour_pressure: str | None = described(
         "Pressure below which the liquid boils.", "2.3kPa", read=_ABSOLUTE, needs="viscosity"
     )
-    gas: str | None = described("An ideal gas.", read=Choice(GASES), needs="temperature")
-    temperature: str | None = described(
-        "Temperature of the gas, 200 to 600 K.", "20degC", read=temperature, needs="gas"
+    gas: str | None = described(
+        "An ideal gas: name and temperature.", "air,20degC", read=gas_with("temperature"), names=GASES
     )
 
     def __post_init__(self) -> None:
@@ -51,8 +50,8 @@ class Fluid:
     def call(self) -> Call:
         """Return the call that makes the fluid."""
         named = values_of(self)
-        given = [named.pop("gas")] if "gas" in named else []
-        return Call("rc.Gas" if given else "rc.Liquid", tuple(given), named, result="fluid", place="fluid")
+        made = named.pop("gas") if "gas" in named else Call("rc.Liquid", (), named)
+        return replace(made, result="fluid", place="fluid")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Viscoelastic materials, and elastic curves transferred to them."""
+"""Viscoelastic bodies: materials, contact in time, steady sliding, and elastic curves transferred to them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.viscoelastic.models import (
         kelvin_voigt as kelvin_voigt,
         maxwell as maxwell,
-        prony as prony,
         standard_solid as standard_solid,
         viscous as viscous,
     )

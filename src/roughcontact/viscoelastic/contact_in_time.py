@@ -275,9 +275,8 @@ class ContactInTime:
         """
         measure, halves = self.problem.measure, [fine.pressure]
         force, depth, _, strain, energy = (end.largest * self._growth(end)).tolist()
-        if (
-            self.material.dashpot
-        ):  # pressures jump with the speed: those of the whole step are the mean of its halves
+        if self.material.dashpot:
+            # Pressures jump with the speed: those of the whole step are the mean of its halves.
             halves.append(0.5 * (fine.start.pressure + fine.pressure))
         own = _share(abs(coarse.total_strain - fine.total_strain), strain)
         if self.forced:

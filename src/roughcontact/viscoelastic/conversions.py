@@ -135,7 +135,7 @@ def reduced(
     Parameters
     ----------
     modulus : Viscoelastic
-        The modulus in time as a Prony series, for example from `prony`.
+        The modulus in time, as if it were the reduced modulus.
     kind : str
         ``"young"``, ``"shear"``, or ``"reduced"``, which is returned unchanged.
     poisson : float, optional
@@ -154,8 +154,8 @@ def reduced(
 
     Examples
     --------
-    >>> from roughcontact import viscoelastic
-    >>> shear = viscoelastic.prony(1e6, [9e6], [0.1])
+    >>> from roughcontact import Viscoelastic, viscoelastic
+    >>> shear = Viscoelastic(1e6, (9e6,), (0.1,))
     >>> round(viscoelastic.reduced(shear, "shear", poisson=0.5).instantaneous)  # 2 G/(1 - nu)
     40000000
     >>> body = viscoelastic.reduced(shear, "shear", bulk=1e9)

@@ -118,7 +118,7 @@ def transfer(
     curve : Curve, IndentationCurve or alike
         Elastic curve with increasing forces and depths.
     material : Viscoelastic
-        Made by `standard_solid`, `prony`, `from_dma` or another function of `roughcontact.viscoelastic`.
+        For example by `standard_solid` or `from_dma` of `roughcontact.viscoelastic`.
     times : array, shape (n,)
         Not decreasing [s]; a repeated time is a jump. There is no load before the first time.
     forces, depths : float or array, shape (n,), optional

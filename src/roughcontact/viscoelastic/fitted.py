@@ -72,8 +72,8 @@ def from_dma(
     Examples
     --------
     >>> import numpy as np
-    >>> from roughcontact import viscoelastic
-    >>> rubber = viscoelastic.prony(1e6, [2e6, 3e6], [0.01, 1.0])
+    >>> from roughcontact import Viscoelastic, viscoelastic
+    >>> rubber = Viscoelastic(1e6, (2e6, 3e6), (0.01, 1.0))
     >>> omega = np.geomspace(0.1, 1e3, 20)
     >>> measured = rubber.complex_modulus(omega)
     >>> body = viscoelastic.from_dma(

@@ -59,8 +59,8 @@ class FrictionCurve:
         [Pa]
     direction : array, shape (2,)
         Unit vector (x, y) along which the surface slides.
-    notes : tuple of str
-        Limits of these numbers: at how many speeds, and the first of them.
+    state_notes : tuple of Note
+        Notes on the states, each with the number of its speeds and the first of them.
 
     Examples
     --------
@@ -87,10 +87,15 @@ class FrictionCurve:
     status: tuple[Status, ...]
     nominal_pressure: float
     direction: Array
-    notes: tuple[str, ...]
+    state_notes: tuple[Note, ...] = ()
 
     def __len__(self) -> int:
         return len(self.speed)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Limits of these numbers, in sentences."""
+        return in_order(self.state_notes)
 
     def __repr__(self) -> str:
         """Return the range of the curve, not its numbers."""
@@ -116,9 +121,7 @@ def friction_curve(
     force: float | None = None,
     tolerance: float = 1e-8,
 ) -> FrictionCurve:
-    """Return hysteretic friction and contact against speed; each speed starts from the contact at the one before.
-
-    If a speed does not converge from the one before, one between them is solved first.
+    """Return hysteretic friction and contact against speed; each starts from the last converged one below it.
 
     Parameters
     ----------
@@ -206,5 +209,5 @@ def collect_speeds(states: Iterable[SlidingContact]) -> FrictionCurve:
         status=tuple(status),
         nominal_pressure=state.nominal_pressure,
         direction=state.direction,
-        notes=in_order(notes),
+        state_notes=tuple(notes),
     )

@@ -64,10 +64,8 @@ class GrowingCurve:
         """Compute the rest of the history; what is done is kept if this is interrupted."""
         if self.whole:
             return
-        largest, due = (
-            max((row["contact_area"] for row in self.rows), default=-1.0),
-            time.monotonic() + _EVERY,
-        )
+        largest = max((row["contact_area"] for row in self.rows), default=-1.0)
+        due = time.monotonic() + _EVERY
         try:
             for state, restart in tracked(self.history.states(self._restart), "Pressing", "steps"):
                 row = self._row(state)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from roughcontact.errors import InputError
 from roughcontact.validation import numeric
 from roughcontact.viscoelastic.prony_series import Viscoelastic
 
-__all__ = ["kelvin_voigt", "maxwell", "prony", "standard_solid", "viscous"]
+__all__ = ["kelvin_voigt", "maxwell", "standard_solid", "viscous"]
 
 
 @numeric(viscosity="Pa*s")
@@ -110,30 +108,3 @@ def standard_solid(equilibrium: float, instantaneous: float, relaxation_time: fl
             f"not to {equilibrium} Pa"
         )
     return Viscoelastic(equilibrium, (instantaneous - equilibrium,), (relaxation_time,))
-
-
-@numeric(equilibrium="Pa", moduli="Pa", times="s")
-def prony(equilibrium: float, moduli: Sequence[float], times: Sequence[float]) -> Viscoelastic:
-    """Return ``E(t) = E_inf + sum E_k exp(-t/tau_k)``, a measured master curve; reduced moduli [Pa], times [s].
-
-    Parameters
-    ----------
-    equilibrium : float
-        E_inf, the reduced modulus after a long time [Pa]; 0 for a fluid.
-    moduli : sequence of float
-        E_k of the elements [Pa].
-    times : sequence of float
-        Relaxation times tau_k of the elements [s].
-
-    Returns
-    -------
-    Viscoelastic
-
-    Examples
-    --------
-    >>> from roughcontact import viscoelastic
-    >>> rubber = viscoelastic.prony(1e6, [4e6, 5e6], [0.1, 1.0])
-    >>> rubber.instantaneous
-    10000000.0
-    """
-    return Viscoelastic(equilibrium, moduli, times)  # type: ignore[arg-type]  # which makes tuples of both

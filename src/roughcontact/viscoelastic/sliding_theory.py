@@ -20,7 +20,7 @@ __all__ = ["DOMAIN", "with_persson"]
 
 DOMAIN = (
     "Persson's theory assumes isotropic random waves over some decades, far from full contact. gamma 1 is the theory "
-    "of 2001, 1/2 the usual later value; on a small map, friction may differ from both by a factor of two or more."
+    "of 2001, 1/2 the usual later value; the friction of a map with few waves differs from both."
 )
 
 

@@ -59,7 +59,7 @@ def viscoelastic_path(
     surface : Surface or RadialProfile
         Heights [m], positive toward the half-space, on a free or periodic grid.
     material : Viscoelastic
-        Made by `standard_solid`, `maxwell`, `kelvin_voigt`, `viscous` or `prony` of `roughcontact.viscoelastic`.
+        A Prony series, for example by `standard_solid` or `from_dma` of `roughcontact.viscoelastic`.
     times : array, shape (n,)
         Times that do not decrease [s].
     forces, depths, pressures : array, shape (n,)

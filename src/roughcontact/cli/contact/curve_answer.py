@@ -290,9 +290,14 @@ class CurveAnswer:
             )
             columns = AREAL_COLUMNS if self.per_area else CURVE_COLUMNS
             measured = [name for name in curve.measured if "joint" in VARIABLES[name].shown.split()]
+            conducted = shown_columns(self.dataset)
+            if self.job.heat.named():  # the joint in place of bare spots in vacuum, and only the parts it has
+                conducted = [name for name in conducted if not name.startswith("thermal")]
+                left = {f"{part}_conductance_per_area" for part in ("gas", "radiation")}
+                measured = [name for name in measured if name not in left or curve.measured[name].any()]
             # In elastic contact the stiffness on unloading is K/A0, which stands in the table already.
             reflected = names_of(shown_in("joint", REFLECTION))[curve.flow is None :]
-            shown = (*columns, *measured, *shown_columns(self.dataset), *reflected)
+            shown = (*columns, *measured, *conducted, *reflected)
             report.print_table(*report.load_table(self.dataset, shown))
             conducting = (
                 []

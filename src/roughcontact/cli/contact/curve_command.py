@@ -23,6 +23,7 @@ from roughcontact.cli.messages import UsageError, note, remark
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import output, writing
 from roughcontact.cli.parsing.several import Cells
+from roughcontact.cli.path_answer import compute_rest
 from roughcontact.cli.pressed import Pressed
 from roughcontact.cli.report import quantity
 from roughcontact.progress.events import task
@@ -187,12 +188,12 @@ def _computed(
 
 def _rest(loads: Loads, left: Array, out: Path | None, *, resumes: bool) -> str:
     """Return how to compute the loads that are missing because the curve was stopped."""
-    words = f"stopped: {loads.values.size - left.size} of {loads.values.size} loads are computed"
+    done = loads.values.size - left.size
     if resumes:
-        return f"{words}; the same command computes the others"
-    elsewhere = "" if out is None else ", and a new --out: this folder would be replaced"
-    rest = ",".join(f"{load:.12g}" for load in left)
-    return f"{words}; compute the others with --{loads.kind}s {rest}{elsewhere}"
+        return (
+            f"stopped: {done} of {loads.values.size} loads are computed; the same command computes the others"
+        )
+    return compute_rest(f"{loads.kind}s", done, left.tolist(), out)
 
 
 def _named_loads(job: CurveJob) -> Loads | None:

@@ -27,7 +27,7 @@ __all__ = ["EXAMPLES", "leak"]
 EXAMPLES = {
     "leak": """
 roughcontact leak part.x3p --materials steel,steel --pressure 20MPa --viscosity 1mPa*s --drop 1bar --out result
-roughcontact leak part.x3p --modulus 1GPa --pressure 9MPa --gas air --temperature 20degC --upstream 2bar --downstream 0
+roughcontact leak part.x3p --modulus 1GPa --pressure 9MPa --gas air,20degC --upstream 2bar --downstream 0
 roughcontact leak tile.npz --modulus 1GPa --pressure 1MPa --viscosity 1mPa*s --drop 1bar --seal-width 1mm \
 --circumference 0.1m
 """,

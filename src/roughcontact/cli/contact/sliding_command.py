@@ -9,7 +9,7 @@ from roughcontact.cli.exits import INTERRUPTED, MISSED
 from roughcontact.cli.messages import note_all
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output, writing
-from roughcontact.cli.path_answer import collected
+from roughcontact.cli.path_answer import collected, compute_rest
 from roughcontact.cli.report import emit, load_table, print_facts, print_table, quantity, size_of
 from roughcontact.errors import InputError
 from roughcontact.progress.events import task
@@ -55,17 +55,15 @@ def sliding(job: SlidingJob, *, answer: Answer) -> None:
         (surface, material), named = call.arguments(known)
         speeds = [float(speed) for speed in named["speeds"]]
         curve, whole = collected(along_speeds(surface, material, **named), collect_speeds)
-        dataset, notes = curve.to_dataset(), [Note(Rank.DOUBTFUL, text) for text in curve.notes]
+        dataset, notes = curve.to_dataset(), list(curve.state_notes)
         try:
             dataset = with_persson(dataset, surface, material)
             notes.append(Note(Rank.USUAL, DOMAIN))
         except InputError as error:
             notes.append(Note(Rank.LIMITED, f"Persson's theory is left out: {error}"))
         if not whole:
-            rest = ",".join(f"{speed:.12g}" for speed in speeds[len(curve) :])
-            words = f"stopped: {len(curve)} of {len(speeds)} speeds are computed; compute the others with --speeds"
-            elsewhere = "" if answer.out is None else ", and a new --out: this folder would be replaced"
-            notes.insert(0, Note(Rank.WRONG, f"{words} {rest}{elsewhere}"))
+            words = compute_rest("speeds", len(curve), speeds[len(curve) :], answer.out, "speeds")
+            notes.insert(0, Note(Rank.WRONG, words))
         converged = all(status.converged for status in curve.status)
         record = {
             "command": job.NAME,

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughcontact import methods
-from roughcontact.contact.notes.heat_notes import heat_notes
 from roughcontact.errors import InputError
 from roughcontact.labels.engineering_units import written
 from roughcontact.labels.note import Note, Rank
@@ -32,14 +31,15 @@ def curve_notes(curve: Curve) -> Iterator[Note]:
     if missed := sum(not status.converged for status in curve.status):
         text = f"{missed} of {len(curve)} loads missed the tolerance: see their status"
         yield Note(Rank.WRONG, text)
-    yield from heat_notes(curve.measured)
     units = [unit_of(name, curve.geometry) for name in ("force", "nominal_pressure")]
     for force, note in curve.state_notes:
         load, pressure = map(written, (force, force / curve.nominal_area), units)
         yield (
             note if force >= curve.force.max() else note._replace(text=f"At {load} ({pressure}): {note.text}")
         )
-    yield from methods.notes_on_flow_curve(curve)
+    if curve.measured:
+        yield from methods.notes_on_heat_curve(curve)
+        yield from methods.notes_on_flow_curve(curve)
 
 
 def curve_doubts(curve: Curve) -> tuple[str, ...]:

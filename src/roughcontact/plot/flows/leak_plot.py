@@ -60,7 +60,7 @@ def leak_curve(
     >>> import roughcontact as rc
     >>> grid = rc.Grid((64, 64), 1e-6, periodic=True)
     >>> surface = rc.self_affine(grid, hurst=0.8, rms=1e-7, rng=1, rolloff=32e-6, short_cutoff=8e-6)
-    >>> curve = rc.loading_curve(surface, 1e9, pressures=[1e6, 4e6, 16e6], measures=[rc.Transmissivity()])
+    >>> curve = rc.loading_curve(surface, 1e9, pressures=[1e6, 4e6, 16e6], measures=[rc.Transmissivity(axis=0)])
     >>> axes = rc.plot.leak_curve(curve, units={"nominal_pressure": rc.plot.Scale(1e-5, "bar")})
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('nominal pressure [bar]', 'hydraulic gap [nm]')
@@ -73,7 +73,7 @@ def leak_curve(
     if quantity not in curve.measured:
         raise InputError(
             f"the curve has no {quantity.replace('_', ' ')}",
-            "give measures=[rc.Transmissivity()] to loading_curve",
+            "give measures=[rc.Transmissivity(axis=0)] to loading_curve",
             "curve",
         )
     axes, pressure = axes_for(ax), curve.nominal_pressure

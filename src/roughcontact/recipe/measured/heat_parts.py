@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -11,61 +12,61 @@ from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.recipe_fields import check, described, specs, value_of
 from roughcontact.recipe.texts import Amount, Choice, PureNumber, temperature
 
-__all__ = ["GASES", "HeatParts", "gas_of"]
+__all__ = ["GASES", "HeatParts", "gas_with"]
 
 GASES = ("air", "nitrogen", "helium", "argon")  # those of `fluid.fluids`, which imports NumPy
 _ALPHA = PureNumber(0.001, 1, "an accommodation coefficient", "0.9")
 _EMISSIVITY = PureNumber(0.001, 1, "an emissivity", "0.2")
 
 
-def gas_of(text: str) -> Call:
-    """Return the call that makes the gas of "air,1bar,20degC,alpha=0.9:0.9".
+_OF_A_GAS = {
+    "pressure": ("pressure of the gas", "1bar"),
+    "temperature": ("temperature of the gas", "20degC"),
+    "accommodation": ("accommodation coefficients of both bodies", "alpha=0.9:0.9"),
+}
 
-    Pressure, temperature and accommodation coefficients of both bodies follow the name in any order. Each may be left
-    out.
+
+def gas_with(*needed: str) -> Callable[[str], Call]:
+    """Return a reader of a gas with these arguments of `roughcontact.Gas`, such as "air,1bar,20degC,alpha=0.9:0.9".
+
+    Pressure, temperature and accommodation coefficients follow the name in any order.
     """
-    name, *parts = (part.strip() for part in text.split(","))
-    named: dict[str, Any] = {}
-    for part in parts:
-        word, equals, value = map(str.strip, part.partition("="))
-        if equals:
-            if word != "alpha":
-                raise InputError(
-                    f"a gas has no {word!r}", "write alpha=0.9:0.9 for the accommodation coefficients"
-                )
-            found: tuple[str, Any] = ("accommodation", _of_both(value, ":", _ALPHA))
-        elif not has_unit(part):
-            raise InputError(
-                f"{part!r} has no unit", "write a pressure such as 1bar, or a temperature such as 20degC"
-            )
-        elif unit_in(part) in ("K", "degC", "°C"):
-            found = ("temperature", temperature(part))
-        else:
-            found = ("pressure", Amount(PRESSURE)(part))
-        if found[0] in named:
-            raise InputError(f"{text!r} states the {found[0]} twice", "leave one of them out")
-        named |= [found]
-    return Call("rc.Gas", (Choice(GASES)(name),), named)
+
+    def read(text: str) -> Call:
+        from roughcontact.fluid import fluids  # late, with NumPy
+
+        name, *parts = (part.strip() for part in text.split(","))
+        found = [("name", Choice(GASES)(name)), *map(_of_a_gas, parts)]
+        named: dict[str, Any] = dict(found)
+        if len(named) < len(found):
+            twice = next(key for key, _ in found if [each for each, _ in found].count(key) > 1)
+            raise InputError(f"{text!r} states the {twice} twice", "leave one of them out")
+        for key, (words, example) in _OF_A_GAS.items():
+            if key in needed and key not in named:
+                raise InputError(f"{text!r} lacks the {words}", f"write {text},{example}, with your values")
+            if key in named and key not in needed:
+                raise InputError(f"{text!r} states the {words}, which is not used here", "leave it out")
+        gas = Call("rc.Gas", (named.pop("name"),), named)
+        gas.value({"rc": fluids})  # raises an error for a number out of range
+        return gas
+
+    return read
 
 
-def _conducting(text: str) -> Call:
-    """Return the call that makes a gas that conducts heat, which needs all of its parts."""
-    from roughcontact.fluid import fluids  # late, with NumPy
-
-    gas = gas_of(text)
-    for name, example in (
-        ("pressure", "1bar"),
-        ("temperature", "20degC"),
-        ("accommodation", "alpha=0.9:0.9"),
-    ):
-        if name not in gas.named:
-            words = "coefficients of both bodies" if name == "accommodation" else "of the gas"
-            raise InputError(
-                f"the conductance of a gas depends on the {name} {words}, which {text!r} lacks",
-                f"write {text},{example}, with your values",
-            )
-    gas.value({"rc": fluids})  # raises an error for a number out of range
-    return gas
+def _of_a_gas(part: str) -> tuple[str, Any]:
+    """Return an argument of a gas by its name."""
+    word, equals, value = map(str.strip, part.partition("="))
+    if equals and word != "alpha":
+        raise InputError(f"a gas has no {word!r}", "write alpha=0.9:0.9 for the accommodation coefficients")
+    if equals:
+        return "accommodation", _of_both(value, ":", _ALPHA)
+    if not has_unit(part):
+        raise InputError(
+            f"{part!r} has no unit", "write a pressure such as 1bar, or a temperature such as 20degC"
+        )
+    if unit_in(part) in ("K", "degC", "°C"):
+        return "temperature", temperature(part)
+    return "pressure", Amount(PRESSURE)(part)
 
 
 def _emissivities(text: str) -> tuple[float, float]:
@@ -92,7 +93,7 @@ class HeatParts:
         "Gas that conducts heat in the gap: name, absolute pressure, temperature, and the thermal accommodation "
         "coefficients of both bodies. Needs the conductivity of the bodies, as the other options of this group.",
         "air,1bar,20degC,alpha=0.9:0.9",
-        read=_conducting,
+        read=gas_with(*_OF_A_GAS),
         names=GASES,
         needs_whole=True,
     )

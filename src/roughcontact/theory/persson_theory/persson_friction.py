@@ -5,8 +5,8 @@ Each wave of the surface deforms the half-space in the part P of the area that i
 multiply by S = gamma + (1 - gamma) P^2, gamma about 1/2, which is an estimate. gamma = 1 is the theory of 2001.
 
 Domain: surfaces with isotropic random waves over some decades, far from full contact. The theory contains no finite
-size, no adhesion, no shear of the interface and no flash temperature. Computed contacts of surfaces with few waves lie
-within a factor of two of it, and at high speed within a factor of four, with neither gamma at all speeds: compare both.
+size, no adhesion, no shear of the interface and no flash temperature. Computed contacts of surfaces with few waves
+differ from both, see docs/concepts/sliding-hysteresis.md.
 """
 
 from __future__ import annotations
