@@ -77,10 +77,17 @@ def test_a_program_that_is_killed_goes_on_from_the_last_write(tmp_path, monkeypa
     surface, material, given = CASES["fixed"]
     path, copies = tmp_path / "part.npz", []
 
-    def measure(solution):
-        copies.append(path.read_bytes() if path.exists() else b"")
-        return {}
+    class Copying:
+        """A measure that is the same whatever it has copied."""
 
+        def __repr__(self):
+            return "Copying()"
+
+        def __call__(self, solution):
+            copies.append(path.read_bytes() if path.exists() else b"")
+            return {}
+
+    measure = Copying()
     whole = rc.viscoelastic_curve(surface, material, **given, measures=[measure], checkpoint=path)
     assert copies[0] == b""
     path.write_bytes(copies[4])
@@ -113,6 +120,24 @@ def test_another_computation_begins_at_its_beginning(other, tmp_path):
     np.testing.assert_array_equal(found.force, alone.force)
     if asked["measures"]:
         assert asked["measures"][0].count == 2 * len(alone)
+
+
+def test_other_numbers_of_one_name_are_computed_again(tmp_path):
+    """Functions without a name of their own differ by what they do, and by what they enclose."""
+    surface, material, given = CASES["fixed"]
+
+    def measured(measure):
+        found = rc.viscoelastic_curve(
+            surface, material, **given, measures=[measure], checkpoint=tmp_path / "part.npz"
+        )
+        return found.measured["number"][-1] / found.contact_fraction[-1]
+
+    def times(factor):
+        return lambda solution: {"number": factor * solution.contact_fraction}
+
+    assert measured(lambda solution: {"number": 2 * solution.contact_fraction}) == 2
+    assert measured(lambda solution: {"number": 3 * solution.contact_fraction}) == 3
+    assert [measured(times(factor)) for factor in (4, 5)] == [4, 5]
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"rubbish" * 100])

@@ -70,7 +70,7 @@ class Checkpoint:
                 contact.material,
             ),
             *(contact.forced, contact.solver, history.steps, history.times.tolist(), history.loads.tolist()),
-            *(getattr(each, "__qualname__", each) for each in measures),
+            *map(_identity, measures),
         )
         digest = hashlib.sha256(np.ascontiguousarray(on_host(problem.separation)).tobytes())
         digest.update("\n".join(map(repr, facts)).encode())
@@ -116,6 +116,15 @@ class Checkpoint:
             arrays = {name: on_host(array) for name, array in found.items() if array is not None}
         text = json.dumps(record, default=lambda value: value.item())  # a number of NumPy
         methods.keep_arrays(self.path, {"record": np.array(text), **arrays})
+
+
+def _identity(measure: StateMeasure) -> object:
+    """Return what a measure does, in a form whose text differs where its numbers may differ."""
+    code = getattr(measure, "__code__", None)
+    if code is None:
+        return measure
+    enclosed = [each.cell_contents for each in getattr(measure, "__closure__", None) or ()]
+    return measure.__qualname__, code.co_code, code.co_consts, code.co_names, enclosed  # type: ignore[attr-defined]
 
 
 def _restart(record: dict[str, Any], arrays: dict[str, Array], history: History) -> Restart:
