@@ -27,6 +27,7 @@ TITLES = {  # in this order
     "evaluation": "Readers of a contact",
     "fluid": "Flow through the gap",
     "friction": "Friction",
+    "joints": "Joints",
     "gradients": "Derivatives",
     "adhesion": "Adhesion",
     "halfspace": "Operators",

@@ -42,6 +42,7 @@ ORDER = [
     {"adhesion"},
     {"fluid"},
     {"friction"},
+    {"joints"},
     {"viscoelastic"},
     {"mdr"},
     {"files"},

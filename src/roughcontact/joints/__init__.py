@@ -1,0 +1,1 @@
+"""Joints under shear, per nominal area and as a whole."""
