@@ -49,6 +49,7 @@ QUESTIONS = {
     "method of adhesion": "concepts/method-adhesion",
     "derivatives": "how-to/derivatives",
     "memory": "how-to/memory",
+    "couple to finite elements": "how-to/coupling",
     "hardness": "concepts/plastic",
     "unload and reload": "how-to/plastic-loops",
     "prepare a surface": "how-to/preparing",

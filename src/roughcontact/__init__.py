@@ -135,6 +135,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.halfspace.operators.geometry import Geometry as Geometry
     from roughcontact.halfspace.operators.layer import layer as layer
     from roughcontact.halfspace.operators.line_contact import line as line
+    from roughcontact.halfspace.operators.nodal_flexibility import nodal_flexibility as nodal_flexibility
     from roughcontact.halfspace.operators.operator import Capabilities as Capabilities, Operator as Operator
     from roughcontact.halfspace.shear.shear_operator import (
         ShearOperator as ShearOperator,

@@ -61,6 +61,13 @@ def springs():
     return curve(PROFILE, forces=[1.0, 2.0], operator=rc.foundation(LINE, MODULUS))
 
 
+def elements(cells):
+    """Shape functions of four by four elements with this number of cells along each."""
+    places = (np.arange(4 * cells) + 0.5) / cells
+    line = np.array([np.interp(places, np.arange(5), unit) for unit in np.eye(5)]).T
+    return np.kron(line, line)
+
+
 ADHESION = [
     row(
         lambda: rc.Adhesion(0.05, -1.0),
@@ -503,6 +510,26 @@ ANSWERS = [
         lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=MODULUS),
         "an operator is wanted, such as half_space(grid, modulus)",
         lambda: rc.prescribed_displacement(np.eye(16) > 0, 1e-9, operator=rc.half_space(PLANE, MODULUS)),
+    ),
+    row(
+        lambda: rc.nodal_flexibility(MODULUS, np.eye(256)),
+        "must be an operator, such as half_space(grid, modulus)",
+        lambda: rc.nodal_flexibility(rc.half_space(PLANE, MODULUS), np.eye(256)),
+    ),
+    row(
+        lambda: rc.nodal_flexibility(rc.half_space(PERIODIC.grid, MODULUS), np.eye(256)),
+        "the matrix would have no inverse; use half_space on a free grid",
+        lambda: rc.nodal_flexibility(rc.half_space(PLANE, MODULUS), np.eye(256)),
+    ),
+    row(
+        lambda: rc.nodal_flexibility(rc.half_space(PLANE, MODULUS), np.eye(25)),
+        "must have the shape (256, nodes), not (25, 25): give each cell a row",
+        lambda: rc.nodal_flexibility(rc.half_space(PLANE, MODULUS), np.eye(256, 25)),
+    ),
+    row(
+        lambda: rc.nodal_flexibility(rc.half_space(rc.Grid((4, 4), 1e-6), MODULUS), elements(cells=1)),
+        "some displacements of nodes move no cell; use smaller cells, at least two along each side of an element",
+        lambda: rc.nodal_flexibility(rc.half_space(rc.Grid((8, 8), 5e-7), MODULUS), elements(cells=2)),
     ),
     row(
         lambda: rc.citations(1e-4),
