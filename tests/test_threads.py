@@ -506,6 +506,39 @@ def test_a_fork_waits_for_what_is_computed_once():
 
 
 @forks
+def test_a_fork_waits_for_another_thread_that_computes_but_not_for_ever():
+    """SciPy's transforms and BLAS take locks, which are never free in a process that is forked meanwhile."""
+    run_forking(
+        """
+        from roughcontact import threads
+        lock, begun, go_on, found = threading.Lock(), threading.Event(), threading.Event(), []
+        def compute(wait):
+            with threads.one_blas_thread(), lock:
+                begun.set()
+                wait(0.2)
+        threads.LONGEST = {patience}
+        thread = threading.Thread(target=compute, args=(time.sleep,))
+        thread.start()
+        begun.wait()
+        codes = [ended(fork(lambda: lock.acquire(timeout=1)))]
+        thread.join()
+        threads.LONGEST = 0.05
+        with threads.one_blas_thread():  # the thread that forks is inside itself
+            codes.append(ended(fork(lambda: lock.acquire(timeout=1))))
+        begun.clear()
+        thread = threading.Thread(target=compute, args=(lambda _: go_on.wait(),))
+        thread.start()
+        begun.wait()
+        codes.append(ended(fork(lambda: not lock.acquire(timeout=0.1))))
+        go_on.set()
+        thread.join()
+        with threads.one_blas_thread():
+            sys.exit(codes != [0, 0, 0])
+        """.replace("{patience}", str(PATIENCE))
+    )
+
+
+@forks
 def test_processes_forked_while_others_press_all_finish():
     """Fifty of fifty, the first while machine code is being loaded; the bits are those of the parent."""
     run_forking(

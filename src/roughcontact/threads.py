@@ -11,6 +11,7 @@ from contextvars import ContextVar
 from functools import cache, wraps
 from queue import SimpleQueue
 from threading import Lock, RLock, Thread, get_ident
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any, TypeVar, TypeVarTuple, cast
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ Ts = TypeVarTuple("Ts")
 MOST = 8  # transforms wait for memory: more threads than this find none
 # Where launchers of MPI say how many processes they have started on this machine: MPICH and its kin; Open MPI.
 BESIDE = "MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE"
+LONGEST = 1.0  # [s] that a fork waits for other threads that compute
 
 _limit: ContextVar[int | None] = ContextVar("threads", default=None)
 
@@ -47,7 +49,8 @@ no_fork = RLock()
 def once(function: Callable[[*Ts], T]) -> Callable[[*Ts], T]:
     """Keep what a function returns, as `functools.cache` does; one thread computes it, and others and forks wait.
 
-    For what takes long, or takes locks that a fork must not catch, as an import does.
+    For what takes long, or takes locks that a fork must not catch, as an import does. It must not enter
+    `one_blas_thread`, where it would wait for a fork that waits for it.
     """
     computed = cache(function)
 
@@ -158,6 +161,9 @@ def one_blas_thread() -> Iterator[None]:
 
     Most BLAS has one number of threads for the whole process: it is 1 from the first thread of Python that comes in
     until the last one is out, and others that call BLAS meanwhile have one thread, too.
+
+    A fork waits until all other threads are out, 1 s at most: SciPy's transforms and BLAS take locks, and in a process
+    that is forked while another thread holds one it is never free.
     """
     me = get_ident()
     if me in _inside:
@@ -165,7 +171,7 @@ def one_blas_thread() -> Iterator[None]:
         return
     limits = ExitStack()
     try:
-        with no_fork:  # threadpoolctl takes a lock itself, on the way in and out
+        with _entry, no_fork:  # threadpoolctl takes a lock itself, on the way in and out
             _come_in(me)
             limits.enter_context(_own().limit(limits=1, user_api="blas"))
         yield
@@ -175,6 +181,7 @@ def one_blas_thread() -> Iterator[None]:
             _go_out(me)
 
 
+_entry = Lock()  # held by a fork that waits for those inside, so that no other thread comes in
 _inside: set[int] = set()  # the threads of Python that want one BLAS thread
 _before: list[tuple[Any, int]] = []  # the libraries that were limited for them, and the threads that each had
 
@@ -295,14 +302,30 @@ class _HelperThreads:
 _helpers = _HelperThreads()
 
 
+def _before_fork() -> None:
+    """Wait until no other thread is at what a forked process must not find half done, and let none begin."""
+    _entry.acquire()
+    latest, me = monotonic() + LONGEST, get_ident()
+    try:
+        while _inside - {me} and monotonic() < latest:
+            sleep(1e-4)
+    finally:  # also after Ctrl-C
+        no_fork.acquire()
+
+
+def _after_fork() -> None:
+    no_fork.release()
+    _entry.release()
+
+
 def _in_child() -> None:
     """Go on in a forked process, which has one thread: the one that forked."""
     global _helpers
     _helpers = _HelperThreads()
     for thread in _inside - {get_ident()}:
         _go_out(thread)
-    no_fork.release()
+    _after_fork()
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(before=no_fork.acquire, after_in_parent=no_fork.release, after_in_child=_in_child)
+    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork, after_in_child=_in_child)
