@@ -71,6 +71,8 @@ CALLS = {
     rc.layer: {"grid": FREE, "modulus": STEEL, "thickness": 1e-5, "base": "bonded"},
     rc.tangential_stiffness: {"mask": MASK, "grid": FREE, "bodies": STEEL, "tolerance": 1e-7},
     rc.slide: {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "force": 1e-5, "tolerance": 1e-8},
+    rc.shear_cycle: {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "traction": 1e5, "steps": 1,
+                     "shear_strength": 1e8, "tolerance": 1e-8},
     rc.load_cycle: {"amplitude": 1e-5, "cycles": 1, "steps": 8},
     rc.press: {"surface": CUT, "modulus": 1e9, "force": 1e-4, "tolerance": 1e-8, "hardness": 1e12},
     rc.viscoelastic_path: {"surface": CUT, "material": SOFT, "times": [0, 1], "forces": [0, 1], "time_tolerance": 0.1},

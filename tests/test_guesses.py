@@ -27,6 +27,9 @@ ADHESION = rc.Adhesion(work=10e-3, range=4e-9)
 STICKY = rc.adhesive_loop(
     rc.RadialProfile(-(RINGS.radii**2) / 2e-5, RINGS), 1e8, ADHESION, depth=10e-9, points=6
 )
+CYCLE = rc.shear_cycle(
+    rc.press(BALL, STEEL.solid, force=1e-1), STEEL.solid, friction=0.3, traction=1e6, steps=1
+)
 N = np.zeros((4, 8))
 # Every line of the list of guesses that failed: what is written, and what it gives, or a word of the error.
 WORK = {
@@ -180,7 +183,7 @@ def test_hints_leave_copies_pickles_and_lists_of_names_as_they_are(value):
     assert getattr(value, "zzz", None) is None
 
 
-FROZEN = (BALL, STEEL, STEEL.solid, BALL.grid, RINGS, ADHESION, STICKY, SOLUTION, CURVE_OF_BALL, LOOP)
+FROZEN = (BALL, STEEL, STEEL.solid, BALL.grid, RINGS, ADHESION, STICKY, SOLUTION, CURVE_OF_BALL, LOOP, CYCLE)
 
 
 @pytest.mark.parametrize("value", FROZEN, ids=lambda value: type(value).__name__)

@@ -173,6 +173,8 @@ MORE = [
     (rc.leak_rates, {"curve": FLOWN, "fluid": rc.Liquid(1e-3), "drop": 1e3, "seal_width": 1e-3, "circumference": 0.1}),
     (rc.loading_laws, {"surface": ROUGH, "modulus": 1e9, "names": "persson"}),
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
+    (rc.shear_cycle, {"solution": rc.press(ROUGH, STEEL, pressure=1e6), "bodies": STEEL, "friction": 0.3,
+                      "displacement": 1e-9, "steps": 1, "shear_strength": 1e5}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
       for function in (rc.slide_path, rc.slide_curve) for name, value in (("forces", 1e-6), ("displacements", 1e-10))),
     (VISCO.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),
@@ -206,7 +208,8 @@ UNITS = {
     "s": "times time band relaxation_time retardation_time",
     "rad/s": "angular_frequency angular_frequencies",
     "Pa": "equilibrium instantaneous moduli storage loss bulk"
-    " young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure",
+    " young_modulus modulus hardness pressure pressures initial upstream downstream vapour_pressure"
+    " traction shear_strength",
     "N": "force forces window",
     "rad/m": "q_min q_max wavenumber qy qx",
     "J/m^2": "work",
@@ -225,7 +228,7 @@ UNIT |= {
 }
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
 # What a solve stops at, within its tolerance.
-ROUNDING = {"residual", "stiffness_residual", "step_residual", "steps", "products"}
+ROUNDING = {"balance", "residual", "stiffness_residual", "step_residual", "steps", "products"}
 MDR = rc.mdr
 LINES = np.array([[0.0, 1e-7, -1e-7, 0.0, 2e-7, 1e-8, 0.0, 0.0]])
 PRESSED_TIP = MDR.indentation.indent(TIP, 1e9, force=1e-3)

@@ -142,12 +142,14 @@ if TYPE_CHECKING or _LATE is None:
         shear_half_space as shear_half_space,
     )
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement, Stress as Stress
+    from roughcontact.joints.cycle_heat import cycle_heat as cycle_heat
     from roughcontact.joints.normal_law import NormalLaw as NormalLaw, normal_law as normal_law
     from roughcontact.joints.shear_law import (
         ShearCycle as ShearCycle,
         ShearLaw as ShearLaw,
         shear_law as shear_law,
     )
+    from roughcontact.joints.slip_cycle import SlipCycle as SlipCycle, shear_cycle as shear_cycle
     from roughcontact.material import Solid as Solid
     from roughcontact.materials import (
         Material as Material,

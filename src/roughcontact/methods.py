@@ -100,6 +100,7 @@ if TYPE_CHECKING:
         state_html as state_html,
         surface_html as surface_html,
     )
+    from roughcontact.plot.shear_plot import shear_loop as shear_loop
     from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
     from roughcontact.recipe.in_time.material_file import (
         read_material as read_material,
@@ -159,6 +160,7 @@ else:
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",
+        "plot.shear_plot": "shear_loop",
         "plot.sliding_plot": "friction_speeds",
         "plot.jumps": "jump_loop",
         "plot.notebook": (

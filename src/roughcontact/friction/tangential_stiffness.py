@@ -19,7 +19,7 @@ from roughcontact.solver.prescribed import checked_region
 from roughcontact.threads import one_blas_thread
 from roughcontact.validation import Array, Mask
 
-__all__ = ["TangentialStiffness", "frozen_shear", "tangential_stiffness"]
+__all__ = ["TangentialStiffness", "displaced", "frozen_shear", "tangential_stiffness"]
 
 
 TOLERANCE = 1e-7  # of the unit displacement; the relative error of the stiffness is about its square
@@ -134,7 +134,7 @@ def frozen_shear(
     if interface.floating:
         return TangentialStiffness(np.diag([math.inf, math.inf]), 0.0)
     xp = namespace(region)
-    answers = [_displaced(interface, unit, tolerance) for unit in interface.units()]
+    answers = [displaced(interface, unit, tolerance) for unit in interface.units()]
     # With the products of errors and tractions added, the error of the whole matrix is a product of two errors.
     matrix = np.array(
         [
@@ -146,7 +146,7 @@ def frozen_shear(
     return TangentialStiffness((matrix + matrix.T) / 2 * interface.area, residual)
 
 
-def _displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
+def displaced(interface: ContactCells, wanted: Array, tolerance: float) -> tuple[Array, Array]:
     """Return the traction for the given displacements of the cells, and its errors from a separate exact product."""
     xp, traction = namespace(wanted), interface.zeros()
     sticks = Freedom(traction, traction[0, :], held=False)

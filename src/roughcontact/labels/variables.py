@@ -14,6 +14,7 @@ from roughcontact.halfspace.operators.operator import geometry_of
 from roughcontact.labels import (
     adhesive_columns,
     contact_columns,
+    cycle_columns,
     flow_columns,
     flux_columns,
     sliding_columns,
@@ -43,6 +44,7 @@ VARIABLES: Mapping[str, Column] = MappingProxyType(
                 flow_columns,
                 viscoelastic_columns,
                 sliding_columns,
+                cycle_columns,
                 slip_columns,
                 adhesive_columns,
                 flux_columns,
