@@ -62,6 +62,7 @@ if TYPE_CHECKING or _LATE is None:
         profile_curve as profile_curve,
     )
     from roughcontact.plot.shear_plot import shear_loop as shear_loop
+    from roughcontact.plot.shear_pictures import shear_figure as shear_figure
     from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve
     from roughcontact.plot.stress_map import von_mises_section as von_mises_section
