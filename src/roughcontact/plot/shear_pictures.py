@@ -90,7 +90,7 @@ def shear_figure(law: ShearLaw, table: xarray.Dataset, cycles: Sequence[SlipCycl
         loop = cycles[-1].loop
         backbones.plot(loop.displacement * x.factor, loop.traction * y.factor, **cross)
         [axes], pressed = maps, cycles[-1].reversal.problem.pressed.on_host()
-        contact_field(pressed, cycles[-1].heat, ("heat of a cycle", VARIABLES["cycle_loss"].unit), axes)
+        contact_field(pressed, cycles[-1].heat, ("heat of a cycle", VARIABLES["heat"].unit), axes)
     label_axes(
         backbones, f"tangential displacement [{x.unit}]", f"nominal tangential traction [{y.unit}]", grid=True
     )

@@ -145,7 +145,9 @@ class ShearJob:
             yield _pressed("rc.loading_path", of, {"pressures": pressures[-1:], **solver}, "*_, solution")
             given = (Name("solution"), bodies)
             tractions = [share * known["friction"] * pressures[-1] for share in shares]
-            cycles = [Call("rc.shear_cycle", given, known | {"traction": each}) for each in tractions]
+            cycles = [
+                Call("rc.shear_cycle", given, known | solver | {"traction": each}) for each in tractions
+            ]
             yield Call("", (cycles,), result="cycles", place="shear", doing="Partial slip")
             beside = {"cycles": Name("cycles")}
         fields = {"pressure": "pressures", "traction": "amplitude"}
