@@ -32,6 +32,8 @@ QUESTIONS = {
     "pint": "how-to/units",
     "why unresolved": "how-to/unresolved",
     "leak": "how-to/leaks",
+    "tangential stiffness": "how-to/shear",
+    "damping of an interface": "how-to/shear",
     "viscoelastic": "concepts/time",
     "viscoelastic contact in time": "concepts/time",
     "creep": "how-to/creep",

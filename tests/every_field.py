@@ -25,6 +25,10 @@ SMALLEST = {
         "fluid": {"viscosity": "1mPa*s"},
         "seal": {"drop": "1bar"},
     },
+    "shear": {
+        "bodies": {"materials": "steel,aluminium"},
+        "shear": {"pressures": "1MPa", "friction": "0.2"},
+    },
     "curve": {"bodies": BODIES},
     "creep": {"history": {"history": "0s:0um,1s:1um"}, "bodies": {"material": "rubber.toml"}},
     "adhesion press": {"load": {"force": "1mN"}, "bodies": BODIES, "adhesion": ADHESION},

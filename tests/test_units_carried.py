@@ -41,6 +41,7 @@ BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
 JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
 FLOWN = rc.loading_curve(BALL, 1e9, forces=[1e-3], measures=[rc.Transmissivity(axis=0)])
+SHEARED = rc.shear_law(rc.loading_curve(ROUGH, STEEL, pressures=[1e5, 2e5, 1e6]), STEEL, friction=0.3)
 LINE_OPERATOR = rc.line(SCAN.grid, 1e9)
 SHAPES = {
     rc.shapes.cone: {"slope": 0.1},
@@ -175,6 +176,7 @@ MORE = [
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     (rc.shear_cycle, {"solution": rc.press(ROUGH, STEEL, pressure=1e6), "bodies": STEEL, "friction": 0.3,
                       "displacement": 1e-9, "steps": 1, "shear_strength": 1e5}),
+    (rc.shear_dataset, {"law": SHEARED, "pressures": [5e5, 1e6], "amplitudes": [0.5]}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
       for function in (rc.slide_path, rc.slide_curve) for name, value in (("forces", 1e-6), ("displacements", 1e-10))),
     (VISCO.kelvin_voigt, {"modulus": 1e9, "retardation_time": 1.0}),

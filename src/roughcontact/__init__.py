@@ -144,6 +144,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement, Stress as Stress
     from roughcontact.joints.cycle_heat import cycle_heat as cycle_heat
     from roughcontact.joints.normal_law import NormalLaw as NormalLaw, normal_law as normal_law
+    from roughcontact.joints.shear_dataset import shear_dataset as shear_dataset
     from roughcontact.joints.shear_law import (
         ShearCycle as ShearCycle,
         ShearLaw as ShearLaw,

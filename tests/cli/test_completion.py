@@ -39,6 +39,7 @@ def proposed(line):
         ("roughcontact pr", ["press"]),
         ("roughcontact ad", ["adhesion"]),
         ("roughcontact sl", ["sliding"]),
+        ("roughcontact shear tile.npz --shear", ["--shear-strength"]),
         ("roughcontact sliding tile.npz --mat", ["--material"]),
         ("roughcontact study st", ["status"]),
         ("roughcontact adhesion ", ["press", "curve", "loop", "detach"]),

@@ -175,6 +175,8 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         plain["loads"] = {"depths": "10nm,20nm"}
     if name.startswith("adhesion"):
         plain["adhesion"] = {"work": "1mJ/m^2", **({} if name == "adhesion detach" else {"range": "100nm"})}
+    if name == "shear":
+        plain["bodies"] = {"materials": "steel,steel"}
     if name == "sliding":
         rubber = tmp_path / "rubber.toml"
         rc.viscoelastic.standard_solid(1e9, 2e9, 1e-6).write(rubber)
@@ -182,6 +184,7 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         plain["bodies"] = {"material": str(rubber)}
     plain |= {
         "leak": {"fluid": {"viscosity": "1mPa*s"}, "seal": {"drop": "1Pa"}},
+        "shear": {"shear": {"pressures": "1GPa", "friction": "0.2"}},
         "sliding": {"sliding": {"pressure": "1MPa", "speeds": "1m/s"}},
         "adhesion press": {"load": {"depth": "-2nm"}},
         "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},

@@ -105,6 +105,7 @@ print(json.dumps(found))
 COMMANDS = [
     "press",
     "leak",
+    "shear",
     "curve",
     "creep",
     "surface prepare",

@@ -29,6 +29,7 @@ if TYPE_CHECKING:  # tools that bundle programs follow only imports that are wri
         curve_command as curve_command,
         leak_command as leak_command,
         press_command as press_command,
+        shear_command as shear_command,
         sliding_command as sliding_command,
         theory_command as theory_command,
     )

@@ -45,6 +45,7 @@ _RESULTS = (".json", ".nc")
 _STEMS = {
     "press": "press",
     "leak": "leak",
+    "shear": "shear",
     "curve": "curve",
     "creep": "creep",
     "sliding": "sliding",

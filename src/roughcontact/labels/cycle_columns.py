@@ -23,11 +23,13 @@ CYCLE: Table = {
     (): (
         *(column for column in POINTS if column.name == "nominal_pressure"),
         *columns("""
-            tangential_stiffness_per_area | Pa m-1 | tangential stiffness over the nominal area while nothing slips
+            tangential_stiffness_per_area | Pa m-1 | tangential stiffness over the nominal area while nothing slips \
+                | | K_t/A0
             stiffness_ratio | 1 | normal over tangential interfacial stiffness | | K/K_t
-            cycle_loss | J m-2 | energy that friction dissipates in a cycle, over the nominal area
+            cycle_loss | J m-2 | energy that friction dissipates in a cycle, over the nominal area \
+                | | loss per cycle
             damping | 1 | equivalent damping ratio of only the interface
-            slip_fraction | 1 | part of the contact that slips at the reversal
+            slip_fraction | 1 | part of the contact that slips at the reversal | | slipping part
             stick_fraction | 1 | part of the contact that sticks at the reversal
             closure | 1 | distance between the ends of the loop over its amplitude
             balance | 1 | imbalance of energy over the loss

@@ -11,12 +11,13 @@ from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
+from roughcontact.recipe.shear_job import ShearJob
 from roughcontact.recipe.source import SOURCES, Combined, InPython
 from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = ["WITHOUT_FORM", "forms", "label_of", "names_of_fields"]
 
-WITHOUT_FORM = (TheoryJob, LeakJob, CreepJob, SlidingJob)
+WITHOUT_FORM = (TheoryJob, LeakJob, ShearJob, CreepJob, SlidingJob)
 
 _LEFT_OUT = "file"  # it is dropped
 _SHOWN = Theories  # the only part of an answer with a form

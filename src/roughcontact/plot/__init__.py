@@ -61,6 +61,7 @@ if TYPE_CHECKING or _LATE is None:
         pressure_profile as pressure_profile,
         profile_curve as profile_curve,
     )
+    from roughcontact.plot.shear_pictures import shear_figure as shear_figure
     from roughcontact.plot.shear_plot import shear_loop as shear_loop
     from roughcontact.plot.sliding_plot import friction_speeds as friction_speeds
     from roughcontact.plot.spectrum_plot import spectrum_curve as spectrum_curve

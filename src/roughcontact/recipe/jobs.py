@@ -13,6 +13,7 @@ from roughcontact.recipe.in_time.creep_job import CreepJob
 from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.shear_job import ShearJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
 
@@ -25,6 +26,7 @@ JobOfHeights: TypeAlias = (
     SurfaceJob
     | PressJob
     | LeakJob
+    | ShearJob
     | CurveJob
     | CreepJob
     | AdhesivePressJob
@@ -40,6 +42,7 @@ JOBS: Mapping[str, type[Any]] = {
         SurfaceJob,
         PressJob,
         LeakJob,
+        ShearJob,
         CurveJob,
         CreepJob,
         AdhesivePressJob,

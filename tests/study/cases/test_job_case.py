@@ -39,6 +39,13 @@ JOBS = {  # with what its record is sure to hold, and along what it lies
         "leak_rate",
         (),
     ),
+    "shear": (
+        {
+            **{"source": MADE, "bodies": {"materials": "steel,steel"}},
+            "shear": {"pressures": "1MPa,10MPa", "friction": "0.2", "amplitude": "0.5,0.8"},
+        },
+        *("displacement_amplitude", ("load",)),
+    ),
     "creep": (
         {
             **{"history": {"history": "0s:0N,1s:1mN,9s:1mN"}, "contact": {"time_tolerance": "0.1"}},

@@ -29,7 +29,7 @@ from roughcontact.study.nested_names import at, flat
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
-_ANSWERS = ("leak", "loop", "curve", "state", "solution")  # the first that exists is the answer
+_ANSWERS = ("leak", "shear", "loop", "curve", "state", "solution")  # the first that exists is the answer
 _KEPT = {"load", "sliding_speed", "axis", "time"}  # dimensions of a record, without those of maps and spots
 
 
@@ -114,7 +114,8 @@ def run(parameters: JobParameters, rng: np.random.Generator) -> Record:
             columns.append(replace(call, given=(Name("dataset"), *call.given[1:]), result="dataset"))
         else:
             perform(_drawing(call), known)
-    dataset = next(known[name] for name in _ANSWERS if name in known).to_dataset()
+    answer = next(known[name] for name in _ANSWERS if name in known)
+    dataset = answer if "shear" in known else answer.to_dataset()
     if "prescribed" in dataset:  # adapted steps differ from sample to sample
         dataset = dataset.isel(time=dataset["prescribed"].to_numpy())
     known["dataset"] = dataset
