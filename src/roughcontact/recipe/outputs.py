@@ -154,8 +154,8 @@ class InterfaceTables:
         needs="table",
     )
     friction: str | None = described(
-        "Coefficient of friction in the tables for Abaqus and CalculiX; all tables but that for LAMMPS also get the "
-        "tangential stiffness per area, which follows from both bodies.",
+        "Coefficient of friction in the tables for Abaqus and CalculiX; the tables csv, moose and text get a column "
+        "for the tangential stiffness per area, which follows from both bodies.",
         "0.3",
         read=PureNumber(0, 10, "the coefficient of friction", "0.3", ends=False),
         needs="table",
