@@ -6,6 +6,7 @@
 #   make thesis FIG=fig27   compute and draw a figure of the thesis in out/thesis/ (FIG=list: which there are)
 #   make test               run the tests                 (ARGS="-k curve" for some of them)
 #   make browser            install what those of the page need, if it can be had: Playwright, and a Chromium if there is none
+#   make ccx                install what those in CalculiX need, if it can be had: ccx, where apt-get can install it
 #   make mpi                the tests on several processes, if mpi4py and an MPI can be had
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
 #   make check              in two minutes: style, prose, types, and the tests of the whole house and of what was changed
@@ -35,14 +36,15 @@ export PIP_DEFAULT_TIMEOUT ?= 15
 TORCH ?= torch==2.13.0+cpu
 JAX ?= jax==0.10.2
 STYLE = $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . && $(BIN)/python .ci/prose.py
+APT = DEBIAN_FRONTEND=noninteractive timeout 120 apt-get install -y -qq
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo thesis test browser mpi nox check lint docs bench clean
+.PHONY: help demo thesis test browser ccx mpi nox check lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,17s/^# *//p' Makefile
+	@sed -n '3,18s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -62,6 +64,12 @@ browser: $(ENV)/.ready-to-test
 	@$(BIN)/python $(INSTALL) -e ".[browser]" && { command -v chromium || command -v chromium-browser || command -v google-chrome \
 	  || timeout 300 $(BIN)/python -m playwright install chromium; } >/dev/null 2>&1 \
 	  && echo "browser: OK" || echo "browser: cannot be had here, its tests are skipped"
+
+# The finite elements in which tables of an interface are tested; where they cannot be had those tests are skipped.
+ccx:
+	@{ command -v ccx || { test "$$(id -u)" = 0 && command -v apt-get && { $(APT) calculix-ccx \
+	  || { timeout 120 apt-get update -qq && $(APT) calculix-ccx; }; }; }; } >/dev/null 2>&1 \
+	  && echo "ccx: OK" || echo "ccx: cannot be had here, its tests are skipped"
 
 # In an environment of their own, which sees what is in the other: with mpi4py installed, whatever looks for it listens
 # to the network and reads through it.

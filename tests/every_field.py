@@ -93,6 +93,7 @@ BESIDE = {
     "Theories.rolloff": {"theory": "finite-size"},
     "Theories.radius": {"theory": "hertz"},
     "InterfaceTables.table_area": {"table": "lammps"},
+    "InterfaceTables.friction": {"table": "calculix"},
     **{
         f"{part}.{name}": beside
         for part in ("Specified", "SpecifiedJoint")
@@ -113,12 +114,12 @@ BESIDE = {
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
 }
-# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures, sound two bodies,
-# heat the conductivity of the bodies.
+# Other parts of the job in which a field has a meaning: noise needs a force, a gas both pressures, sound and friction
+# two bodies, heat the conductivity of the bodies.
 ELSEWHERE = {
     **{
         field: {"bodies": {"materials": "steel,aluminium"}}
-        for field in ("Ultrasound.frequency", "Ultrasound.density")
+        for field in ("Ultrasound.frequency", "Ultrasound.density", "InterfaceTables.friction")
     },
     **{field: {"load": {"force": "1mN"}} for field in ("Errors.noise", "Errors.noise_length")},
     **{

@@ -6,7 +6,8 @@ import pytest
 import roughcontact as rc
 from roughcontact.contact import loading
 
-LOADS = ("--pressures", "10MPa,30MPa,100MPa,1GPa", "--modulus", "110GPa")
+PRESSURES = ("--pressures", "10MPa,30MPa,100MPa,1GPa")
+LOADS = (*PRESSURES, "--modulus", "110GPa")
 HEAT = ("--conductivity", "50W/m/K,160W/m/K")
 
 
@@ -52,6 +53,54 @@ def test_the_tables_are_those_of_the_library(invoke, joint, tmp_path):
     )
 
 
+@pytest.mark.parametrize(
+    ("bodies", "words"),
+    [
+        (("steel", "aluminium"), ("--materials", "steel,aluminium")),
+        (rc.Solid(210e9, 0.3), ("--young", "210GPa", "--poisson", "0.3")),
+        (
+            (rc.Solid(210e9, 0.3), rc.Solid(70e9, 0.33)),
+            ("--young", "210GPa", "--poisson", "0.3", "--young2", "70GPa", "--poisson2", "0.33"),
+        ),
+    ],
+)
+def test_tables_with_friction_are_those_of_the_library(invoke, joint, tmp_path, bodies, words):
+    out = tmp_path / "out"
+    tables = {
+        "abaqus": ("interface.inp", {}),
+        "calculix": ("interface_ccx.inp", {"dialect": "calculix"}),
+        "calculix-mm": ("interface_ccx_mm.inp", {"dialect": "calculix", "units": "mm"}),
+        "moose": ("interface_moose.csv", {"dialect": "moose"}),
+        "text": ("interface.txt", {}),
+    }
+    words = (*words, *HEAT, "--table", ",".join(tables), "--friction", "0.3", "--out", out)
+    answer = invoke("curve", joint, *PRESSURES, *words)
+    assert answer.exit_code == 0, answer.stderr
+    curve = rc.read_curve(out / "curve.nc")
+    table = rc.interface_table(curve, conductivities=(50.0, 160.0), bodies=bodies, friction=0.3)
+    for name, how in tables.values():
+        rc.write(table, tmp_path / name, **how)
+        ours, theirs = ((folder / name).read_text(encoding="utf-8") for folder in (tmp_path, out))
+        left = [line for line in theirs.splitlines() if line not in ours.splitlines()]
+        assert any("input_sha256 = " in line for line in left)
+        assert [line for line in theirs.splitlines() if line not in left] == ours.splitlines()
+    assert "*FRICTION" in (out / "interface_ccx.inp").read_text(encoding="utf-8")
+
+
+def test_a_table_that_a_program_cannot_read_is_explained_and_the_curve_is_kept(invoke, joint, tmp_path):
+    surface = rc.read(joint)
+    rc.write(rc.Surface(surface.heights * 1e-6, surface.grid), tmp_path / "smooth.npz")
+    out = tmp_path / "out"
+    loads = ("--pressures", "100Pa,300Pa,1kPa", "--modulus", "110GPa")
+    words = (*loads, "--table", "csv,calculix", "--out", out)
+    answer = invoke("curve", tmp_path / "smooth.npz", *words)
+    assert answer.exit_code == 0
+    assert "Note: no --table: the closings of all loads are less than 100 pm apart" in answer.stderr
+    assert "units='mm', or --table calculix-mm" in answer.stderr
+    assert not (out / "interface.csv").exists()
+    assert (out / "curve.csv").exists()
+
+
 def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     out = tmp_path / "out"
     words = ("--forces", "1nN,2nN", "--modulus", "110GPa", "--table", "abaqus", "--out", out)
@@ -69,6 +118,12 @@ def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
         (("--table", "csv,csv", "--out", "OUT"), "name each table once"),
         (("--table", ",", "--out", "OUT"), "name each table once"),
         (("--table-area", "1mm^2", "--out", "OUT"), "--table-area needs --table"),
+        (("--friction", "0.3", "--out", "OUT"), "--friction needs --table"),
+        (
+            ("--table", "calculix", "--friction", "0.3", "--out", "OUT"),
+            "--friction needs the bodies: E* does not determine how they shear; name both by --materials",
+        ),
+        (("--table", "csv", "--friction", "0", "--out", "OUT"), "coefficient of friction must lie between 0"),
         (("--table", "csv", "--table-area", "1mm^2", "--out", "OUT"), "--table-area is for the table lammps"),
         (("--table", "lammps", "--table-area", "1mm", "--out", "OUT"), "'1mm' is not an area"),
         (("--table", "lammps", "--table-area", "0mm^2", "--out", "OUT"), "the area must be positive"),

@@ -1,5 +1,6 @@
 """The law of an interface: what of a curve stands in it, and that other programs read the same law from their texts."""
 
+import io
 import math
 from dataclasses import replace
 
@@ -7,8 +8,12 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.evaluation.interface_calculix import calculix_text
+from roughcontact.evaluation.interface_columns import column_text, moose_text
 from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
+from roughcontact.theory import mindlin
 
+STEEL, RUBBER = rc.Solid(210e9, 0.3), rc.Solid(1e7, 0.5)
 P0, U0 = 2e8, 3e-7  # an exponential law p = P0 exp(-g/U0), whose stiffness is p/U0
 GAPS = np.array([1.9e-6, 1.6e-6, 1.2e-6, 9e-7, 8e-7, 5e-7])
 
@@ -30,15 +35,28 @@ def exponential(curve):
     )
 
 
-def numbers(text, *, after):
-    """Return the lines of numbers that follow a line."""
+@pytest.fixture
+def sheared(exponential):
+    """Return the table of the exponential law for bodies with K/K_t = 1.25."""
+    tangential = {"tangential_stiffness_per_area": exponential.stiffness / 1.25}
+    return replace(exponential, tangential=tangential, friction=0.4)
+
+
+def numbers(text, *, after, last=False):
+    """Return the lines of numbers that follow a line, the first or the last of its kind."""
     lines = text.splitlines()
     found = []
-    for line in lines[lines.index(after) + 1 :]:
+    start = len(lines) - 1 - lines[::-1].index(after) if last else lines.index(after)
+    for line in lines[start + 1 :]:
         if line.startswith("*"):
             break
         found.append([float(word) for word in line.split(",")])
     return np.array(found)
+
+
+def words(text):
+    """Return the comments of a text in one line."""
+    return " ".join(line.removeprefix("** ") for line in text.splitlines())
 
 
 def rows(text):
@@ -104,6 +122,41 @@ class TestTable:
         np.testing.assert_array_equal(dataset["zero_gap"] - dataset["mean_gap"], dataset["overclosure"])
         low, high = curve.nominal_pressure[curve.resolved][[0, -1]]
         assert dataset.attrs["validity"] == f"nominal pressure from {low:.6g} to {high:.6g} Pa"
+
+    def test_tangential_stiffness_is_that_of_the_bodies(self, curve):
+        first, second = rc.Solid(1.5e11, 0.2), rc.Solid(3e11, 0.4)
+        for bodies, ratio in (
+            (second, mindlin.ratio(0.4)),
+            ((first, second), mindlin.pair_ratio(first, second)),
+        ):
+            modulus = rc.reduced_modulus(*(bodies if isinstance(bodies, tuple) else (bodies,)))
+            table = rc.interface_table(replace(curve, modulus=modulus), bodies=bodies, friction=0.3)
+            tangential = table.tangential["tangential_stiffness_per_area"]
+            # Moduli and ratio are sums of two numbers each: a few roundings.
+            np.testing.assert_allclose(table.stiffness / tangential, ratio, rtol=1e-14)
+            assert table.friction == 0.3
+            dataset = table.to_dataset()
+            np.testing.assert_array_equal(dataset["tangential_stiffness_per_area"], tangential)
+            assert dataset["tangential_stiffness_per_area"].attrs["units"] == "Pa m-1"
+        assert rc.interface_table(curve).tangential == {}
+        assert rc.interface_table(curve).friction is None
+
+    def test_bodies_are_those_of_the_curve(self, curve):
+        steel = replace(curve, modulus=rc.reduced_modulus("steel", "steel"))
+        named = rc.interface_table(steel, bodies=("steel", "steel"), friction=0.2)
+        assert named.stiffness / named.tangential["tangential_stiffness_per_area"] == pytest.approx(
+            mindlin.pair_ratio(rc.handbook("steel").solid), rel=1e-14
+        )
+        with pytest.raises(
+            ValueError, match=r"have a reduced modulus of 1.33333e\+07 Pa, but the curve has 1e\+11"
+        ):
+            rc.interface_table(curve, bodies=RUBBER)
+        with pytest.raises(ValueError, match=r"a Solid .* is needed, not 1"):
+            rc.interface_table(curve, bodies=1e11)
+        with pytest.raises(ValueError, match=r"given without the bodies.*: give `bodies` too"):
+            rc.interface_table(curve, friction=0.3)
+        with pytest.raises(ValueError, match="friction"):
+            rc.interface_table(steel, bodies=("steel", "steel"), friction=0.0)
 
     def test_what_has_no_law_is_refused(self, curve):
         line = rc.self_affine(rc.Grid(64, 1e-6), hurst=0.8, rms=1e-7, rng=np.random.default_rng(1))
@@ -172,6 +225,149 @@ class TestAbaqus:
         assert "elastic and perfectly plastic, normal load" in flowing
         assert "; elastic, normal load" in abaqus_text(exponential)
         assert "free patch" in abaqus_text(replace(exponential, periodic=False))
+
+    def test_the_elastic_slip_gives_the_tangential_stiffness_at_the_stated_pressure(self, sheared):
+        """Abaqus/Standard takes mu p over the elastic slip as its stick slope."""
+        low, high = sheared.validity
+        for units, factor, pascal in (("SI", 1.0, "Pa/m"), ("mm", 1e3, "MPa/mm")):
+            unit = {"SI": 1.0, "mm": 1e-9}[units]
+            text = abaqus_text(sheared, units=units)
+            (line,) = (line for line in text.splitlines() if line.startswith("*FRICTION"))
+            slip = float(line.partition("ELASTIC SLIP=")[2]) / factor
+            ((friction,),) = numbers(text, after=line)
+            # K = p/U0 of the exponential law is a power, which is interpolated exactly.
+            middle = math.sqrt(low * high)
+            assert friction * middle / slip == pytest.approx(middle / U0 / 1.25, rel=1e-13)
+            assert f" {pascal} at " in text
+            ends = [end / U0 / 1.25 * unit for end in (low, high)]
+            assert "goes from {:.6g} to {:.6g}".format(*ends) in words(text)
+        assert "*FRICTION" not in abaqus_text(replace(sheared, friction=None))
+
+
+class TestCalculix:
+    TABLE = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR"
+    LAW = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL"
+
+    def test_the_table_is_that_of_abaqus_in_fields_of_twenty_characters(self, exponential):
+        for units in ("SI", "mm"):
+            text = calculix_text(exponential, units=units)
+            expected = numbers(abaqus_text(exponential, units=units), after=self.TABLE)
+            # Fourteen digits.
+            np.testing.assert_allclose(numbers(text, after=self.TABLE), expected, rtol=5e-14)
+            fields = [
+                word.strip() for line in text.splitlines() if line[0] != "*" for word in line.split(",")
+            ]
+            assert max(map(len, fields)) <= 20
+
+    def test_an_exponential_law_is_found(self, exponential):
+        """A hundredth of the pressure is left at the first number from where the second one acts."""
+        for units, pascal, metre in (("SI", 1, 1), ("mm", 1e-6, 1e3)):
+            text = calculix_text(exponential, units=units)
+            ((distance, pressure),) = numbers(text, after=self.LAW)
+            # The law begins at a mean gap of `zero_gap`. Least squares of six exact points lose a digit or two.
+            assert distance == pytest.approx(U0 * math.log(100) * metre, rel=1e-12)
+            assert pressure == pytest.approx(P0 * math.exp(-exponential.zero_gap / U0) * pascal, rel=1e-12)
+        assert "whose stiffness by at most 0.0%" in words(text)
+        assert f"the gap is open below {pressure:.6g} MPa" in words(text)
+        other = replace(exponential, stiffness=exponential.stiffness * 1.25)
+        assert "whose stiffness by at most 20.0%" in words(calculix_text(other))
+
+    def test_both_interactions_stick_by_the_slope_of_the_middle_pressure(self, sheared):
+        middle = math.sqrt(math.prod(sheared.validity))
+        for units, factor in (("SI", 1.0), ("mm", 1e-9)):
+            text = calculix_text(sheared, units=units)
+            assert text.count("*FRICTION\n") == 2
+            for last in (False, True):
+                ((friction, slope),) = numbers(text, after="*FRICTION", last=last)
+                assert friction == 0.4
+                assert slope == pytest.approx(middle / U0 / 1.25 * factor, rel=1e-13)
+        assert "*FRICTION" not in calculix_text(replace(sheared, friction=None))
+
+    def test_a_conductance_has_twenty_lines_at_most(self, exponential):
+        pressure = np.geomspace(1e6, 1e8, 30)
+        joint, spots = 50.0 + pressure / 1e4, pressure / 1e4
+        names = ("joint_conductance_per_area", "spots_conductance_per_area")
+        many = replace(
+            exponential,
+            pressure=pressure,
+            gap=-U0 * np.log(pressure / P0),
+            stiffness=pressure / U0,
+            contact_fraction=pressure / P0,
+            conductances=dict(zip(names, (joint, spots), strict=True)),
+        )
+        found = numbers(calculix_text(many, units="mm"), after="*GAP CONDUCTANCE")
+        assert len(found) == 20
+        assert found[0].tolist() == [pytest.approx(0.05), 0.0]  # gas and radiation, mW/(mm^2 K)
+        np.testing.assert_allclose(found[:, 0] * 1e3, 50 + found[:, 1] * 1e6 / 1e4, rtol=1e-12)
+        np.testing.assert_allclose(found[[1, -1], 1], [1.0, 100.0], rtol=1e-12)
+        # 29 steps to 18: each is one or two of them.
+        steps = np.log(found[2:, 1] / found[1:-1, 1]) / np.log(pressure[1] / pressure[0])
+        assert set(steps.round(9)) == {1.0, 2.0}
+        plain = replace(many, conductances={"thermal_conductance_per_area": spots[:]})
+        assert numbers(calculix_text(plain), after="*GAP CONDUCTANCE")[0].tolist() == [0.0, 0.0]
+        assert "*GAP" not in calculix_text(exponential)
+
+    def test_closings_of_less_than_a_tenth_of_a_nanometre_are_left_out_in_metres(self, exponential):
+        # Closings of 0.15, 0.3, 0.5, 0.65, 0.7 and 0.85 nm, with a first one of 0.15 nm from p/K.
+        smooth = replace(exponential, gap=GAPS * 5e-4, stiffness=exponential.stiffness * 2e3)
+        for units, rows, metre in (("SI", [0, 1, 2, 3, 5], 1), ("mm", [0, 1, 2, 3, 4, 5], 1e3)):
+            found = numbers(calculix_text(smooth, units=units), after=self.TABLE)
+            np.testing.assert_allclose(found[1:, 1], smooth.overclosure[rows] * metre, rtol=1e-13)
+        with pytest.raises(ValueError, match="write the table in millimetres: units='mm'"):
+            calculix_text(replace(smooth, gap=GAPS * 1e-5, stiffness=exponential.stiffness * 1e5))
+
+    def test_comments_hold_the_limits_of_calculix(self, exponential):
+        text = calculix_text(exponential, ["made by hand"])
+        head, _, body = text.partition("*SURFACE INTERACTION")
+        assert all(line.startswith("** ") and len(line) <= 123 for line in head.splitlines())
+        assert "** made by hand" in head
+        assert "TYPE=NODE TO SURFACE" in head
+        assert "TYPE=SURFACE TO SURFACE" in head
+        assert "**" not in body
+
+
+class TestColumns:
+    def test_numpy_reads_all_columns_to_the_last_bit(self, curve):
+        bodies = {"resistivities": (1e-7, 2e-8), "conductivities": (50.0, 160.0)}
+        steel = replace(curve, modulus=rc.reduced_modulus(STEEL))
+        table = rc.interface_table(steel, bodies=STEEL, **bodies)
+        text = column_text(table, ["made by hand"])
+        dataset = table.to_dataset()
+        heads = [line.removeprefix("# ").split() for line in text.splitlines() if line[0] == "#"]
+        names, units = heads[-2:]
+        found = np.loadtxt(io.StringIO(text), unpack=True)
+        assert names == [name for name, each in dataset.data_vars.items() if each.ndim]
+        assert len(found) == len(names) == len(units) == 8
+        for name, unit, values in zip(names, units, found, strict=True):
+            np.testing.assert_array_equal(values, dataset[name])
+            assert unit.replace("*", " ") == dataset[name].attrs["units"]
+        assert "# made by hand" in text
+        assert f"overclosure 0 is a mean gap of {table.zero_gap!r} m" in text
+
+    def test_moose_finds_rising_columns_from_zero(self, sheared):
+        conductances = {"thermal_conductance_per_area": sheared.pressure / 1e4}
+        text = moose_text(replace(sheared, conductances=conductances))
+        # As in MOOSE: what follows # is a comment, and the first line without numbers holds the names.
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+        found = dict(zip(lines[0].split(","), np.loadtxt(lines[1:], delimiter=",", unpack=True), strict=True))
+        assert list(found) == [
+            "overclosure",
+            "nominal_pressure",
+            "interfacial_stiffness_per_area",
+            "tangential_stiffness_per_area",
+            "thermal_conductance_per_area",
+        ]
+        for name, values in (
+            ("overclosure", sheared.overclosure),
+            ("nominal_pressure", sheared.pressure),
+            ("interfacial_stiffness_per_area", sheared.stiffness),
+            ("tangential_stiffness_per_area", sheared.stiffness / 1.25),
+            ("thermal_conductance_per_area", sheared.pressure / 1e4),
+        ):
+            np.testing.assert_array_equal(found[name][1:], values)
+        assert (np.diff(found["overclosure"]) > 0).all()
+        first = [values[0] for values in found.values()]
+        assert first == [0.0, 0.0, sheared.stiffness[0], sheared.stiffness[0] / 1.25, 0.0]
 
 
 class TestLammps:

@@ -15,6 +15,8 @@ from hypothesis import given, settings, strategies as st
 from hypothesis.extra import numpy as hnp
 
 import roughcontact as rc
+from roughcontact.evaluation.interface_calculix import calculix_text
+from roughcontact.evaluation.interface_columns import column_text, moose_text
 from roughcontact.evaluation.interface_text import abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError
 from roughcontact.files.file_errors import SurfaceWarning
@@ -274,5 +276,22 @@ def test_the_table_of_an_interface_is_written_for_other_programs(tmp_path):
         with pytest.raises(rc.InputError, match=f"{name} is not written in the units '{units}'"):
             rc.write(table, tmp_path / name, units=units)
     assert (tmp_path / "a.table").read_text(encoding="utf-8") == lammps_text(table)
-    with pytest.raises(WriteError, match=r"a InterfaceTable is written as one of \.csv, \.inp, \.table"):
+    for name, text, how in (
+        ("c.inp", calculix_text(table), {"dialect": "calculix"}),
+        ("d.inp", calculix_text(table, units="mm"), {"dialect": "calculix", "units": "mm"}),
+        ("e.inp", abaqus_text(table), {"dialect": "abaqus"}),
+        ("f.csv", moose_text(table), {"dialect": "moose"}),
+        ("g.txt", column_text(table), {}),
+    ):
+        rc.write(table, tmp_path / name, **how)
+        assert (tmp_path / name).read_text(encoding="utf-8") == text
+    with pytest.raises(
+        rc.InputError, match=r"c\.inp is not written in the dialect 'moose': choose abaqus or cal"
+    ):
+        rc.write(table, tmp_path / "c.inp", dialect="moose")
+    with pytest.raises(rc.InputError, match="only the table of an interface has dialects"):
+        rc.write(rough, tmp_path / "a.npz", dialect="calculix")
+    with pytest.raises(
+        WriteError, match=r"a InterfaceTable is written as one of \.csv, \.inp, \.table, \.txt"
+    ):
         rc.write(table, tmp_path / "a.nc")

@@ -73,6 +73,7 @@ OUT_OF_RANGE = {
     "Theories.radius": ("-5mm", "5um"),
     "InterfaceTables.table": ("csv,csv", "csv,abaqus"),
     "InterfaceTables.table_area": ("0mm^2", "1mm^2"),
+    "InterfaceTables.friction": ("0", "0.3"),
     "Units.unit_stiffness": ("N/m", "N/um/mm^2"),
     "Units.unit_pressure": ("mN", "MPa"),
     "AdhesiveLoad.force": ("-1mN",),  # the remedy is another job: see below

@@ -325,6 +325,18 @@ RULES = [
         [with_parts("curve", tables={"table": "csv"})],
     ),
     (
+        with_parts("curve", tables={"table": "lammps", "friction": "0.3"}, bodies=NAMED),
+        "tables.friction",
+        "leave it out",
+        [with_parts("curve", tables={"table": "lammps"}, bodies=NAMED)],
+    ),
+    (
+        with_parts("curve", tables={"table": "calculix", "friction": "0.3"}),
+        "tables.friction",
+        "name both by `materials`, such as steel,aluminium",
+        [with_parts("curve", tables={"table": "calculix", "friction": "0.3"}, bodies=NAMED)],
+    ),
+    (
         smallest("adhesion press") | {"load": {"force": "-1mN"}},
         "load.force",
         "compute an adhesion curve with `forces` 0,-1mN",

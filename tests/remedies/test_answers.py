@@ -1,6 +1,7 @@
 """What is refused of adhesion, friction and answers: the message is followed, and the numbers are there."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,10 +9,12 @@ import pytest
 import roughcontact as rc
 from followed import LINE, MODULUS, PERIODIC, PLANE, PROFILE, ROUGH, follow, heights, row
 from roughcontact.contact.press import solve
+from roughcontact.evaluation.interface_calculix import calculix_text
 from roughcontact.theory.law import LoadingLaw
 
 STEEL = rc.Solid(205e9, 0.29)
 PAIR = (STEEL, STEEL)
+HALF = rc.Solid(0.75 * MODULUS, 0.5)  # whose E* is the modulus
 FINE = heights(rc.Grid((64, 64), 1e-6))
 FAR = rc.Adhesion(1e-3, 1e-7)
 WAVE = 1e-7 * np.cos(2 * np.pi * np.arange(84) / 84)
@@ -55,6 +58,12 @@ def curve(surface=FINE, **named):
 
 def leaking(flown, fluid=WATER):
     return rc.leak_rates(flown, fluid, drop=1.0, seal_width=1e-3, circumference=0.1)
+
+
+def law(closing=1.0):
+    """Return the law of an interface whose closings are a part of those of a curve."""
+    table = rc.interface_table(curve(FINE))
+    return replace(table, gap=table.gap * closing, stiffness=table.stiffness / closing)
 
 
 def springs():
@@ -446,6 +455,37 @@ ANSWERS = [
         lambda: rc.interface_table(curve(PROFILE, forces=[1.0, 2.0], operator=rc.line(LINE, MODULUS))),
         "not of a line: press a map of heights",
         lambda: rc.interface_table(curve(FINE)),
+    ),
+    row(
+        lambda: rc.interface_table(curve(FINE), friction=0.3),
+        "how they shear: give `bodies` too, such as ('steel', 'aluminium')",
+        lambda: rc.interface_table(curve(FINE), friction=0.3, bodies=HALF),
+    ),
+    row(
+        lambda: rc.interface_table(curve(FINE), bodies=("steel", "aluminium")),
+        "give the bodies of the curve",
+        lambda: rc.interface_table(curve(FINE), bodies=HALF),
+    ),
+    row(
+        lambda: calculix_text(law(1e-6)),
+        "write the table in millimetres: units='mm', or `table` calculix-mm",
+        lambda: calculix_text(law(1e-6), units="mm"),
+    ),
+    row(
+        lambda: rc.write(law(), "law.inp", dialect="moose"),
+        "choose abaqus or calculix",
+        lambda: rc.write(law(), "law.inp", dialect="abaqus"),
+        lambda: rc.write(law(), "law.inp", dialect="calculix"),
+    ),
+    row(
+        lambda: rc.write(law(), "law.table", dialect="calculix"),
+        "law.table is not written in the dialect 'calculix': omit dialect",
+        lambda: rc.write(law(), "law.table"),
+    ),
+    row(
+        lambda: rc.write(FINE, "map.npz", dialect="calculix"),
+        "only the table of an interface has dialects: omit dialect",
+        lambda: rc.write(FINE, "map.npz"),
     ),
     row(
         lambda: rc.error_budget(curve(forces=RISING)),

@@ -43,7 +43,7 @@ def interface_dataset(table: InterfaceTable) -> xarray.Dataset:
         "interfacial_stiffness_per_area": "stiffness",
     }
     data = variables_of(table, INTERFACE, Geometry.SURFACE, names)
-    more = table.flow | table.conductances
+    more = table.tangential | table.flow | table.conductances
     data |= {name: variable(name, ("load",), values) for name, values in more.items()}
     low, high = table.validity
     words = {

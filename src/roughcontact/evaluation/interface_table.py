@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from roughcontact import methods
 from roughcontact.contact.curve import REMEDY, Curve
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, placed
 from roughcontact.evaluation.conduction import conductance
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
+from roughcontact.labels.contact_columns import TANGENTIAL
+from roughcontact.materials import Elastic, as_modulus, reduced_shear_modulus
 from roughcontact.validation import Array, numeric, positive
 
 __all__ = ["InterfaceTable", "interface_table"]
@@ -20,6 +22,7 @@ __all__ = ["InterfaceTable", "interface_table"]
 _FLOW = ("hydraulic_gap", "flow_factor")
 _CONDUCTANCES = ("thermal_conductance_per_area", "electrical_conductance_per_area")
 _PARTS = ("spots_conductance_per_area", "joint_conductance_per_area")
+_SAME = 1e-6  # relative difference below which two reduced moduli are equal
 
 
 @hinted
@@ -39,6 +42,10 @@ class InterfaceTable:
         ``joint_conductance_per_area``, which includes gas and radiation.
     flow : dict of array
         ``hydraulic_gap`` [m] and ``flow_factor``, if the curve has the measure `Transmissivity`.
+    tangential : dict of array
+        ``tangential_stiffness_per_area`` K_t/A0 [Pa/m] if the bodies are known: K/A0 over E*/G*.
+    friction : float, optional
+        Coefficient of friction [-].
     area : float
         Nominal area of a table of forces [m^2].
     periodic : bool
@@ -68,6 +75,8 @@ class InterfaceTable:
     area: float
     periodic: bool
     hardness: float = math.inf
+    tangential: dict[str, Array] = field(default_factory=dict)
+    friction: float | None = None
 
     def __len__(self) -> int:
         return len(self.pressure)
@@ -76,6 +85,11 @@ class InterfaceTable:
     def validity(self) -> tuple[float, float]:
         """Lowest and highest nominal pressure that the curve resolves [Pa]."""
         return float(self.pressure[0]), float(self.pressure[-1])
+
+    @property
+    def middle_pressure(self) -> float:
+        """Geometric mean of the lowest and the highest nominal pressure [Pa]."""
+        return math.sqrt(math.prod(self.validity))
 
     @property
     def zero_gap(self) -> float:
@@ -112,11 +126,14 @@ def interface_table(
     resistivities: tuple[float, float] | None = None,
     conductivities: tuple[float, float] | None = None,
     area: float | None = None,
+    bodies: Elastic | tuple[Elastic, ...] | None = None,
+    friction: float | None = None,
 ) -> InterfaceTable:
     """Return pressure, stiffness and area against gap, per nominal area: the law of an interface.
 
     For finite elements and discrete elements: `roughcontact.write` writes it as a table of comma-separated values
-    (``.csv``), lines for Abaqus (``.inp``) or a table of forces for LAMMPS (``.table``).
+    (``.csv``, also for MOOSE) or as text (``.txt``), as lines for Abaqus or CalculiX (``.inp``), or as a table of
+    forces for LAMMPS (``.table``).
 
     Parameters
     ----------
@@ -126,6 +143,11 @@ def interface_table(
         Values of both bodies [ohm m] and [W/(m K)], for the conductances per area; see `conductance`.
     area : float, optional
         Nominal area of the forces for LAMMPS [m^2], such as that of one particle; by default that of the map.
+    bodies : Solid, Material or str, or a tuple of two, optional
+        The bodies of the curve, for the tangential stiffness per area without slip, K/A0 over E*/G*
+        (`theory.mindlin`); a single one touches a rigid body.
+    friction : float, optional
+        Coefficient of friction [-], for Abaqus and CalculiX; needs `bodies`.
 
     Returns
     -------
@@ -136,7 +158,7 @@ def interface_table(
     ------
     ValueError
         If the curve is not that of a map, fewer than two of its loads are resolved, or the gap does not fall from load
-        to load.
+        to load; if the bodies have another reduced modulus than the curve, or `friction` is given without them.
 
     Examples
     --------
@@ -148,6 +170,11 @@ def interface_table(
     >>> table = rc.interface_table(curve)
     >>> len(table), bool((np.diff(table.overclosure) > 0).all())
     (3, True)
+    >>> rubber = rc.Solid(1e7, 0.5)
+    >>> soft = rc.loading_curve(surface, rubber, pressures=[3e3, 1e4, 3e4])
+    >>> table = rc.interface_table(soft, bodies=rubber, friction=0.8)
+    >>> (table.stiffness / table.tangential["tangential_stiffness_per_area"]).round(6).tolist()
+    [1.5, 1.5, 1.5]
     """
     if curve.geometry is not Geometry.SURFACE:
         raise InputError(
@@ -163,6 +190,14 @@ def interface_table(
         raise InputError(
             "the gap does not fall from each resolved load to the next", "use loads that are further apart"
         )
+    stiffness = curve.interfacial_stiffness_per_area[kept]
+    tangential = {} if bodies is None else {TANGENTIAL.name: stiffness / _moduli_ratio(curve, bodies)}
+    if friction is not None and bodies is None:
+        raise InputError(
+            "`friction` is given without the bodies, and E* does not determine how they shear",
+            "give `bodies` too, such as ('steel', 'aluminium')",
+            "bodies",
+        )
     found: dict[str, Array] = {}
     if resistivities is not None or conductivities is not None:
         found = conductance(curve, resistivities=resistivities, conductivities=conductivities)
@@ -172,11 +207,32 @@ def interface_table(
     return InterfaceTable(
         pressure=curve.nominal_pressure[kept],
         gap=gap,
-        stiffness=curve.interfacial_stiffness_per_area[kept],
+        stiffness=stiffness,
         contact_fraction=curve.contact_fraction[kept],
         conductances={name: found[name][kept] for name in names if name in found},
         flow={name: curve.measured[name][kept] for name in _FLOW if name in curve.measured},
         area=curve.nominal_area if area is None else float(positive(area, "area [m^2]")),
         periodic=all(curve.periodic),
         hardness=curve.hardness,
+        tangential=tangential,
+        friction=None if friction is None else float(positive(friction, "friction")),
     )
+
+
+def _moduli_ratio(curve: Curve, bodies: Elastic | tuple[Elastic, ...]) -> float:
+    """Return E*/G* of the bodies of a curve.
+
+    Raises
+    ------
+    ValueError
+        If the bodies are not those of the curve.
+    """
+    with placed("bodies"):
+        modulus = as_modulus(bodies)
+        ratio = modulus / reduced_shear_modulus(*(bodies if isinstance(bodies, tuple) else (bodies,)))
+        if not math.isclose(modulus, curve.modulus, rel_tol=_SAME):
+            raise InputError(
+                f"these bodies have a reduced modulus of {modulus:.6g} Pa, but the curve has {curve.modulus:.6g} Pa",
+                "give the bodies of the curve",
+            )
+    return ratio

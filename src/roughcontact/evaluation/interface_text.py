@@ -1,4 +1,4 @@
-"""The law of an interface in the formats of other programs: lines for Abaqus, a table of forces for LAMMPS."""
+"""The law of an interface as lines for Abaqus and as a table of forces for LAMMPS, and the parts of such texts."""
 
 from __future__ import annotations
 
@@ -9,9 +9,13 @@ from textwrap import wrap
 import numpy as np
 
 from roughcontact.evaluation.interface_table import InterfaceTable
+from roughcontact.labels.contact_columns import TANGENTIAL
 from roughcontact.validation import Array
 
-__all__ = ["UNIT_SYSTEMS", "abaqus_text", "lammps_text"]
+__all__ = [
+    *("UNIT_SYSTEMS", "abaqus_text", "as_comments", "facts", "friction_facts", "lammps_text"),
+    *("stick_slope", "unloaded"),
+]
 
 # For each system: its units in words, then the factors from SI of a pressure, a length, and a thermal and an electrical
 # conductance per area. With mm, N, s and t (tonnes) stresses are in MPa and powers in mW, so that amperes require mV.
@@ -30,7 +34,7 @@ _GAP_CONDUCTANCES = (
 
 
 def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: str = "SI") -> str:
-    """Return a surface interaction for Abaqus: pressure against overclosure, and the conductances of the gap.
+    """Return a surface interaction for Abaqus: pressure against overclosure, friction, conductances of the gap.
 
     Parameters
     ----------
@@ -46,26 +50,30 @@ def abaqus_text(table: InterfaceTable, remarks: Iterable[str] = (), *, units: st
         The text, with a line end at its end.
     """
     words, (stress, length, *conduction) = UNIT_SYSTEMS[units]
-    zero = f"overclosure 0 is a mean gap of {table.zero_gap * length!r}: bodies meshed in touch carry nothing yet"
     head = [
         f"units: {words}",
-        *_facts(table, "Pa" if stress == 1 else "MPa", stress),
-        zero,
+        *facts(table, units),
+        f"overclosure 0 is a mean gap of {table.zero_gap * length!r}: bodies meshed in touch carry nothing yet",
         "between two lines Abaqus interpolates linearly: at most "
         f"{table.chord_error:.2%} above a pressure that grows exponentially; beyond the last line it is straight",
-        *remarks,
     ]
-    lines = [*(f"** {line}" for line in _plain(head)), "*SURFACE INTERACTION, NAME=ROUGH"]
+    interaction = ["*SURFACE INTERACTION, NAME=ROUGH"]
+    if table.friction is not None:
+        slip = table.friction * table.middle_pressure / stick_slope(table)
+        head += [
+            *friction_facts(table, units),
+            "the elastic slip of Abaqus/Standard makes the stick slope proportional to the pressure",
+        ]
+        interaction += [f"*FRICTION, ELASTIC SLIP={slip * length!r}", repr(table.friction)]
+    lines = [*as_comments([*head, *remarks], "**"), *interaction]
     lines.append("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR")
     lines += _pairs(table.pressure * stress, table.overclosure * length)
     thermal, electrical = conduction
     for name, keyword in _GAP_CONDUCTANCES:
         if name in table.conductances:
-            factor, start = (electrical if "electrical" in name else thermal), 0.0
-            if name == _OF_JOINT:  # without load: gas and radiation, as at the lowest load
-                start = float(table.conductances[name][0] - table.conductances[_OF_SPOTS][0])
+            factor = electrical if "electrical" in name else thermal
             numbers = (table.conductances[name] * factor, table.pressure * stress)
-            lines += [keyword, *_pairs(*numbers, max(start, 0.0) * factor)]
+            lines += [keyword, *_pairs(*numbers, unloaded(table, name) * factor)]
     return "\n".join(lines) + "\n"
 
 
@@ -88,7 +96,7 @@ def lammps_text(table: InterfaceTable, remarks: Iterable[str] = ()) -> str:
     gap, pressure, energy = _evenly(table)
     head = [
         "UNITS: si",
-        *_facts(table, "Pa", 1.0),
+        *facts(table),
         f"force and energy of a nominal area of {table.area!r} m2 (r, energy, force in m, J, N)",
         f"r is the mean gap; the force begins at {table.zero_gap!r} m",
         f"the table ends at {float(gap[0])!r} m: LAMMPS stops where a wall comes nearer",
@@ -96,13 +104,15 @@ def lammps_text(table: InterfaceTable, remarks: Iterable[str] = ()) -> str:
         *remarks,
     ]
     rows = zip(gap.tolist(), (table.area * energy).tolist(), (table.area * pressure).tolist(), strict=True)
-    lines = [*(f"# {line}" for line in _plain(head)), "", "INTERFACE", f"N {len(gap)}", ""]
+    lines = [*as_comments(head, "#"), "", "INTERFACE", f"N {len(gap)}", ""]
     lines += [f"{k} {r!r} {e!r} {f!r}" for k, (r, e, f) in enumerate(rows, start=1)]
     return "\n".join(lines) + "\n"
 
 
-def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
-    """Yield the facts that users of a table need, with pressures in `unit`; a pascal is `stress` of it."""
+def facts(table: InterfaceTable, units: str = "SI") -> Iterator[str]:
+    """Yield the facts that users of a table need, with pressures in the units of a system."""
+    words, (stress, *_) = UNIT_SYSTEMS[units]
+    unit = words.split(", ")[2]
     low, high = (stress * each for each in table.validity)
     yield "law of a rough interface, per nominal area; the compliance of the bodies is not in it: the model has it"
     yield f"valid from {low:.6g} to {high:.6g} {unit}, {len(table)} resolved loads; below: a straight line to zero"
@@ -119,6 +129,34 @@ def _facts(table: InterfaceTable, unit: str, stress: float) -> Iterator[str]:
     if flows:
         limit = f"{table.hardness * stress:.6g} {unit}"
         yield f"no cell bears more than {limit}: for loading only, the law of unloading differs"
+
+
+def friction_facts(table: InterfaceTable, units: str) -> Iterator[str]:
+    """Yield the stick slope that a code with a single one takes, and the tangential stiffness over the table."""
+    words, (stress, length, *_) = UNIT_SYSTEMS[units]
+    metre, _, pascal, *_ = words.split(", ")
+    slope, every = stick_slope(table) * stress / length, table.tangential[TANGENTIAL.name] * stress / length
+    yield (
+        f"friction {table.friction!r}; the stick slope is K_t/A0 = {slope:.6g} {pascal}/{metre} at "
+        f"{table.middle_pressure * stress:.6g} {pascal}, the geometric mean of the pressures"
+    )
+    yield (
+        f"a single stick slope belongs to one pressure: in the table K_t/A0, which is K/A0 over E*/G*, goes from "
+        f"{every.min():.6g} to {every.max():.6g} {pascal}/{metre}"
+    )
+
+
+def stick_slope(table: InterfaceTable) -> float:
+    """Return K_t/A0 [Pa/m] at the geometric mean of the pressures, interpolated by powers."""
+    logs = np.log(table.pressure), np.log(table.tangential[TANGENTIAL.name])
+    return math.exp(np.interp(math.log(table.middle_pressure), *logs))
+
+
+def unloaded(table: InterfaceTable, name: str) -> float:
+    """Return a conductance without load: that of gas and radiation, as at the lowest load; otherwise 0."""
+    if name != _OF_JOINT:
+        return 0.0
+    return max(float(table.conductances[name][0] - table.conductances[_OF_SPOTS][0]), 0.0)
 
 
 def _pairs(first: Array, second: Array, start: float = 0.0) -> Iterator[str]:
@@ -146,8 +184,7 @@ def _evenly(table: InterfaceTable) -> tuple[Array, Array, Array]:
     return gaps, there, np.append(np.cumsum(steps[::-1])[::-1], 0.0)
 
 
-def _plain(lines: Iterable[str]) -> Iterator[str]:
-    """Yield remarks in short lines of ASCII characters."""
-    for line in lines:
-        plain = " | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii")
-        yield from wrap(plain, _WIDTH, break_on_hyphens=False)
+def as_comments(lines: Iterable[str], mark: str) -> list[str]:
+    """Return remarks as comments in short lines of ASCII characters."""
+    plain = (" | ".join(line.splitlines()).encode("ascii", "replace").decode("ascii") for line in lines)
+    return [f"{mark} {part}" for line in plain for part in wrap(line, _WIDTH, break_on_hyphens=False)]

@@ -25,6 +25,8 @@ from roughcontact.contact.problem import Body
 from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.evaluation.contact_flux import ContactFlux
+from roughcontact.evaluation.interface_calculix import calculix_text
+from roughcontact.evaluation.interface_columns import column_text, moose_text
 from roughcontact.evaluation.interface_table import InterfaceTable
 from roughcontact.evaluation.interface_text import UNIT_SYSTEMS, abaqus_text, lammps_text
 from roughcontact.files.aside import WriteError, require_target, written_aside
@@ -56,7 +58,9 @@ Curves = Curve | Loop | AdhesiveCurve | DetachmentCurve | SlipCurve | Viscoelast
 Writable = Surface | Pressed | Curves | InterfaceTable | ContactFlux
 
 
-def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") -> None:
+def write(
+    what: Writable, path: str | os.PathLike[str], *, units: str = "SI", dialect: str | None = None
+) -> None:
     """Write a surface, a solution or a curve; the file appears whole or not at all.
 
     ==========  ==================================================================================================
@@ -64,14 +68,17 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
     ``.nc``     a surface, a solution, a flux, a curve or a loop, NetCDF-4; the surface in it is read back to the last
                 bit (of a loop the flattened one as the channel ``flattened_heights``), a loading curve by `read_curve`,
                 with adhesion by `read_adhesive_curve`, of a detachment by `read_detachment_curve`
-    ``.csv``    a curve, a loop, or the table of an interface: one line a load; the flux of a contact: one line a spot
+    ``.csv``    a curve, a loop, or the table of an interface: one line a load; the flux of a contact: one line a spot;
+                with ``dialect="moose"`` rising columns for MOOSE
     ``.x3p``    a surface, ISO 25178-72 in double precision; read back to the last bit, except ``periodic`` and the
                 history, for which the format has no place
     ``.txt``    a surface: rows of heights under the header that Gwyddion writes, a line as places and heights;
-                read back except ``periodic`` and the history, the spacing to rounding
+                read back except ``periodic`` and the history, the spacing to rounding; the table of an interface:
+                columns under a header with names and units
     ``.npy``    only the heights of a surface [m]: state unit and size when you read it
     ``.vti``    a surface or the fields of a solution for ParaView; y points up, as in its pictures
-    ``.inp``    the table of an interface: pressure against overclosure for Abaqus, in the `units` of a model
+    ``.inp``    the table of an interface: pressure against overclosure for Abaqus, or with ``dialect="calculix"`` for
+                CalculiX, in the `units` of a model
     ``.table``  the table of an interface: energy and force against mean gap for LAMMPS (``units si``)
     ==========  ==================================================================================================
 
@@ -86,11 +93,13 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
         for one of the other formats.
     units : {"SI", "mm"}
         For ``.inp``: metres, newtons and pascals, or millimetres, newtons and megapascals. All other files are in SI.
+    dialect : {"abaqus", "calculix", "csv", "moose"}, optional
+        The program that reads the table of an interface; by default Abaqus for ``.inp``.
 
     Raises
     ------
     InputError
-        If `units` is neither of these, or not SI for another file than ``.inp``.
+        If `units` is neither of these, or not SI for another file than ``.inp``; if such a file has no such dialect.
     WriteError
         If the extension is not in the table or not for this value, or if the file cannot be written.
 
@@ -108,16 +117,17 @@ def write(what: Writable, path: str | os.PathLike[str], *, units: str = "SI") ->
             "omit units, or choose SI or mm for a file .inp",
             "units",
         )
+    if isinstance(what, InterfaceTable):
+        _write_interface(what, path, units, dialect)
+        return
+    if dialect is not None:
+        raise InputError("only the table of an interface has dialects", "omit dialect", "dialect")
     if isinstance(what, Curves):
         kind = _require_kind(path, type(what).__name__, _OF_A_CURVE)
         _OF_A_CURVE[kind](what.to_dataset(), path)
         return
     if isinstance(what, ContactFlux):
         _OF_A_FLUX[_require_kind(path, type(what).__name__, _OF_A_FLUX)](what, path)
-        return
-    if isinstance(what, InterfaceTable):
-        kind = _require_kind(path, type(what).__name__, _OF_AN_INTERFACE)
-        _OF_AN_INTERFACE[kind](what, path, units)
         return
     if not isinstance(what, Surface | Pressed):
         raise WriteError(f"cannot write a {type(what).__name__}", "give a Surface, a solution or a curve")
@@ -268,16 +278,18 @@ def _tangential_fields(solution: TangentialSolution) -> dict[str, Field]:
     return parts | {"slipping": on_host(solution.slipping).astype(bool)}
 
 
-def _interface_csv(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
-    csv_of(table, path)
-
-
-def _interface_inp(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
-    write_text(abaqus_text(table, units=units), path)
-
-
-def _interface_lammps(table: InterfaceTable, path: str | os.PathLike[str], units: str) -> None:
-    write_text(lammps_text(table), path)
+def _write_interface(
+    table: InterfaceTable, path: str | os.PathLike[str], units: str, dialect: str | None
+) -> None:
+    dialects = _OF_AN_INTERFACE[_require_kind(path, type(table).__name__, _OF_AN_INTERFACE)]
+    name = next(iter(dialects)) if dialect is None else dialect
+    if name not in dialects:
+        choice = f"choose {' or '.join(dialects)}" if len(dialects) > 1 else "omit dialect"
+        raise InputError(f"{path} is not written in the dialect {dialect!r}", choice, "dialect")
+    if name == "csv":
+        csv_of(table, path)
+    else:
+        write_text(dialects[name](table, **({} if units == "SI" else {"units": units})), path)
 
 
 def _vti_bytes(fields: Mapping[str, npt.NDArray[Any]], grid: AnyGrid) -> bytes:
@@ -332,8 +344,13 @@ _IN_SLABS: Mapping[type, tuple[str, ...]] = MappingProxyType({Surface: (".npy", 
 _OF_A_SOLUTION: Mapping[str, Callable[[Solution | TangentialSolution], bytes]] = MappingProxyType(
     {".nc": _solution, ".vti": _solution_vti}
 )
-_OF_AN_INTERFACE: Mapping[str, Callable[[InterfaceTable, str | os.PathLike[str], str], None]] = (
-    MappingProxyType({".csv": _interface_csv, ".inp": _interface_inp, ".table": _interface_lammps})
+_OF_AN_INTERFACE: Mapping[str, Mapping[str, Callable[..., Any]]] = MappingProxyType(
+    {
+        ".csv": {"csv": csv_of, "moose": moose_text},
+        ".inp": {"abaqus": abaqus_text, "calculix": calculix_text},
+        ".table": {"lammps": lammps_text},
+        ".txt": {"text": column_text},
+    }
 )
 _OF_A_FLUX: Mapping[str, Callable[[ContactFlux, str | os.PathLike[str]], None]] = MappingProxyType(
     {".nc": _flux_netcdf, ".csv": csv_of}

@@ -190,6 +190,9 @@ INTERFACE: Table = {
     ),
     (): (Column("zero_gap", "m", "mean gap at which the pressure of the table begins"),),
 }
+TANGENTIAL = Column(
+    "tangential_stiffness_per_area", "Pa m-1", "tangential stiffness without slip over the nominal area"
+)
 
 CONDUCTION = columns("""
     electrical_conductance | S | electrical conductance of the contact

@@ -17,7 +17,7 @@ from roughcontact.recipe.outputs import Errors, InterfaceTables, PressureTheory,
 from roughcontact.recipe.plastic_flow import AfterLoad, LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.prescribed_loads import OneLoad, RisingLoads, kinds_of, one_load
-from roughcontact.recipe.recipe_fields import check, given, value_of
+from roughcontact.recipe.recipe_fields import check, given
 from roughcontact.recipe.source import Source
 
 __all__ = ["CurveJob", "PressJob", "SurfaceJob"]
@@ -158,6 +158,7 @@ class CurveJob:
                 "a Winkler foundation only has a total conductance", "give `of` total", "conduction.of"
             )
         self.ultrasound.require(self.bodies, profile)
+        self.tables.require(self.bodies)
         _require_known(self.theories.names(), self.theories.known() | _hardness(self))
 
     def _require_heat(self) -> None:
@@ -214,13 +215,7 @@ class CurveJob:
             of = {} if self.conduction.of == "interface" else {"of": self.conduction.of}
             yield _call("rc.conductance", curve, conducting | of, "conductance")
         yield from self.ultrasound.calls(curve, self.bodies)
-        if self.tables.names():
-            yield _call(
-                "rc.interface_table",
-                curve,
-                {**conducting, "area": value_of(self.tables, "table_area")},
-                "table",
-            )
+        yield from self.tables.calls(curve, self.bodies, conducting)
 
 
 def _require_areas(job: PressJob | CurveJob) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
 from roughcontact.files.quantity import AREA, LENGTH, PRESSURE, STIFFNESS_PER_AREA, Kind
+from roughcontact.recipe.bodies import Bodies
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, value_of
 from roughcontact.recipe.texts import Amount, Choice, Names, PureNumber
@@ -29,7 +30,7 @@ THEORIES = (
     *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
     *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
 )
-TABLES = ("csv", "abaqus", "abaqus-mm", "lammps")
+TABLES = ("csv", "abaqus", "abaqus-mm", "calculix", "calculix-mm", "lammps", "moose", "text")
 _LENGTH = Amount(LENGTH)
 
 
@@ -141,7 +142,7 @@ class InterfaceTables:
     TITLE: ClassVar = "Tables"
     table: str | None = described(
         "Write tables of pressure, stiffness and area against gap, per nominal area, for other programs: "
-        "csv, abaqus (SI), abaqus-mm (mm, N, MPa), lammps.",
+        "csv, abaqus (SI), abaqus-mm (mm, N, MPa), calculix (SI), calculix-mm (mm, N, MPa), lammps, moose, text.",
         "abaqus,lammps,...",
         read=Names("table", TABLES),
         needs_whole=True,
@@ -152,9 +153,22 @@ class InterfaceTables:
         read=Amount(AREA),
         needs="table",
     )
+    friction: str | None = described(
+        "Coefficient of friction in the tables for Abaqus and CalculiX; the tables csv, moose and text get a column "
+        "for the tangential stiffness per area, which follows from both bodies.",
+        "0.3",
+        read=PureNumber(0, 10, "the coefficient of friction", "0.3", ends=False),
+        needs="table",
+    )
 
     def __post_init__(self) -> None:
         check(self)
+        if self.friction is not None and self.names() == ("lammps",):
+            raise InputError(
+                "`friction` is for other tables than lammps, which is of normal forces",
+                "leave it out",
+                "friction",
+            )
         if self.table_area is not None and "lammps" not in self.names():
             raise InputError(
                 "`table_area` is for the table lammps: all other tables are per area",
@@ -165,6 +179,24 @@ class InterfaceTables:
     def names(self) -> tuple[str, ...]:
         """Return the names of the tables."""
         return value_of(self, "table") or ()
+
+    def require(self, bodies: Bodies) -> None:
+        """Raise an error if a friction is given without the elastic constants of the bodies."""
+        if self.friction is not None and not bodies.elastic():
+            raise InputError(
+                "`friction` needs the bodies: E* does not determine how they shear",
+                "name both by `materials`, such as steel,aluminium",
+                "tables.friction",
+            )
+
+    def calls(self, curve: str, bodies: Bodies, conducting: Mapping[str, Any]) -> Iterator[Call]:
+        """Yield the call that returns the table of a curve, if the job names one."""
+        if self.names():
+            named = {**conducting, "area": value_of(self, "table_area")}
+            if self.friction is not None:
+                named |= {"bodies": bodies.elastic(), "friction": value_of(self, "friction")}
+            given = {name: value for name, value in named.items() if value is not None}
+            yield Call("rc.interface_table", (Name(curve),), given, result="table", place="table")
 
 
 def _unit(kind: Kind) -> Callable[[str], float]:

@@ -141,7 +141,7 @@ def curve(job: CurveJob, *, answer: Answer) -> None:
         if folder is not None:
             with task("Writing files"), writing():
                 more = found.write(folder, source, answer.ending)
-                more += write_tables(job.tables, folder, computed, surface, conductors)
+                more += write_tables(job, folder, computed, surface)
                 if loop is not None:
                     more += write_loop(loop, folder, source, answer.ending)
     found.tell(answer.json)
