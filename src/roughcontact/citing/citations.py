@@ -99,9 +99,10 @@ def _of_answer(answer: Any) -> Iterator[str]:
     if kind in ("LoadingLaw", "Comparison"):
         yield answer.name.lower()
     for each in fields(answer) if is_dataclass(answer) else ():
-        part = getattr(answer, each.name)
-        if _is_ours(part):
-            yield from _of_answer(part)
+        value = getattr(answer, each.name)
+        for part in value if isinstance(value, tuple) else (value,):
+            if _is_ours(part):
+                yield from _of_answer(part)
 
 
 def _of_job(job: Any) -> Iterator[str]:
