@@ -89,6 +89,7 @@ def test_a_table_of_pressures(joint, home):
     assert record["loaded_area"] == pytest.approx(9 * 2e-6)
     assert record["left_out_area"] == pytest.approx(3 * 2e-6)
     assert record["steep_share"] == 0  # three waves are shorter than a cell
+    assert "100% of the force lies on pressures that the map does not resolve" in answer.stderr
 
 
 def test_a_leak(joint, home):

@@ -173,7 +173,7 @@ def test_cells_without_pressure_and_below_the_law_are_left_out():
         joint.stiffness_per_area, [[0, np.nan, 0, 20], [10, 10, 1e-4, 0]], rtol=1e-12, atol=0
     )
     assert any(
-        "lowest load of the law, are left out. They carry 2.5e-08 of the force" in each
+        "lowest load of the law, are left out. They carry 2.5e-06 % of the force" in each
         for each in joint.notes
     )
     whole = rc.joint(power_law(), rc.PressureField(p, 0.1))  # first touch is known: the law begins at 0
@@ -189,7 +189,7 @@ def test_pressure_that_changes_over_a_few_waves_is_noted():
     field = rc.PressureField(p, (0.5, 1 / n))
     joint = rc.joint(power_law(), field, longest_wave=wave)
     assert joint.steep_share == pytest.approx(3 * wave, abs=1 / n)
-    assert any("of the loaded area, the pressure changes by its own value" in each for each in joint.notes)
+    assert any("% of the loaded area, the pressure changes by its own value" in each for each in joint.notes)
     even = rc.joint(power_law(), rc.PressureField(np.ones((2, n)), (0.5, 1 / n)), longest_wave=wave)
     assert even.steep_share == 0
     assert even.notes == ()

@@ -116,7 +116,7 @@ def _of_job(job: Any) -> Iterator[str]:
         root, *path = call.function.split(".")
         if root in homes:
             yield from reduce(getattr, path, homes[root]).__module__.split(".")
-        if call.place in ("load", "loads", "shear"):
+        if call.place in ("load", "loads", "shear", "pressure"):
             yield from call.named.keys() & {"hardness"}
             yield from {"raised"} & {call.named.get("flow")}
     if hasattr(job, "theories"):

@@ -305,11 +305,11 @@ class Joint:
 
     def _notes(self) -> Iterator[Note]:
         if self.left_out_force:
-            share = self.left_out_force / self.field.force
+            share = 100 * self.left_out_force / self.field.force
             yield Note(
                 Rank.LIMITED,
                 f"Cells below {written(max(each.lowest for each in self.normal), 'Pa')}, the lowest load of the law, "
-                f"are left out. They carry {share:.2g} of the force.",
+                f"are left out. They carry {share:.2g} % of the force.",
             )
         if math.isfinite(self.normal[0].hardness):
             words = "Every place of the face counts as pressed before by the largest load of the loop."
@@ -320,7 +320,7 @@ class Joint:
         elif (steep := self.steep_share) > 0:
             yield Note(
                 Rank.DOUBTFUL,
-                f"On {steep:.2g} of the loaded area, the pressure changes by its own value over three of the longest "
+                f"On {100 * steep:.2g} % of the loaded area, the pressure changes by its own value over three of the longest "
                 f"waves ({written(self.longest_wave, 'm')}) or less: the law does not hold there.",
             )
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import typer
 
-from roughcontact.cli.contact_of_job import contact_of, name_of
+from roughcontact.cli.contact_of_job import contact_of, hardness_of_job, name_of
 from roughcontact.cli.exits import MISSED
-from roughcontact.cli.messages import note_all
+from roughcontact.cli.messages import note, note_all
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import command_line, output, write_state
 from roughcontact.cli.report import quantity, size_of, tell
@@ -47,6 +47,7 @@ def joint(job: JointJob, *, answer: Answer) -> None:
     from roughcontact.labels.variables import VARIABLES
     from roughcontact.plot.joint_maps import joint_figure
 
+    hardness_of_job(job)
     with output(answer.out) as folder:
         known = contact_of(job)
         for call in job.calls():
@@ -90,6 +91,12 @@ def joint(job: JointJob, *, answer: Answer) -> None:
             facts.append((column.label, ", ".join(written(each, column.unit, 4) for each in parts)))
     tell(record, facts, as_json=answer.json)
     note_all([*curve_notes(curve), *(Note(Rank.DOUBTFUL, text) for text in found.notes)])
+    p = found.field.pressure[found.loaded]
+    unresolved = p[np.interp(p, curve.nominal_pressure, curve.resolved) < 1]
+    if unresolved.size:
+        note(
+            f"{unresolved.sum() / p.sum():.0%} of the force lies on pressures that the map does not resolve."
+        )
     answer.finish(folder, ("joint.json", "joint.nc", f"joint.{answer.ending}"), job, found, curve, surface)
     if not converged:
         raise typer.Exit(MISSED)
