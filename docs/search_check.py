@@ -37,6 +37,8 @@ QUESTIONS = {
     "leak": "how-to/leaks",
     "tangential stiffness": "how-to/shear",
     "damping of an interface": "how-to/shear",
+    "bolted joint": "how-to/joint",
+    "tilting stiffness": "how-to/joint",
     "viscoelastic": "concepts/time",
     "viscoelastic contact in time": "concepts/time",
     "creep": "how-to/creep",

@@ -39,6 +39,10 @@ SMALLEST = {
         "bodies": {"material": "rubber.toml"},
         "sliding": {"pressure": "1kPa", "speeds": "1mm/s"},
     },
+    "joint": {
+        "bodies": BODIES,
+        "pressure": {"bolt_force": "1kN", "head": "13mm", "hole": "9mm", "thickness": "1cm"},
+    },
     "theory": {
         "source": {"sigma": "1um", "slope": "0.1"},
         "bodies": BODIES,
@@ -68,6 +72,8 @@ _OF_JOINT = {
     "nayak": {"rolloff": None},
 }
 _GAS = {"viscosity": None, "gas": "air,293K"}
+_TABLE = dict.fromkeys(("bolt_force", "head", "hole", "thickness"))
+_WET = {"leak": "0", "viscosity": "1mPa*s", "drop": "1bar"}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -110,6 +116,10 @@ BESIDE = {
         f"Seal.{name}": {"seal_width": "1mm", "circumference": "0.1m"}
         for name in ("seal_width", "circumference")
     },
+    "JointPressure.pressure_field": _TABLE,
+    "JointPressure.sha256": _TABLE | {"pressure_field": "field.csv"},
+    "JointShear.amplitude": {"friction": "0.2"},
+    **dict.fromkeys(("JointLeak.leak", "JointLeak.viscosity", "JointLeak.drop"), _WET),
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,
@@ -125,6 +135,10 @@ ELSEWHERE = {
     **{
         f"HeatParts.{name}": {"conduction": {"conductivity": "400W/m/K"}}
         for name in ("gas", "emissivity", "temperature", "film")
+    },
+    **{
+        f"JointShear.{name}": {"bodies": {"materials": "steel,aluminium"}}
+        for name in ("friction", "amplitude")
     },
     "Fluid.gas": {"seal": {"upstream": "2bar", "downstream": "1bar"}},
 }

@@ -77,6 +77,8 @@ def folder(tmp_path, monkeypatch):
     np.savetxt(tmp_path / "scan.csv", scan, "%.9g", ";", header="x [um];z [um]", comments="")
     joint = rc.self_affine(periodic, hurst=0.8, rms=1e-7, rolloff=32e-6, rng=rng)
     rc.write(joint, tmp_path / "joint.npz")
+    points = "".join(f"{x}, {y}, {12 + x}\n" for y in (0, 2, 4) for x in (0, 2, 4))
+    (tmp_path / "field.csv").write_text("x [mm], y [mm], p [MPa]\n" + points)
     pages = "".join(page.read_text(encoding="utf-8") for page in PAGES)
     for name, text in re.findall(r"```toml\n# (\S+\.toml)\n(.*?)```", pages, re.DOTALL):
         (tmp_path / name).write_text(fewer(text), encoding="utf-8")

@@ -366,6 +366,7 @@ ANSWERS = {
     "ContactFlux",
     "SealingLoad",
     "Transmissivity",
+    "Joint",
 }
 
 

@@ -54,6 +54,11 @@ SHAPES = {
     rc.shapes.power_law: {"exponent": 2.0, "coefficient": 3.0},
     rc.shapes.sphere: {"radius": 1e-3},
 }
+_STEELS = (rc.Solid(1e9, 0.3), rc.Solid(1e9, 0.3))
+_PRESSURE = rc.PressureField(np.pad(np.full((1, 1), np.nan), 1, constant_values=1e6), 1e-3)
+_OF_JOINT = rc.loading_curve(ROUGH, _STEELS, pressures=[1e5, 1e6], measures=[rc.Transmissivity(axis=0)])
+LAW_OF_JOINT = rc.shear_law(_OF_JOINT, _STEELS, friction=0.3)
+WHOLE_JOINT = rc.joint(LAW_OF_JOINT, _PRESSURE)
 VISCO = rc.viscoelastic
 # What is called beside tests/test_bad_input.py, and good arguments.
 _LEAK = {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "axis": 0}
@@ -67,6 +72,12 @@ MORE = [
     ),
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
+    (rc.PressureField, {"pressure": np.full((2, 3), 1e6), "grid": 1e-3}),
+    (rc.bolt_pressure, {"force": 1e3, "head": 13e-3, "hole": 9e-3, "thickness": 1e-2, "half_angle": 0.5}),
+    (rc.joint, {"law": LAW_OF_JOINT, "field": _PRESSURE, "longest_wave": 1e-5}),
+    (rc.joint_leak, {"joint": WHOLE_JOINT, "fluid": rc.Liquid(1e-3), "drop": 1e3}),
+    *((call, {"displacement": 1e-7}) for call in (WHOLE_JOINT.shear_force, WHOLE_JOINT.loss, WHOLE_JOINT.damping)),
+    (WHOLE_JOINT.conductance, {"conductivities": (50.0, 50.0), "resistivities": (1e-8, 1e-8)}),
     (rc.Grid, {"shape": (4, 8), "spacing": 1e-6}),
     (rc.Grid, {"shape": (4, 8), "spacing": (1e-6, 2e-6)}),
     (rc.Grid, {"shape": (4, 8), "size": 8e-6}),
@@ -207,7 +218,7 @@ UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
     " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
-    " slip_length closing_gap seal_width circumference",
+    " slip_length closing_gap seal_width circumference head hole longest_wave",
     "s": "times time band relaxation_time retardation_time",
     "rad/s": "angular_frequency angular_frequencies",
     "Pa": "equilibrium instantaneous moduli storage loss bulk"
@@ -219,7 +230,14 @@ UNITS = {
     "m^2": "area m0",
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
-UNIT |= {"m4": "1/m^2", "density": "m^4", "smear": "rad^2/m^2", "lifting": "J", "angle": "rad"}
+UNIT |= {
+    "half_angle": "rad",
+    "m4": "1/m^2",
+    "density": "m^4",
+    "smear": "rad^2/m^2",
+    "lifting": "J",
+    "angle": "rad",
+}
 UNIT |= {"frequency": "Hz", "densities": "kg/m^3"}
 UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
 UNIT |= {
@@ -287,7 +305,7 @@ def unit_of(call, name, good):
         return "m"
     if call is rc.Force:
         return "N"
-    if call in (rc.leak, rc.leak_rates) and name == "drop":
+    if call in (rc.leak, rc.leak_rates, rc.joint_leak) and name == "drop":
         return "Pa"
     if name == "density" and call in (rc.Liquid, rc.Material):
         return "kg/m^3"

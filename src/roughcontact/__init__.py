@@ -101,6 +101,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
+    from roughcontact.files.read_pressure_field import read_pressure_field as read_pressure_field
     from roughcontact.files.save import write as write
     from roughcontact.fluid.conductance_parts import ConductanceParts as ConductanceParts
     from roughcontact.fluid.fluids import Gas as Gas, Liquid as Liquid
@@ -142,8 +143,11 @@ if TYPE_CHECKING or _LATE is None:
         shear_half_space as shear_half_space,
     )
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement, Stress as Stress
+    from roughcontact.joints.bolt_pressure import bolt_pressure as bolt_pressure
     from roughcontact.joints.cycle_heat import cycle_heat as cycle_heat
+    from roughcontact.joints.joint_leak import joint_leak as joint_leak
     from roughcontact.joints.normal_law import NormalLaw as NormalLaw, normal_law as normal_law
+    from roughcontact.joints.pressure_field import PressureField as PressureField
     from roughcontact.joints.shear_dataset import shear_dataset as shear_dataset
     from roughcontact.joints.shear_law import (
         ShearCycle as ShearCycle,
@@ -151,6 +155,7 @@ if TYPE_CHECKING or _LATE is None:
         shear_law as shear_law,
     )
     from roughcontact.joints.slip_cycle import SlipCycle as SlipCycle, shear_cycle as shear_cycle
+    from roughcontact.joints.whole_joint import Joint as Joint, joint as joint
     from roughcontact.material import Solid as Solid
     from roughcontact.materials import (
         Material as Material,

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
         to_rms_height as to_rms_height,
         to_tilt as to_tilt,
     )
+    from roughcontact.joints.joint_dataset import joint_dataset as joint_dataset, joint_record as joint_record
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
         plot_flow as plot_flow,
@@ -157,6 +158,7 @@ else:
         "fluid.conductance_parts": "notes_on_heat_curve",
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
+        "joints.joint_dataset": "joint_dataset joint_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",

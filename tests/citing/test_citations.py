@@ -236,6 +236,8 @@ def test_a_job_cites_what_it_calls(tmp_path):
     sticks = {"work": "10mJ/m^2", "range": "20nm", "law": "dugdale"}
     sticks = JOB | {"job": "adhesion press", "load": {"depth": "1nm"}, "adhesion": sticks}
     assert keys(from_plain(sticks)) == STICKING | {"Love1929", "Westergaard1939", "Maugis1992"}
+    bolt = {"bolt_force": "1kN", "head": "13mm", "hole": "9mm", "thickness": "1cm"}
+    assert "Rotscher1927" in keys(from_plain(JOB | {"job": "joint", "pressure": bolt}))
 
 
 def test_every_entry_is_cited_by_something():
@@ -252,6 +254,7 @@ def test_every_entry_is_cited_by_something():
             "Patir1978",
             "Yovanovich2005",
             "Kendall1971",
+            "Rotscher1927",
         ),
     }
     assert {each.key for each in references()} == cited | elsewhere

@@ -18,6 +18,10 @@ LINES = {
     "adhesion curve": ("--depths", "1nm,2nm", *MODULUS, "--work", "1mJ/m^2", "--range", "0.1um"),
     "adhesion detach": ("--force", "1mN", *MODULUS, "--work", "1mJ/m^2"),
     "sliding": ("--periodic", "--pressure", "1MPa", "--speeds", "1m/s", "--material", "rubber.toml"),
+    "joint": (
+        *("--bolt-force", "10N", "--head", "13mm", "--hole", "9mm", "--thickness", "2mm"),
+        *("--young", "1GPa", "--poisson", "0.3", "--friction", "0.2"),
+    ),
     "surface spectrum": (),
     "surface info": (),
 }
@@ -31,6 +35,7 @@ PAPERS = {
     "adhesion curve": "Rey2017",
     "adhesion detach": "Pohrt2015",
     "sliding": "Persson2001",
+    "joint": "Rotscher1927",
     "surface spectrum": "Pohrt2013",
     "surface info": "roughcontact",
 }

@@ -186,6 +186,7 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         "leak": {"fluid": {"viscosity": "1mPa*s"}, "seal": {"drop": "1Pa"}},
         "shear": {"shear": {"pressures": "1GPa", "friction": "0.2"}},
         "sliding": {"sliding": {"pressure": "1MPa", "speeds": "1m/s"}},
+        "joint": {"pressure": {"bolt_force": "1N", "head": "13mm", "hole": "9mm", "thickness": "1cm"}},
         "adhesion press": {"load": {"depth": "-2nm"}},
         "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},
         "adhesion loop": {"turn": {"depth": "1nm", "points": "2"}},

@@ -9,7 +9,7 @@ from roughcontact.cli.parsing.short_help import _first_sentence
 
 ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [
-    *("press", "leak", "shear", "curve", "creep", "sliding"),
+    *("press", "leak", "shear", "curve", "creep", "sliding", "joint"),
     *("adhesion press", "adhesion curve", "adhesion loop", "adhesion detach"),
     *("surface prepare", "surface make", "surface specified", "theory"),
 ]

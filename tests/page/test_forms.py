@@ -22,7 +22,9 @@ def field_of(form, name):
     return found
 
 
-@pytest.mark.parametrize("job", sorted(JOBS.keys() - {"theory", "leak", "shear", "creep", "sliding"}))
+@pytest.mark.parametrize(
+    "job", sorted(JOBS.keys() - {"theory", "leak", "shear", "creep", "sliding", "joint"})
+)
 def test_every_job_has_the_steps_of_the_preparation(job):
     form = forms()["jobs"][job]["preparation"]
     assert [each["name"] for each in form["fields"]] == [each.name for each, _ in specs(Preparation)]
@@ -60,7 +62,7 @@ def test_a_source_that_nothing_makes_again_has_no_form():
     assert forms()["sources"]["self-affine"]["title"] == SelfAffine.TITLE
 
 
-@pytest.mark.parametrize("name", ["theory", "leak", "shear", "creep", "sliding"])
+@pytest.mark.parametrize("name", ["theory", "leak", "shear", "creep", "sliding", "joint"])
 def test_a_job_that_the_page_does_not_show_has_no_form_and_is_refused(name):
     assert name not in forms()["jobs"]
     with pytest.raises(InputError, match=f"does not show the job '{name}': use the command") as met:

@@ -114,6 +114,18 @@ OUT_OF_RANGE = {
     "LeakAlong.missing": ("shut", "closed", "open"),
     "ViscoelasticBody.material": ("", "rubber.toml"),
     "ViscoelasticBody.sha256": ("abc", None, "0" * 64),
+    "JointPressure.pressure_field": ("", "field.csv"),
+    "JointPressure.sha256": ("abc", None, "0" * 64),
+    "JointPressure.bolt_force": ("0kN", "10N"),
+    "JointPressure.head": ("-13mm", "5um"),
+    "JointPressure.hole": ("0mm", "5um"),
+    "JointPressure.thickness": ("0mm", "5um"),
+    "JointPressure.half_angle": ("-30deg", "30deg"),
+    "JointShear.friction": ("0", "0.2"),
+    "JointShear.amplitude": ("0um", "5um"),
+    "JointLeak.leak": ("2", "0", "1"),
+    "JointLeak.viscosity": ("0", "1mPa*s"),
+    "JointLeak.drop": ("0bar", "1MPa"),
     "Sliding.pressure": ("0Pa", "1MPa"),
     "Sliding.force": ("-1N", "10N"),
     "Sliding.speeds": ("1m/s:1mm/s:3", "1mm/s:1m/s:100"),
@@ -178,6 +190,7 @@ INSTRUCTED = {
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
     *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
+    *("JointPressure.pressure_field", "JointPressure.sha256"),
 }
 # What no field takes, but flags and names by their kind; TOML has all of them, except bytes and the last three.
 WRONG_KINDS = {
@@ -198,14 +211,17 @@ WRONG_KINDS = {
 }
 NUMBERS = {"zero", "nan", "infinity", "negative infinity"}
 # Fields in which any text is a name, and those in which 0 is a value.
-NAMES = {"ViscoelasticBody.material", "File.file", "File.channel", "InPython.history"}
+NAMES = {
+    *("ViscoelasticBody.material", "JointPressure.pressure_field"),
+    *("File.file", "File.channel", "InPython.history"),
+}
 FROM_ZERO = {
     *("OneLoad.depth", "AdhesiveLoad.force", "AdhesiveLoad.pressure", "AdhesiveLoad.depth", "Turn.depth"),
     *("AdhesiveLoads.depths", "AdhesiveLoads.forces", "AdhesiveLoads.pressures"),
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
     *("Bodies.poisson", "Bodies.poisson2", "Theories.hurst", "SelfAffine.hurst", "SelfAffine.seed"),
     *("Specified.hurst", "SpecifiedJoint.hurst", "Specified.seed"),
-    *("Fluid.vapour_pressure", "Seal.downstream", "Seal.axis", "LeakAlong.leak"),
+    *("Fluid.vapour_pressure", "Seal.downstream", "Seal.axis", "LeakAlong.leak", "JointLeak.leak"),
     *("Preparation.form", "Preparation.share"),
 }
 

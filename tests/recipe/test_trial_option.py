@@ -114,6 +114,7 @@ COMMANDS = [
     "adhesion loop",
     "adhesion detach",
     "sliding",
+    "joint",
 ]
 
 

@@ -99,9 +99,10 @@ def _of_answer(answer: Any) -> Iterator[str]:
     if kind in ("LoadingLaw", "Comparison"):
         yield answer.name.lower()
     for each in fields(answer) if is_dataclass(answer) else ():
-        part = getattr(answer, each.name)
-        if _is_ours(part):
-            yield from _of_answer(part)
+        value = getattr(answer, each.name)
+        for part in value if isinstance(value, tuple) else (value,):
+            if _is_ours(part):
+                yield from _of_answer(part)
 
 
 def _of_job(job: Any) -> Iterator[str]:
@@ -115,7 +116,7 @@ def _of_job(job: Any) -> Iterator[str]:
         root, *path = call.function.split(".")
         if root in homes:
             yield from reduce(getattr, path, homes[root]).__module__.split(".")
-        if call.place in ("load", "loads", "shear"):
+        if call.place in ("load", "loads", "shear", "pressure"):
             yield from call.named.keys() & {"hardness"}
             yield from {"raised"} & {call.named.get("flow")}
     if hasattr(job, "theories"):

@@ -25,6 +25,7 @@ from roughcontact.recipe.texts import RIGID
 
 if TYPE_CHECKING:
     from roughcontact.recipe.elastic_jobs import CurveJob, PressJob
+    from roughcontact.recipe.joint_job import JointJob
     from roughcontact.recipe.shear_job import ShearJob
     from roughcontact.surface.surface import Surface
 
@@ -103,7 +104,7 @@ def best_state(call: Call, known: dict[str, Any]) -> Any:
     return known[call.result.rpartition(" ")[2]]
 
 
-def softer_of(job: PressJob | CurveJob | ShearJob) -> tuple[float, str] | None:
+def softer_of(job: PressJob | CurveJob | ShearJob | JointJob) -> tuple[float, str] | None:
     """Return the hardness [Pa] and its origin, if it is given or known from the materials."""
     given, softer = job.plastic.hardness, job.bodies.softer
     if (text := given or softer) is None:
@@ -113,7 +114,7 @@ def softer_of(job: PressJob | CurveJob | ShearJob) -> tuple[float, str] | None:
     return value, f"of {text}" if isinstance(found, Call) else "as given"
 
 
-def hardness_of_job(job: PressJob | CurveJob | ShearJob) -> float | None:
+def hardness_of_job(job: PressJob | CurveJob | ShearJob | JointJob) -> float | None:
     """Return the hardness [Pa] of a job with plastic flow; print a remark if it is that of a material."""
     if yields_at(job.bodies, job.plastic) is None or (softer := softer_of(job)) is None:
         return None

@@ -49,6 +49,7 @@ _STEMS = {
     "curve": "curve",
     "creep": "creep",
     "sliding": "sliding",
+    "joint": "joint",
     "theory": "theory",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",

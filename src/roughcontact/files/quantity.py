@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from roughcontact.errors import InputError
 
 __all__ = [
+    "ANGLE",
     "AREA",
     "CONDUCTIVITY",
     "DENSITY",
@@ -74,6 +75,7 @@ DENSITY = Kind("a density", "kg/m^3", "1000kg/m^3")
 SPEED = Kind("a speed", "m/s", "10mm/s")
 FREQUENCY = Kind("a frequency", "Hz", "5MHz")
 TIME = Kind("a time", "s", "0.1s")
+ANGLE = Kind("an angle", "rad", "30deg")
 TEMPERATURE = Kind("a temperature", "K", "20degC")
 
 

@@ -17,6 +17,7 @@ from roughcontact.labels import (
     cycle_columns,
     flow_columns,
     flux_columns,
+    joint_columns,
     shear_columns,
     sliding_columns,
     slip_columns,
@@ -50,6 +51,7 @@ VARIABLES: Mapping[str, Column] = MappingProxyType(
                 slip_columns,
                 adhesive_columns,
                 flux_columns,
+                joint_columns,
             ),
             contact_columns,
         )

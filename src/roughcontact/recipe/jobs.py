@@ -12,6 +12,7 @@ from roughcontact.recipe.elastic_jobs import CurveJob, PressJob, SurfaceJob
 from roughcontact.recipe.in_time.creep_job import CreepJob
 from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.job_calls import Call
+from roughcontact.recipe.joint_job import JointJob
 from roughcontact.recipe.leak_job import LeakJob
 from roughcontact.recipe.shear_job import ShearJob
 from roughcontact.recipe.source import File, SmoothBody
@@ -34,6 +35,7 @@ JobOfHeights: TypeAlias = (
     | AdhesiveLoopJob
     | DetachJob
     | SlidingJob
+    | JointJob
 )
 Job: TypeAlias = JobOfHeights | TheoryJob
 JOBS: Mapping[str, type[Any]] = {
@@ -50,6 +52,7 @@ JOBS: Mapping[str, type[Any]] = {
         AdhesiveLoopJob,
         DetachJob,
         SlidingJob,
+        JointJob,
         TheoryJob,
     )
 }

@@ -22,6 +22,7 @@ from roughcontact.recipe.bodies import Conduction
 from roughcontact.recipe.elastic_jobs import CurveJob, SurfaceJob
 from roughcontact.recipe.in_time.viscoelastic_body import ViscoelasticBody
 from roughcontact.recipe.jobs import JOBS, Job
+from roughcontact.recipe.joint_job import JointPressure
 from roughcontact.recipe.measured.incident_wave import Ultrasound
 from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.prescribed_loads import RisingLoads
@@ -45,6 +46,11 @@ __all__ = [
 ]
 
 J = TypeVar("J", bound=Job)
+# Parts of jobs that name a file beside that of the heights, and the field.
+_MORE_FILES: dict[str, tuple[type[Any], str]] = {
+    "bodies": (ViscoelasticBody, "material"),
+    "pressure": (JointPressure, "pressure_field"),
+}
 FORMAT = 1  # of recipes: raise it when the meaning of written recipes changes
 
 
@@ -328,7 +334,7 @@ def require_same_files(job: Job) -> None:
 
 
 def with_files(job: J, change: Callable[[File], File]) -> J:
-    """Return a job with each of its files, of heights and of a material, replaced by a function."""
+    """Return a job with each of its files, of heights, a material or a pressure field, replaced by a function."""
 
     def changed(source: Source) -> Source:
         if isinstance(source, Combined):
@@ -339,9 +345,10 @@ def with_files(job: J, change: Callable[[File], File]) -> J:
         return job
     with within("source"):
         job = replace(job, source=changed(job.source))
-    if isinstance(body := getattr(job, "bodies", None), ViscoelasticBody):
-        with within("bodies"):
-            file = change(File(file=body.material, sha256=body.sha256))
-        found: Any = replace(body, material=file.file, sha256=file.sha256)
-        job = replace(job, bodies=found)
+    for name, (kind, of) in _MORE_FILES.items():
+        if isinstance(part := getattr(job, name, None), kind) and (path := getattr(part, of)) is not None:
+            with within(name):
+                file = change(File(file=path, sha256=part.sha256))
+            named: Any = {name: replace(part, **{of: file.file, "sha256": file.sha256})}
+            job = replace(job, **named)
     return job

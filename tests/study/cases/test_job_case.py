@@ -62,6 +62,13 @@ JOBS = {  # with what its record is sure to hold, and along what it lies
         "friction_coefficient",
         ("sliding_speed",),
     ),
+    "joint": (
+        {
+            **{"source": MADE, "bodies": BODIES},
+            "pressure": {"bolt_force": "1kN", "head": "13mm", "hole": "9mm", "thickness": "1cm"},
+        },
+        *("normal_stiffness", ()),
+    ),
     "adhesion press": ({"load": {"depth": "1nm"}, **STICKY}, "force", ()),
     "adhesion curve": ({"loads": {"depths": "-10nm,10nm"}, **STICKY}, "force", ("load",)),
     "adhesion loop": ({"turn": {"depth": "10nm", "points": "3"}, **STICKY}, "pull_off_force", ()),

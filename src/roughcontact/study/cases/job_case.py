@@ -29,7 +29,15 @@ from roughcontact.study.nested_names import at, flat
 
 __all__ = ["CASE", "JobParameters", "draws", "run", "without_outputs"]
 
-_ANSWERS = ("leak", "shear", "loop", "curve", "state", "solution")  # the first that exists is the answer
+_ANSWERS = (
+    "joint",
+    "leak",
+    "shear",
+    "loop",
+    "curve",
+    "state",
+    "solution",
+)  # the first that exists is the answer
 _KEPT = {"load", "sliding_speed", "axis", "time"}  # dimensions of a record, without those of maps and spots
 
 

@@ -88,6 +88,11 @@ class HurstFit:
         return float(chdtri(self.freedom, RARE)) / self.freedom
 
     @property
+    def longest_wave(self) -> float:
+        """Length of the longest waves [m]: the roll-off or the long cut-off, or the longest wave of the fit."""
+        return self.rolloff or self.long_cutoff or 2 * math.pi / self.band[0]
+
+    @property
     def exponent(self) -> float:
         """Exponent of the decay of the density: 2(H + 1) for C2D, 2H + 1 for C1D (thesis, eqs 2.8 and 2.10)."""
         return 2 * self.hurst + (2 if self.kind == "C2D" else 1)
