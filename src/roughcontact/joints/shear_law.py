@@ -18,51 +18,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughcontact import methods
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.loop import Loop
 from roughcontact.errors import InputError
+from roughcontact.friction.slip_solution import UNLIKE
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
-from roughcontact.joints.normal_law import NormalLaw, Pressed, normal_law
+from roughcontact.joints.masing import ShearCycle, masing_cycle
+from roughcontact.joints.normal_law import NormalLaw, normal_law
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.material import Solid
 from roughcontact.materials import Elastic, reduced_modulus, solids_of
 from roughcontact.theory.joints.mindlin import pair_ratio
 from roughcontact.validation import Array, exactly_one, numeric, positive, positive_scalar, require
 
-__all__ = ["ShearCycle", "ShearLaw", "shear_law"]
+__all__ = ["ShearLaw", "shear_law"]
 
-UNLIKE = 1e-3  # of Dundurs's parameter: below it, the bodies count as alike
-_POINTS = 101  # of a branch of a cycle
-
-
-@hinted
-@dataclass(frozen=True, slots=True, eq=False)
-class ShearCycle:
-    """A steady cycle of tangential loading at constant nominal pressure, per nominal area.
-
-    Attributes
-    ----------
-    displacement, traction : array, shape (n,)
-        The closed loop [m], [Pa]: from the largest displacement to its opposite and back.
-    loss : float
-        Energy dissipated per cycle [J/m^2].
-    damping : float
-        Loss over 4 pi times the energy tau s/2 at the reversal: the equivalent damping ratio of only the interface.
-        The modal damping of a structure is the loss over 4 pi times the energy of the whole structure.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> steel = rc.Solid(210e9, 0.3)
-    >>> curve = rc.loading_curve(rc.examples.surface("ground"), (steel, steel), pressures=[1e6, 1e7, 3e7, 1e8])
-    >>> cycle = rc.shear_law(curve, (steel, steel), friction=0.2).cycle(5e7, traction=5e6)
-    >>> f"{cycle.loss:.2g} J/m^2, damping {cycle.damping:.3f}"
-    '0.1 J/m^2, damping 0.067'
-    """
-
-    displacement: Array
-    traction: Array
-    loss: float
-    damping: float
+ROUNDING = 1e-12  # of a traction that exceeds mu p by rounding
+BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
+TOUCH = "give a smaller amplitude, or use a curve with smaller loads, of a periodic map without missing cells"
 
 
 @hinted
@@ -162,7 +137,7 @@ class ShearLaw:
         Raises
         ------
         ValueError
-            If the traction exceeds mu p, or p - tau/mu lies below the normal law.
+            If the traction exceeds mu p, or p - tau/mu lies below the lowest pressure of the normal law.
         """
         held = self._held(traction, pressure)
         return np.asarray(
@@ -187,7 +162,8 @@ class ShearLaw:
         """
         s = positive(displacement, "the displacement [m]", zero=True)
         gap = self.normal.gap_at(pressure) + s / (self.friction * self.ratio)
-        return np.asarray(self.friction * (np.asarray(pressure) - self.normal.pressure_at(gap)))
+        # At a small displacement, rounding may leave a pressure above the given one.
+        return np.asarray(self.friction * np.maximum(pressure - self.normal.pressure_at(gap), 0.0))
 
     @numeric(pressure="Pa", traction="Pa", displacement="m")
     def loss(
@@ -246,16 +222,9 @@ class ShearLaw:
         """
         loss = self.loss(pressure, traction=traction, displacement=displacement)
         tau, slid = self._amplitude(pressure, traction, displacement)
-        # Branches are the backbone at twice the scale; steps are finer where it is steep, at the reversal.
-        fall = tau * np.linspace(0, 1, _POINTS) ** 2
-        backward = float(self.displacement(tau, pressure)) + slid - 2 * self.displacement(fall, pressure)
-        branch = tau - 2 * fall
-        if slid:
-            backward, branch = np.append(backward, backward[-1] - 2 * slid), np.append(branch, -tau)
-        s, q = np.concatenate([backward, -backward[1:]]), np.concatenate([branch, -branch[1:]])
-        energy = tau * float(s[0]) / 2
-        return ShearCycle(s, q, loss, loss / (4 * math.pi * energy) if energy else 0.0)
+        return masing_cycle(lambda rising: self.displacement(rising, pressure), tau, slid, loss)
 
+    @numeric(pressure="Pa")
     def smallest_share(self, pressure: float) -> float:
         """Return the smallest share of mu p at which a loss is given: one over the root of the cells in contact.
 
@@ -271,6 +240,10 @@ class ShearLaw:
         """
         return float(1 / math.sqrt(np.interp(pressure, self.normal.pressure, self.normal.cells)))
 
+    elements = methods.jenkins_elements
+    history = methods.shear_history
+    iwan = methods.iwan_distribution
+
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of this law, in sentences, the most important first."""
@@ -283,7 +256,13 @@ class ShearLaw:
                 f"The bodies are unlike (Dundurs's parameter {self._beta:.2g}): the coupling of traction and pressure "
                 "is neglected.",
             )
-        if not self.exact:
+        if math.isnan(self.normal.touch):
+            yield Note(
+                Rank.LIMITED,
+                "The gap at first touch is not known, as for free maps and maps with missing cells: the law ends where "
+                f"p - tau/mu is {self.normal.lowest:.3g} Pa, and the displacement at gross slip is NaN.",
+            )
+        if any(body.poisson_ratio for body in self.bodies):
             yield Note(
                 Rank.LIMITED,
                 "Shear from the normal curve is exact for Poisson's ratio 0. Here slip across the traction is "
@@ -324,13 +303,15 @@ class ShearLaw:
         p = np.asarray(pressure, dtype=np.float64)
         tau = positive(traction, "the traction [Pa]", zero=True)
         require(
-            tau <= self.friction * p * (1 + 1e-12),
+            tau <= self.friction * p * (1 + ROUNDING),
             f"the traction exceeds mu p with mu = {self.friction:g}: the surfaces slide",
             "give a smaller traction, or a displacement",
             value=tau,
             place="traction",
         )
-        return np.asarray(np.maximum(p - tau / self.friction, 0.0))
+        held = np.maximum(p - tau / self.friction, 0.0)
+        require(held >= self.normal.lowest * (1 - ROUNDING), BELOW, TOUCH, value=held, place="traction")
+        return np.asarray(held)
 
     def _amplitude(
         self, pressure: float, traction: float | None, displacement: float | None
@@ -340,20 +321,14 @@ class ShearLaw:
         if name == "traction":
             return float(positive(value, "the traction [Pa]", zero=True)), 0.0
         s = float(positive(value, "the displacement [m]", zero=True))
-        tau = float(self.traction(s, pressure))
-        require(
-            not math.isnan(tau),
-            "the displacement is larger than that of the lowest load of the curve, and first touch of a free map is "
-            "not known",
-            "give a smaller amplitude, or press the map as periodic",
-            place="displacement",
-        )
+        tau = float(self.traction(s, pressure)) if s else 0.0
+        require(not math.isnan(tau), BELOW, TOUCH, place="displacement")
         return tau, max(s - float(np.nan_to_num(self.gross_slip(pressure), nan=math.inf)), 0.0)
 
 
 @numeric(shear_strength="Pa")
 def shear_law(
-    pressed: Pressed,
+    pressed: Curve | Loop,
     bodies: Elastic | tuple[Elastic, Elastic],
     *,
     friction: float,
