@@ -12,7 +12,8 @@ from interfaces import exponential, hertz, power
 from roughcontact.errors import InputError
 
 MU = 0.3
-LAW = power(0.9)
+FEW = np.geomspace(1e-3, 1, 31)  # loads: the levels are exact for any law
+LAW = power(0.9, pressure=FEW)
 PHASES = [0.0, math.pi / 4, math.pi / 2, 2.0]
 
 
@@ -22,7 +23,7 @@ def cycles(phase, steps, count=2, pressure=0.5, swing=0.3, share=0.45):
     return pressure * (1 + swing * np.sin(angle + phase)), share * MU * pressure * np.sin(angle)
 
 
-@pytest.mark.parametrize("law", [hertz(), exponential(), LAW])
+@pytest.mark.parametrize("law", [hertz(pressure=FEW), exponential(pressure=FEW), LAW])
 @pytest.mark.parametrize("part", [0.2, 0.5, 0.95])
 def test_constant_pressure_is_the_backbone_and_masings_rule(law, part):
     """The same differences of the same gaps: rounding only. The energy is a difference of terms 50/part^2 larger."""
@@ -80,14 +81,14 @@ def test_a_straight_step_is_the_sum_of_its_parts(phase):
 def test_the_area_of_a_cycle_is_the_dissipated_energy(phase):
     """Trapezoids are good to the square of the step."""
     errors = []
-    for steps in (100, 200, 400):
+    for steps in (50, 100, 200):
         history = LAW.history(*cycles(phase, steps))
         s, q = history.displacement[steps:], history.traction[steps:]
         assert s[0] == pytest.approx(s[-1], rel=0, abs=1e-12)
         lost = history.dissipated[steps + 1 :].sum()
         assert lost > 0
         errors.append(abs(((q[1:] + q[:-1]) / 2 @ np.diff(s)) - lost) / lost)
-    assert errors[0] < 5e-3
+    assert errors[0] < 0.02
     assert errors[0] / errors[2] == pytest.approx(16, rel=0.2)
     assert (history.dissipated >= 0).all()
 
@@ -96,8 +97,8 @@ def test_the_area_of_a_cycle_is_the_dissipated_energy(phase):
 def test_both_amplitudes_together_lose_with_their_cube(phase):
     losses = []
     for size in (1.0, 0.5, 0.25, 0.125):
-        history = LAW.history(*cycles(phase, 200, swing=0.3 * size, share=0.45 * size))
-        losses.append(history.dissipated[201:].sum())
+        history = LAW.history(*cycles(phase, 100, swing=0.3 * size, share=0.45 * size))
+        losses.append(history.dissipated[101:].sum())
     slopes = -np.diff(np.log2(losses))
     assert ((slopes > 3) & (slopes < 3.6)).all()
     assert (np.diff(slopes) < 0).all()
@@ -223,6 +224,7 @@ def test_numbers_with_units_and_the_answer():
 
 
 def test_what_is_no_history():
+    ends = exponential(pressure=FEW)
     for wrong, message in (
         (lambda: LAW.history([0.5, 0.2], [0.0, -0.1]), r"at step 1 the traction -0\.1 Pa exceeds mu p = 0\.06 Pa"),
         (lambda: LAW.history([0.5, 0.5], [0.0]), "a traction for each pressure"),
@@ -233,8 +235,8 @@ def test_what_is_no_history():
         (lambda: LAW.history([0.5, math.nan], [0.0, 0.0]), "pressures"),
         (lambda: LAW.history([0.5], [math.inf]), "tractions must be finite"),
         (lambda: LAW.history([0.5, 2.0], [0.0, 0.1]), "the law holds from 0 to 1 Pa"),
-        (lambda: exponential().history([0.5, 0.5], [0.1, 0.1]), "at step 0, p - tau/mu lies below the lowest load"),
-        (lambda: exponential().history([0.5, 0.5], [0.0, 0.15]), "at step 1, p - tau/mu lies below the lowest load"),
+        (lambda: ends.history([0.5, 0.5], [0.1, 0.1]), "at step 0, p - tau/mu lies below the lowest load"),
+        (lambda: ends.history([0.5, 0.5], [0.0, 0.15]), "at step 1, p - tau/mu lies below the lowest load"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             wrong()

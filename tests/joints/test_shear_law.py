@@ -160,6 +160,18 @@ def test_beyond_gross_slip_the_surfaces_slide():
     assert area == pytest.approx(cycle.loss, rel=2e-3)
 
 
+def test_just_before_gross_slip_the_displacement_counts():
+    """There the traction is mu p to rounding, at a tenth power of the distance: it does not give the displacement."""
+    law = power(0.9)
+    top = float(law.gross_slip(0.5))
+    s, (q, weights) = 0.98 * top, np.polynomial.legendre.leggauss(60)
+    # W = 8 int tau ds - 4 s tau(s), of the closed form
+    rise = MU * 0.5 * (1 - (1 - 0.49 * (1 + q)) ** 10)
+    expected = 8 * rise @ weights * s / 2 - 4 * s * MU * 0.5 * (1 - 0.02**10)
+    assert law.loss(0.5, displacement=s) == pytest.approx(expected, rel=1e-9)
+    assert law.cycle(0.5, displacement=s).displacement[0] == pytest.approx(s, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("f", "by_displacement", "by_traction"),
     [(0.01, 2.995, 3.01), (0.1, 2.948, 3.11), (0.5, 2.677, 3.86), (0.9, 2.104, 8.2), (0.99, 1.627, 35.0)],

@@ -3,7 +3,7 @@
 The traction of partial slip is a sum of steps of the frictionless pressure, each with its share between -mu and mu:
 ``tau = int lambda dp'`` over ``0 <= p' <= p``. The displacement is the same sum of the closures, ``s = C int lambda
 dp'/K(p')``. A falling pressure removes levels from the top. A rising pressure adds a level. If a level would need more
-than mu, the levels slip from the top down (Jaeger, Arch. Appl. Mech. 68, 27 (1998)). With constant pressure this is the
+than mu, the levels slip from the top down (Jäger, J. Tribol. 120, 677 (1998)). With constant pressure this is the
 backbone and Masing's rule. It is exact under the same conditions as the law of shear.
 """
 

@@ -5,8 +5,8 @@ two loads, of distance h, g is the hyperbola that has their gaps and stiffnesses
 
     g = chord - h A B t (1 - t)/[A t + B (1 - t)],    0 <= t <= 1,
 
-where the slope of the chord exceeds that of g by A at t = 0, and is exceeded by B at t = 1 (Delbourgo and Gregory, IMA
-J. Numer. Anal. 5, 123 (1985)). Its stiffness rises with the pressure, and the loss in shear is never negative.
+where the slope of the chord exceeds that of g by A at t = 0, and is exceeded by B at t = 1 (Delbourgo and Gregory, SIAM
+J. Sci. Stat. Comput. 6, 967 (1985)). Its stiffness rises with the pressure, and the loss in shear is never negative.
 """
 
 from __future__ import annotations
@@ -213,8 +213,8 @@ class NormalLaw:
             total += float(np.diff((middles[0] - p * m / (m + 1)) * closure)[0])
             lower, upper, middles = lower[1:], upper[1:], middles[1:]
         k = np.searchsorted(self.pressure, middles) - 1
-        a, b = self._turns[:, k]
-        t = (np.array([lower, upper]) - self.pressure[k]) / np.diff(self.pressure)[k]
+        a, b, h, _ = self._pieces[:, k]
+        t = (np.array([lower, upper]) - self.pressure[k]) / h
         first, last = b + (a - b) * t
         inner = _WEIGHTS * _NODES * (1 - _NODES) / (first[:, None] + np.outer(last - first, _NODES))
         parts = (upper - lower) ** 2 * (t[1] - t[0]) * (a * b) ** 2 / (first * last)
@@ -258,9 +258,9 @@ class NormalLaw:
     def _gap(self, p: Array) -> tuple[Array, Array]:
         """Return mean gaps [m] at pressures [Pa], and their slopes."""
         k = np.clip(np.searchsorted(self.pressure, p, "right") - 1, 0, len(self.pressure) - 2)
-        start, h = self.pressure[k], np.diff(self.pressure)[k]
-        (a, b), t = self._turns[:, k], np.maximum(p - start, 0.0) / h
-        chord, w = np.diff(self.gap)[k] / h, b + (a - b) * t
+        a, b, h, chord = self._pieces[:, k]
+        t = np.maximum(p - self.pressure[k], 0.0) / h
+        w = b + (a - b) * t
         gap = self.gap[k] + chord * h * t - h * a * b * t * (1 - t) / w
         slope = chord - a * b * (b * (1 - t) ** 2 - a * t**2) / w**2
         if math.isnan(self.touch):
@@ -272,18 +272,20 @@ class NormalLaw:
         )
 
     @cached_property
-    def _turns(self) -> Array:
-        """By how much the slope of the gap turns from its value at a load to the chord, and on to the next load."""
-        chords = np.diff(self.gap) / np.diff(self.pressure)
+    def _pieces(self) -> Array:
+        """A, B, h and the slope of the chord between two loads, a column for each two."""
+        h = np.diff(self.pressure)
+        chords = np.diff(self.gap) / h
         steepest = -math.inf if math.isnan(self.touch) else (self.gap[0] - self.touch) / self.pressure[0]
         slopes = np.clip(-1 / self.stiffness, [steepest, *chords], [*chords, 0.0])
-        return np.maximum([chords - slopes[:-1], slopes[1:] - chords], _STRAIGHT * -chords)
+        turns = np.maximum([chords - slopes[:-1], slopes[1:] - chords], _STRAIGHT * -chords)
+        return np.array([*turns, h, chords])
 
     @cached_property
     def _power(self) -> float:
         """Exponent m of the closure ~ p^m below the lowest load, at most 1."""
-        slope = (self.gap[0] - self.gap[1]) / (self.pressure[1] - self.pressure[0]) + self._turns[0, 0]
-        return float(slope * self.pressure[0] / (self.touch - self.gap[0]))
+        a, _, _, chord = self._pieces[:, 0]
+        return float((a - chord) * self.pressure[0] / (self.touch - self.gap[0]))
 
     def _within(self, pressure: float | Array) -> Array:
         p = positive(pressure, "the nominal pressure [Pa]", zero=True)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.guesses import hinted
-from roughcontact.joints.shear_law import ShearLaw
+from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw
 from roughcontact.validation import Array, named_method, numeric, positive, require, whole
 
 __all__ = ["JenkinsElements", "iwan_distribution", "jenkins_elements"]
@@ -154,10 +154,20 @@ def jenkins_elements(
         value=first,
         place="first",
     )
-    last = law.displacement(law.friction * (pressure - law.normal.lowest), pressure)
+    low = law.normal.lowest
+    require(
+        pressure > low,
+        f"elements need a pressure above {low:g} Pa",
+        "give a larger pressure",
+        value=pressure,
+        place="pressure",
+    )
+    last = law.displacement(law.friction * (pressure - low), pressure)
     slip = last * np.geomspace(first, 1.0, count)
     slopes = np.append(np.diff(law.traction(slip, pressure), prepend=0.0) / np.diff(slip, prepend=0.0), 0.0)
-    stiffness = np.maximum(-np.diff(slopes), 0.0)  # the stiffness of the law rises with the pressure; here, rounding
+    stiffness = np.maximum(
+        -np.diff(slopes), 0.0
+    )  # the stiffness of the law rises with the pressure; here, rounding
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
@@ -203,7 +213,9 @@ def iwan_distribution(law: ShearLaw, pressure: float, displacement: float | Arra
     """
     normal = law.normal
     require(np.isinf(normal.cells), "Iwan's distribution needs a smooth stiffness", "use the law `fitted`")
-    held = np.maximum(pressure - law.traction(displacement, pressure) / law.friction, _TINY * pressure)
+    traction = law.traction(displacement, pressure)
+    require(~np.isnan(traction), BELOW, TOUCH, place="displacement")
+    held = np.maximum(pressure - traction / law.friction, _TINY * pressure)
     # The local exponent of the stiffness
     low, high = np.maximum(held / _NEAR, normal.lowest), np.minimum(held * _NEAR, normal.highest)
     exponent = np.log(normal.stiffness_at(high) / normal.stiffness_at(low)) / np.log(high / low)

@@ -6,7 +6,7 @@ from a smaller load. With the mean gap g, the interfacial stiffness per area K a
     s(tau) = mu C [g(p - tau/mu) - g(p)],    dtau/ds = K(p - tau/mu)/C,
 
 and the loss of a cycle between +tau and -tau is ``8 mu^2 C`` times the integral of the chord of g less g between
-p - tau/mu and p (Masing's rule). Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27
+p - tau/mu and p (Masing's rule). Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jäger, J. Tribol. 120, 677
 (1998). Exact for Poisson's ratio 0; otherwise slip is assumed to be along the traction, and C is the ratio of a disc.
 """
 
@@ -200,7 +200,7 @@ class ShearLaw:
             place="traction" if displacement is None else "displacement",
         )
         slip = 8 * self.friction**2 * self.ratio * self.normal.bow(held, float(pressure))
-        return slip + 4 * self.friction * float(pressure) * slid
+        return slip + 4 * tau * slid
 
     @numeric(pressure="Pa", traction="Pa", displacement="m")
     def cycle(
@@ -323,7 +323,9 @@ class ShearLaw:
         s = float(positive(value, "the displacement [m]", zero=True))
         tau = float(self.traction(s, pressure)) if s else 0.0
         require(not math.isnan(tau), BELOW, TOUCH, place="displacement")
-        return tau, max(s - float(np.nan_to_num(self.gross_slip(pressure), nan=math.inf)), 0.0)
+        # Shortly before gross slip, it corrects for a traction that is mu p to rounding.
+        slid = s - float(self.displacement(tau, pressure))
+        return tau, slid if abs(slid) > ROUNDING * s else 0.0
 
 
 @numeric(shear_strength="Pa")
