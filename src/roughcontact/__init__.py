@@ -143,10 +143,10 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.halfspace.subsurface.fields_below import Displacement as Displacement, Stress as Stress
     from roughcontact.joints.cycle_heat import cycle_heat as cycle_heat
-    from roughcontact.joints.levels import ShearHistory as ShearHistory, ShearLevels as ShearLevels
     from roughcontact.joints.masing import ShearCycle as ShearCycle
     from roughcontact.joints.normal_law import NormalLaw as NormalLaw, normal_law as normal_law
-    from roughcontact.joints.reduced import JenkinsElements as JenkinsElements
+    from roughcontact.joints.pressure_levels import ShearHistory as ShearHistory, ShearLevels as ShearLevels
+    from roughcontact.joints.reduced_laws import JenkinsElements as JenkinsElements
     from roughcontact.joints.shear_law import ShearLaw as ShearLaw, shear_law as shear_law
     from roughcontact.joints.slip_cycle import SlipCycle as SlipCycle, shear_cycle as shear_cycle
     from roughcontact.material import Solid as Solid

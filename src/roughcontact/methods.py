@@ -79,8 +79,8 @@ if TYPE_CHECKING:
         to_rms_height as to_rms_height,
         to_tilt as to_tilt,
     )
-    from roughcontact.joints.levels import shear_history as shear_history
-    from roughcontact.joints.reduced import (
+    from roughcontact.joints.pressure_levels import shear_history as shear_history
+    from roughcontact.joints.reduced_laws import (
         iwan_distribution as iwan_distribution,
         jenkins_elements as jenkins_elements,
     )
@@ -162,8 +162,8 @@ else:
         "fluid.conductance_parts": "notes_on_heat_curve",
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
-        "joints.levels": "shear_history",
-        "joints.reduced": "iwan_distribution jenkins_elements",
+        "joints.pressure_levels": "shear_history",
+        "joints.reduced_laws": "iwan_distribution jenkins_elements",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",

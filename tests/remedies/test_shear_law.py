@@ -86,7 +86,7 @@ ROWS = [
     ),
     row(
         lambda: OPEN.displacement(0.29e6, 1e6),
-        "the gap at first touch is not known (given: 33333.3); give a smaller amplitude, or use a curve with smaller loads",
+        "first touch is not known (given: 33333.3); give a smaller amplitude, or use a curve with smaller loads",
         lambda: OPEN.displacement(0.2e6, 1e6),
         lambda: law(curve(FREE, np.geomspace(1e4, 4e6, 6))).displacement(0.29e6, 1e6),
         lambda: LAW.displacement(0.29e6, 1e6),

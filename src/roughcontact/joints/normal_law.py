@@ -79,6 +79,8 @@ class NormalLaw:
     NormalLaw(4 loads, 1e+06 to 8e+06 Pa)
     >>> f"{law.gap_at(3e6) * 1e9:.0f} nm, {law.stiffness_at(3e6) / 1e12:.0f} N/um/mm^2"
     '91 nm, 51 N/um/mm^2'
+    >>> f"{law.pressure_at(91e-9) / 1e6:.1f} MPa, {law.bow(1e6, 3e6) * 1e3:.1f} mJ/m^2"
+    '3.0 MPa, 10.4 mJ/m^2'
     """
 
     pressure: Array

@@ -118,6 +118,8 @@ def jenkins_elements(
 
     Parameters
     ----------
+    law : ShearLaw
+        The law of the interface.
     pressure : float
         Nominal pressure, to which the elements belong [Pa].
     count : int
@@ -184,6 +186,8 @@ def iwan_distribution(law: ShearLaw, pressure: float, displacement: float | Arra
 
     Parameters
     ----------
+    law : ShearLaw
+        A fitted law.
     pressure : float
         Nominal pressure [Pa].
     displacement : float or array
